@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from math import prod
 
-from sympy import Expr, Mul, Pow
+from sympy import Add, Expr, Integer, Mul, Pow, factor_list
+from sympy.polys.polyerrors import PolynomialError
 
-from derive.algebra.expressions import bound, explicit
+from derive.algebra.expressions import Relation, bound, explicit
 from derive.algebra.normal_form import vanishes
-from derive.algebra.ranges import strict_sign_within
+from derive.algebra.ranges import strict_sign_within, take_as_positive, taken_as_positive
 from derive.algebra.tidy import tidied
-from derive.steps.record import current_run, question
+from derive.steps.record import assume, current_run, question
 
 DIGITS = 30
 
@@ -54,3 +55,29 @@ def _sign_of_factor(factor: Expr) -> int | None:
         return 0
     approximate = value.evalf(DIGITS)
     return 1 if approximate > 0 else -1
+
+
+def taken_positive(value: Expr) -> int | None:
+    """The sign of a value; where the letters leave it open the value is taken to be positive, which the page states."""
+    sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
+    if sign is not None:
+        return sign
+    open_factors = [factor for factor in _factors(tidied(value)) if sign_known(factor) != 1]
+    for each in open_factors if len(open_factors) == 1 else [Mul(*open_factors)]:
+        away = Add(*(-term for term in Add.make_args(each) if term.could_extract_minus_sign()))
+        take_as_positive(each)
+        assume(Relation(each + away, ">", away))
+    take_as_positive(tidied(value))
+    return 1
+
+
+def _factors(value: Expr) -> list[Expr]:
+    """Without numbers and even powers; the sign is that of the product."""
+    try:
+        number, found = factor_list(value)
+    except PolynomialError:
+        return list(Mul.make_args(value))
+    factors = [base for base, power in found if power % 2]
+    if number.is_negative and factors:
+        factors[0] = -factors[0]
+    return factors or [Integer(1)]

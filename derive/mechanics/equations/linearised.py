@@ -23,6 +23,8 @@ from derive.algebra.squares import with_squares
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.held_stability import constraints_of
+from derive.mechanics.equations.mass_matrix import check_regular
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -107,6 +109,7 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
     _check_whole(equations, moving)
     place = _place_of(equations, moving, at)
+    check_regular("linearised", equations[0].needed(Matter), place)
     _check_rest(equations, moving, place)
     eta = _displacements(moving, place)
     exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
@@ -247,6 +250,11 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
     for equation in equations:
         value = explicit(equation.value).residual
         others = [q for q in equation.coordinates if q not in known and value.has(q, rate(q), rate(q, 2))]
+        kept = next((q for q in others if any(q == c.force for c in constraints_of(equation))), None)
+        if kept is not None:
+            message = f"`linearised`: `{equation.key}` contains {kept.name}, the multiplier of a constraint"
+            help_line = "write the places by fewer coordinates, without this constraint"
+            raise Rejected(Complaint("constrained", message, help=help_line))
         if others:
             message = f"`linearised`: `{equation.key}` also has {others[0].name}, of which there is no equation"
             help_line = "give all equations together, as `equations_of_motion` yields them"

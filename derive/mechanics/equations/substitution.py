@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Symbol
@@ -12,6 +13,7 @@ from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
 from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, did_you_mean
+from derive.mechanics.equations.defined import check_defined
 from derive.mechanics.equations.unknowns import (
     coordinates_of,
     lecture_form,
@@ -235,6 +237,7 @@ def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity
     """The value after these replacements, of which one must find what it replaces; they are put on the list."""
     before = value
     for target, at in pairs:
+        check_defined("put_in", of.key, f"{target} = {at}", value, partial(with_unknown, unknown=target, value=at))
         after = _mapped(value, target, at)
         if after != value and not isinstance(target, Symbol) and left_over(after, target):
             message = f"`put_in`: `{of.key}` contains {letter_of(target).name} otherwise than in {target}"

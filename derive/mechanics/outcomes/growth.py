@@ -61,6 +61,19 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
     return True
 
 
+def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
+    """Whether no motion through the place has a negative kinetic energy, by the eigenvalues of M."""
+    for point in points[:FEW]:
+        motion = _motion(matter, place, point, SIZES[0])
+        if motion is None:
+            continue
+        with mp.workdps(DIGITS):
+            least = min(mp.eigsy((motion[0] + motion[0].T) / 2, eigvals_only=True))
+            if least < -_largest(motion[0]) * mp.mpf(10) ** -SMALL:
+                return False
+    return True
+
+
 def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
     """Whether forces that are linear in the rates do no work, as in a frame that turns or in a magnetic field."""
     motions = (_motion(matter, place, point, SIZES[0]) for point in points[:FEW])

@@ -161,7 +161,11 @@ class Answers:
         for name, q in self.coordinates.items():
             if L.has(q.rate) and not L.has(q.symbol) or name in letters:
                 own = None if name in self.kept else letters.get(name) or constant(f"p_{name}")
-                found[name] = conserved(self.lagrangian, q, value=own)
+                try:
+                    found[name] = conserved(self.lagrangian, q, value=own)
+                except Rejected as refused:
+                    if name in letters or any(each.code != "not-cyclic" for each in refused.complaints):
+                        raise  # else a force acts along it, so its momentum is not constant
         return found
 
     @cached_property
