@@ -7,12 +7,14 @@ letters alone do not decide.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import prod
 
-from sympy import Add, Expr, Integer, Mul, Pow, factor_list
+from sympy import Add, Expr, Integer, Mul, Pow, factor_list, lcm
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import Relation, bound, explicit
+from derive.algebra.lowest_terms import factored
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import strict_sign_within, take_as_positive, taken_as_positive
 from derive.algebra.tidy import tidied
@@ -55,6 +57,22 @@ def _sign_of_factor(factor: Expr) -> int | None:
         return 0
     approximate = value.evalf(DIGITS)
     return 1 if approximate > 0 else -1
+
+
+def may_vanish(value: Expr) -> Relation | None:
+    """What must not vanish where one divides by a value: those of its factors that nothing decides."""
+    factors = [f.as_base_exp()[0] for f in Mul.make_args(factored(tidied(value)))]
+    unsure = [f for f in factors if sign_known(f) is None and not f.is_nonzero]
+    return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
+
+
+def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
+    """What a sentence tells of the denominators of results: which factors of them must not vanish, if any may."""
+    below: Expr = Integer(1)
+    for value in values:
+        below = lcm(below, tidied(value).as_numer_denom()[1])
+    excluded = may_vanish(below) if below.free_symbols else None
+    return {} if excluded is None else {"excluded": (excluded, Relation(excluded.right, "!=", excluded.left))}
 
 
 def taken_positive(value: Expr) -> int | None:

@@ -225,6 +225,7 @@ class Tube(Body):
     name, seen_as, reference, is_round = "a tube", "a hollow cylinder", "base", True
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         require_order(self.name, self.inner, self.outer)
 
     @property
@@ -342,6 +343,7 @@ class Torus(Body):
     name, is_round = "a torus", True
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         require_order(self.name, self.section, self.radius)
 
     @property

@@ -30,7 +30,6 @@ from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest
 from derive.mechanics.equations.mass_matrix import check_regular
 from derive.mechanics.equations.reach import lies_within
-from derive.mechanics.equations.unknowns import may_vanish
 from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
@@ -38,6 +37,7 @@ from derive.mechanics.systems.effective import SeenWith
 from derive.mechanics.systems.forced import ActedOn
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import may_vanish
 from derive.steps.record import changes, given_letters
 from derive.steps.step import Fact, Quantity, Route, compared_with, is_zero, require_kind
 

@@ -112,57 +112,67 @@ class Allowed:
         return tidied(straight + aside)
 
 
-def stability_on_constraints(
-    potential: Quantity, constraints: Sequence[Constraint], place: Mapping[Symbol, Expr], key: str
-) -> Quantity:
-    """Stability of rest on constraints, by the second order of U along the displacements that they allow.
+@dataclass(frozen=True)
+class OnConstraints:
+    """A state of rest on constraints.
 
     potential     the potential energy, J
     constraints   those between the coordinates, with their forces
     place         the coordinates at rest
-    Second route: the energy along curves that stay on the constraints, to second order.
-    Outcomes: stable, unstable, level, depends.
-    Errors: a constraint is one on the rates or changes in time; the place is not on it; a force is left there.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear
-    Programming*, section 11.5.
     """
-    allowed = _allowed(potential, constraints, place)
-    minors = list(leading_minors(allowed.matrix))
-    sign = sign_of_form(allowed.matrix, sign_by_factors)
-    names = [scalar(f"D_{n + 1}") for n in range(len(minors))]
-    alone = len(minors) == 1
-    state = Relation(Amplitudes(*allowed.coordinates), "=", Amplitudes(*allowed.place.values()))
-    moved = Amplitudes(*allowed.coordinates)
-    told = {"state": (state, state), "moving": (moved, moved)}
-    told |= {f"way_{n}": (Amplitudes(*way), Amplitudes(*way)) for n, way in enumerate(allowed.ways, 1)}
-    for constraint in constraints[:1]:
-        told["constraint"] = (constraint.relation, constraint.relation)
 
-    def along_curves(found: Any) -> tuple[Any, Any]:
-        curved = list(leading_minors(allowed.along_curves()))
-        return found, curved[0] if alone else ImmutableDenseMatrix(curved)
+    potential: Quantity
+    constraints: tuple[Constraint, ...]
+    place: Mapping[Symbol, Expr]
 
-    return establish(
-        "minima.stability_on_constraints",
-        names[0] if alone else ImmutableDenseMatrix(names),
-        lambda *_: minors[0] if alone else Amplitudes(*minors),
-        {"potential": potential},
-        lines=Lines(put_in=None, result=False, arranged=lambda _: minors[0] if alone else ImmutableDenseMatrix(minors)),
-        routes={"along_curves": along_curves},
-        outcome={1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign],
-        telling=Telling(
-            formulas=told,
-            judged_by={
-                "coordinates": tuple(allowed.coordinates),
-                "place": tuple(allowed.place.values()),
-                "potential_here": allowed.energy,
-                "constraints": tuple(c.residual for c in constraints),
-            },
-        ),
-        key=key,
-        parents=[potential],
-        scope=Scope(),
-    )
+    def stability(self, key: str) -> Quantity:
+        """Stability of rest on constraints, by the second order of U along the displacements that they allow.
+
+        Second route: the energy along curves that stay on the constraints, to second order.
+        Outcomes: stable, unstable, level, depends.
+        Errors: a constraint is one on the rates or changes in time; the place is not on it; a force is left there.
+        Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear
+        Programming*, section 11.5.
+        """
+        allowed = _allowed(self.potential, self.constraints, self.place)
+        minors = list(leading_minors(allowed.matrix))
+        sign = sign_of_form(allowed.matrix, sign_by_factors)
+        names = [scalar(f"D_{n + 1}") for n in range(len(minors))]
+        alone = len(minors) == 1
+        state = Relation(Amplitudes(*allowed.coordinates), "=", Amplitudes(*allowed.place.values()))
+        moved = Amplitudes(*allowed.coordinates)
+        told = {"state": (state, state), "moving": (moved, moved)}
+        told |= {f"way_{n}": (Amplitudes(*way), Amplitudes(*way)) for n, way in enumerate(allowed.ways, 1)}
+        for constraint in self.constraints[:1]:
+            told["constraint"] = (constraint.relation, constraint.relation)
+
+        def along_curves(found: Any) -> tuple[Any, Any]:
+            curved = list(leading_minors(allowed.along_curves()))
+            return found, curved[0] if alone else ImmutableDenseMatrix(curved)
+
+        return establish(
+            "minima.stability_on_constraints",
+            names[0] if alone else ImmutableDenseMatrix(names),
+            lambda *_: minors[0] if alone else Amplitudes(*minors),
+            {"potential": self.potential},
+            lines=Lines(
+                put_in=None, result=False, arranged=lambda _: minors[0] if alone else ImmutableDenseMatrix(minors)
+            ),
+            routes={"along_curves": along_curves},
+            outcome={1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign],
+            telling=Telling(
+                formulas=told,
+                judged_by={
+                    "coordinates": tuple(allowed.coordinates),
+                    "place": tuple(allowed.place.values()),
+                    "potential_here": allowed.energy,
+                    "constraints": tuple(c.residual for c in self.constraints),
+                },
+            ),
+            key=key,
+            parents=[self.potential],
+            scope=Scope(),
+        )
 
 
 def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapping[Symbol, Expr]) -> Allowed:
@@ -176,7 +186,7 @@ def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapp
     if missing:
         message = f"`stability`: nothing says what {missing[0]} is at rest"
         raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0]}: 0`"))
-    allowed = Allowed(energy, tuple(constraints), {q: value for q, value in place.items() if q in needed})
+    allowed = Allowed(energy, tuple(constraints), place)
     where = ", ".join(f"{q} = {value}" for q, value in allowed.place.items())
     for each in constraints:
         if not is_zero(allowed.there(each.residual)):

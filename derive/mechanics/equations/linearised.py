@@ -48,7 +48,7 @@ class Rest(Fact):
 @dataclass(frozen=True)
 class Linear(Fact):
     """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, where the
-    state of rest exists, and what drives them."""
+    state of rest exists, what drives them, and what each coordinate is at rest."""
 
     missing = "is not an equation of motion to first order"
     mass: MatrixBase
@@ -57,6 +57,7 @@ class Linear(Fact):
     displacements: tuple[Coordinate, ...]
     exists: Relation | None = None
     driven: tuple[Expr, ...] = ()
+    place: tuple[tuple[Coordinate, Expr], ...] = ()
 
     def rows_of(self, matrix: MatrixBase) -> MatrixBase:
         """A matrix of the amplitudes, each row without what all terms of its equation have in common."""
@@ -115,7 +116,8 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
     mass, turning, stiffness = (_coefficients(equations, moving, place, order) for order in (2, 1, 0))
     driven = tuple(-_at_rest(explicit(equation.value).residual, moving, place) for equation in equations)
-    linear = Linear(mass, turning, stiffness, eta, exists, driven)
+    rest = tuple((q, place[q.symbol]) for q in moving)
+    linear = Linear(mass, turning, stiffness, eta, exists, driven, rest)
     rests = [at] if isinstance(at, Quantity) else []
     return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
 
@@ -360,6 +362,15 @@ def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) ->
     for s, eta in zip(together.displacements, motion, strict=True):
         put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
     return explicit(equation.value).residual.xreplace(put_in)
+
+
+def left_by_drift(linear: Sequence[Quantity], together: Linear, column: Sequence[Expr], time: Expr) -> list[Expr]:
+    """What the equations of motion, not linear, leave of a uniform motion away from rest along a column."""
+    equations = {e.needed(OfCoordinate).coordinate: e for each in linear for e in each.parents if e.fact(OfCoordinate)}
+    moved: dict[Any, Expr] = {}
+    for (q, at), share in zip(together.place, column, strict=True):
+        moved.update({q.symbol: at + share * time, q.rate: share, q.acceleration: ZERO})
+    return [explicit(equations[q].value).residual.xreplace(moved) for q, _ in together.place]
 
 
 def factors_of_amplitudes(linear: Sequence[Quantity], together: Linear, course: Expr) -> MatrixBase:

@@ -12,14 +12,13 @@ from mpmath import mp
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Symbol
 
 from derive.algebra.amplitudes import determinant_of
-from derive.algebra.definite import leading_minors, sign_of_form
+from derive.algebra.definite import leading_minors
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import explicit, rate
 from derive.algebra.ranges import rational_in_range
 from derive.algebra.singular import has_no_value
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.given_lagrangian import Varied
 from derive.steps.known_numbers import taken_positive
@@ -72,14 +71,10 @@ def _may_be_singular(matrix: MatrixBase) -> bool:
 def has_positive_inertia(matter: Matter, place: Mapping[Symbol, Expr]) -> bool:
     """Whether the kinetic energy is positive for every motion through the place; False where it is not.
 
-    That of positive masses is so by itself, and zero only where a coordinate has no inertia. Of a given Lagrangian the
-    letters may leave it open: it is taken to be so, and the page states the condition.
+    That of masses is so by itself: a `System` has positive ones alone. Of a given Lagrangian the letters may leave it
+    open: it is taken to be so, and the page states the condition.
     """
-    if isinstance(matter, Varied):
-        matrix = mass_matrix(matter, matter.coordinates).xreplace(dict(place)).applyfunc(tidied)
-        return all(taken_positive(minor) == 1 for minor in leading_minors(matrix))
-    if all(taken_positive(explicit(point.mass)) == 1 for point in matter.points):
+    if not isinstance(matter, Varied):
         return True
-    moving = [q for q in matter.coordinates if q in place]
-    matrix = mass_matrix(matter, moving).xreplace(dict(place)).applyfunc(tidied)
-    return sign_of_form(matrix, sign_by_factors) in (0, 1)
+    matrix = mass_matrix(matter, matter.coordinates).xreplace(dict(place)).applyfunc(tidied)
+    return all(taken_positive(minor) == 1 for minor in leading_minors(matrix))

@@ -30,7 +30,7 @@ from derive.mechanics.equations.equilibria import (
     slope_otherwise,
     steady_in,
 )
-from derive.mechanics.equations.held_stability import constraints_of, stability_on_constraints
+from derive.mechanics.equations.held_stability import OnConstraints, constraints_of
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest, place_given
 from derive.mechanics.equations.mass_matrix import check_regular, has_positive_inertia
@@ -93,7 +93,7 @@ def stability(
     held = constraints_of(of)
     if held:
         potential, values = _potential(of, at), place_given(at)
-        found = stability_on_constraints(potential, held, values, key or "stability")
+        found = OnConstraints(potential, held, values).stability(key or "stability")
         _check_nothing_else_holds_it(Place(potential, tuple(values), values, None, None), found.step.outcome)
         return found
     place = _place(of, at)

@@ -43,7 +43,6 @@ from derive.mechanics.equations.unknowns import (
     kind_of_unknown,
     lecture_form,
     letter_of,
-    may_vanish,
     meaning,
     polynomial_in,
     residual_of,
@@ -51,7 +50,7 @@ from derive.mechanics.equations.unknowns import (
 )
 from derive.mechanics.equations.zeros import within_one
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
 from derive.steps.step import Fact, Level, Quantity, is_zero
 
 __all__ = ["roots"]

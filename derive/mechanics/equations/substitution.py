@@ -237,7 +237,8 @@ def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity
     """The value after these replacements, of which one must find what it replaces; they are put on the list."""
     before = value
     for target, at in pairs:
-        check_defined("put_in", of.key, f"{target} = {at}", value, partial(with_unknown, unknown=target, value=at))
+        put = partial(_replaced, target, at)
+        check_defined("put_in", of.key, f"{target} = {at}", value, put)
         after = _mapped(value, target, at)
         if after != value and not isinstance(target, Symbol) and left_over(after, target):
             message = f"`put_in`: `{of.key}` contains {letter_of(target).name} otherwise than in {target}"
@@ -249,6 +250,10 @@ def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity
         message = f"`put_in`: `{of.key}` has nothing that `{called}` could replace"
         raise Rejected(Complaint("nothing-to-put-in", message))
     return value
+
+
+def _replaced(target: Expr, at: Expr, part: Expr) -> Expr:
+    return with_unknown(part, target, at)
 
 
 def _mapped(value: Any, target: Expr, at: Expr) -> Any:

@@ -25,6 +25,7 @@ from derive.mechanics.systems.forced import ForcedMotion
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.mechanics.systems.rigid import by_squares
 from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import told_of_divisors
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 
@@ -221,6 +222,7 @@ def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Qu
             "constraint": lambda value: _keeps_holding(problem, {**found, rate(q, 2): value}),
         },
         outcome=lambda value: "zero" if value == 0 else "generic",
+        telling=Telling(formulas=told_of_divisors([found[rate(p, 2)] for p in problem.moving])),
         key=f"acceleration_{q.name}",
         kind=_kind_of_acceleration(coordinate.kind),
         parents=[*problem.equations, *rates],
@@ -238,6 +240,7 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
         lines=Lines(put_in=None, arranged=lambda value: value),
         routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
         outcome=lambda value: "zero" if value == 0 else "generic",
+        telling=Telling(formulas=told_of_divisors([found[each.force]])),
         key=each.force.name,
         kind=each.kind_of_force,
         parents=[*problem.used, *rates],

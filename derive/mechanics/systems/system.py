@@ -18,10 +18,12 @@ from derive.algebra.expressions import TIME, Factors, Relation, Terms, column, e
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
+from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
 from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
+from derive.steps.known_numbers import taken_positive
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Fact, Quantity, is_zero
 
@@ -47,6 +49,7 @@ class Particle:
             message = "`Particle` needs the expression of a mass and a place that `point` or `place` gives"
             raise Rejected(Complaint("wrong-argument", message))
         require_constant("Particle", "mass", self.mass)
+        require_positive("`Particle`", "mass", self.mass)
 
 
 @dataclass(frozen=True)
@@ -179,6 +182,9 @@ class System:
         for placed in self.bodies:
             if placed.body.mass is None:
                 raise Rejected(Complaint("wrong-argument", f"`System` needs the mass of {placed.body.name}"))
+        for mass, _ in self.masses:
+            if taken_positive(explicit(mass)) != 1:
+                raise Rejected(Complaint("no-such-body", f"a mass of a `System` must be positive, but {mass} is not"))
         if len(self.weights) > 1:
             raise Rejected(Complaint("wrong-argument", "a `System` has one weight, that of all its particles"))
         if len({len(place.components) for place in self.places}) > 1:
