@@ -211,9 +211,9 @@ class Answers:
         if self.about == "centre":
             start = self.body.reference
             there = inertia_tensor(self.body, start, key=f"{start.replace(' ', '_')}_tensor")
-            return moved_to(there, centre_of_mass(self.body, start))
+            return moved_to(there, centre_of_mass(self.body, start), key="parallel_axes")
         central = inertia_tensor(self.body, "centre", key="central_tensor")
-        return moved_from_centre(central, centre_of_mass(self.body, self.about), key="inertia_tensor")
+        return moved_from_centre(central, centre_of_mass(self.body, self.about), key="parallel_axes")
 
     def asks(self) -> dict[str, Callable[[], object]]:
         """Every name that a part may ask by."""

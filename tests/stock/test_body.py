@@ -37,7 +37,7 @@ def test_the_cone_about_its_apex(tmp_path: Path) -> None:
         (CONE_IS, "radius_of_gyration_z", "radius_of_gyration_z", sqrt(Rational(3, 10)) * R),
         (CONE_IS, "inertia_tensor_xy", "inertia_tensor_xy", 0),
         (CONE_IS, "inertia_tensor_zz", "inertia_tensor_zz", Rational(3, 10) * M * R**2),
-        (CONE_IS, "parallel_axes", "inertia_tensor_zz", Rational(3, 10) * M * R**2),
+        (CONE_IS, "parallel_axes", "parallel_axes_zz", Rational(3, 10) * M * R**2),
     ],
 )
 def test_what_parts_may_ask_of_a_cone(body: str, answer: str, key: str, value: object, tmp_path: Path) -> None:
@@ -73,7 +73,7 @@ def test_a_hemisphere_that_is_denser_above(tmp_path: Path) -> None:
 def test_parallel_axes_to_the_centre(tmp_path: Path) -> None:
     text = edited(CONE, ("  about: apex\n", ""), ("answer: inertia_tensor", "answer: parallel_axes"))
     found = solved(tmp_path, text)
-    assert equal(found["inertia_tensor"].value[0, 0], Rational(3, 20) * M * (R**2 + h**2 / 4))
+    assert equal(found["parallel_axes"].value[0, 0], Rational(3, 20) * M * (R**2 + h**2 / 4))
     assert "apex_tensor" in found
 
 

@@ -22,6 +22,7 @@ from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
 from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
+from derive.mechanics.systems.gradients import check_gradient
 from derive.mechanics.systems.places import Location
 from derive.steps.known_numbers import taken_positive
 from derive.steps.record import assume, coordinates_in, require_constant
@@ -196,6 +197,8 @@ class System:
         self._check_what_acts()
         for condition in self.conditions:
             _check_kept(condition)
+        for each in self.constraints:
+            check_gradient(each)
         letters = [each.force.name for each in self.constraints]
         if len(set(letters)) < len(letters):
             message = "two constraints of this `System` have forces of one letter"

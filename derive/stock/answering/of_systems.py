@@ -43,6 +43,7 @@ from derive.mechanics import (
     weight,
 )
 from derive.mechanics.equations.linearised import Rest
+from derive.mechanics.systems.gradients import check_gradient
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
@@ -109,7 +110,12 @@ class Answers:
         if described.given is not None:
             message = "this needs bodies and forces, but the Lagrangian is given in place of them"
             raise Rejected(Complaint("given-lagrangian", message))
-        parts = [part.made() for part in described.parts if part.maker not in ("body", "rolling")]
+        own = [part for part in described.parts if part.maker not in ("body", "rolling")]
+        parts = [part.made() for part in own]
+        for part, made in zip(own, parts, strict=True):
+            if part.maker == "constraint":
+                with told_at(part.place):
+                    check_gradient(made)
         if described.gravity is not None:
             parts.append(weight(described.gravity))
         with told_at(described.place):
