@@ -34,6 +34,7 @@ EXTREME = ("8.0e37", "6e24", "1.5e11", "6.67e-11", "1.2e-9", "9.11e-31")
 ANGLES = ("5", "20", "30", "40", "45", "60", "75")
 NUMBERS = ("0.5", "1.5", "2", "3", "0.2")
 SHARES = (Rational(1, 7), Rational(1, 4), Rational(1, 3), Rational(1, 2), Rational(5, 8), Rational(9, 10))
+SPREAD = (Rational(1), Rational(6, 5), Rational(3, 2), Rational(19, 10))  # of moments of inertia of one body
 ODDS = 0.15  # of an extreme number
 TRIES = 200  # of drawing until the assumptions hold
 GOOD, REFUSED, INTERNAL = "printed", "refused", "internal error"
@@ -98,12 +99,22 @@ def drawn(problem: Problem, conditions: Sequence[Relation], source: Random) -> d
     letters = [each for each in problem.symbols.values() if each.symbol not in {*problem.amounts, TIME}]
     used = [each for each in letters if each.name in _text_of(problem)]
     for _ in range(TRIES):
-        found = {each.name: _number(each, source) for each in used}
+        found = {each.name: _number(each, source) for each in used} | _moments(used, source)
         known = {each.symbol: value for each in used for _, value in [found[each.name]]}
         known |= {letter: explicit(amount) for letter, amount in problem.amounts.items()}
         if all(_may_hold(condition, known) for condition in conditions):
             return {name: written for name, (written, _) in found.items()}
     return {}
+
+
+def _moments(letters: Sequence[Declared], source: Random) -> dict[str, tuple[str, Any]]:
+    """Moments of inertia of which none is more than two others together."""
+    base = Rational(source.choice(ORDINARY + EXTREME))
+    found = {}
+    for letter in (each for each in letters if each.kind == "moment of inertia"):
+        size = f"{float(base * source.choice(SPREAD)):.4g}".replace("e+", "e")
+        found[letter.name] = (f"{size} {unit_of_kind(letter.kind)}", Rational(size))
+    return found
 
 
 def _text_of(problem: Problem) -> str:
@@ -164,7 +175,7 @@ def main(arguments: Sequence[str]) -> int:
         for outcome in tried(name, asked.draws, asked.seed):
             count[outcome.sort] += 1
             if outcome.sort != GOOD:
-                print(f"--- {name}, draw {outcome.draw}: {outcome.sort}\n{dict(outcome.values)}\n{outcome.told}", flush=True)
+                print(f"--- {name}, draw {outcome.draw}: {outcome.sort}\n{dict(outcome.values)}\n{outcome.told}")
     print(", ".join(f"{count[sort]} {sort}" for sort in (GOOD, REFUSED, INTERNAL)))
     return int(count[INTERNAL] > 0)
 

@@ -66,6 +66,9 @@ class Body(Placeable, OfParticles):
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which its limits are known
 
     def __post_init__(self) -> None:
+        self.check_sizes()
+
+    def check_sizes(self) -> None:
         """Refuse a mass or a size that is not positive."""
         require_positive(self.name, "mass", self.mass)
         for role, size in self.measures.items():
@@ -289,8 +292,8 @@ class Hollow(Body):
     outer: Expr
     mass: Expr
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
+    def check_sizes(self) -> None:
+        super().check_sizes()
         require_order(self.name, self.inner, self.outer)
 
     @property

@@ -74,6 +74,11 @@ class Chart:
         return [(self.place(*at), at) for at in self.points(NEAR, Random(5))]
 
     @cached_property
+    def size(self) -> float:
+        """The largest coordinate of its places."""
+        return max(abs(x) for place, _ in self.known for x in place)
+
+    @cached_property
     def box(self) -> list[tuple[float, float]]:
         """Between which coordinates it lies, and somewhat more."""
         found = []
@@ -84,10 +89,8 @@ class Chart:
 
     def sought(self, target: Sequence[float]) -> Iterator[Place]:
         """Values of the variables within their limits at which the map gives a place."""
-        size = max(map(abs, target)) + CLOSE
-        if any(
-            not low - CLOSE * size <= x <= high + CLOSE * size for x, (low, high) in zip(target, self.box, strict=True)
-        ):
+        slack = CLOSE * self.size
+        if any(x < low - slack or x > high + slack for x, (low, high) in zip(target, self.box, strict=True)):
             return
         near = sorted(self.known, key=lambda each: _distance(each[0], target))
         for _, start in near[:STARTS]:
@@ -96,7 +99,7 @@ class Chart:
                 yield within
 
     def _newton(self, target: Sequence[float], at: Place) -> Place | None:
-        size = max(map(abs, target)) + CLOSE
+        size, far = self.size, FAR * (1 + max(map(abs, at)))
         for _ in range(TURNS):
             left = [goal - x for goal, x in zip(target, self.place(*at), strict=True)]
             if max(map(abs, left)) < CLOSE * size:
@@ -105,7 +108,7 @@ class Chart:
             if step is None:
                 return None
             at = tuple(x + s for x, s in zip(at, step, strict=True))
-            if not all(map(isfinite, at)) or max(map(abs, at)) > FAR:
+            if not all(map(isfinite, at)) or max(map(abs, at)) > far:
                 return None
         return None
 
@@ -114,7 +117,7 @@ class Chart:
         found: Place = ()
         for i, ends in enumerate(self.ends):
             low, high = ends(*found)
-            x, slack = at[i], CLOSE * (abs(low) + abs(high) + 1)
+            x, slack = at[i], CLOSE * (abs(low) + abs(high))
             if not low - slack <= x <= high + slack and self._is_round(at, i):
                 x = low + (x - low) % (2 * pi)
             if not low - slack <= x <= high + slack:
@@ -125,7 +128,7 @@ class Chart:
     def _is_round(self, at: Place, i: int) -> bool:
         turned = self.place(*(x + 2 * pi * (k == i) for k, x in enumerate(at)))
         here = self.place(*at)
-        return all(abs(a - b) <= CLOSE * (abs(a) + abs(b) + 1) for a, b in zip(turned, here, strict=True))
+        return all(abs(a - b) <= CLOSE * self.size for a, b in zip(turned, here, strict=True))
 
 
 def _solved(slopes: Sequence[Sequence[float]], left: Sequence[float]) -> list[float] | None:

@@ -28,6 +28,7 @@ from derive.mechanics.equations.mass_matrix import check_regular
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import sign_known
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
 __all__ = ["linearised"]
@@ -110,6 +111,7 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
     _check_whole(equations, moving)
     place = _place_of(equations, moving, at)
+    _check_exists(at)
     check_regular("linearised", equations[0].needed(Matter), place)
     _check_rest(equations, moving, place)
     eta = _displacements(moving, place)
@@ -288,6 +290,17 @@ def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: A
 def _at_rest(value: Expr, moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> Expr:
     still = {letter: ZERO for q in moving for letter in (q.rate, q.acceleration)}
     return tidied(value.xreplace({**still, **place}))
+
+
+def _check_exists(at: Any) -> None:
+    """Refuse a state of rest that the given numbers do not allow."""
+    exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
+    sign = sign_known(exists.residual) if exists is not None else None
+    if exists is not None and sign is not None and sign != (1 if exists.mark == ">" else -1):
+        message = (
+            f"`{at.key}` exists only for {exists.left} {exists.mark} {exists.right}, which is not so for the values"
+        )
+        raise Rejected(Complaint("no-equilibrium", message, help="give other values, or another state of rest"))
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:

@@ -5,7 +5,24 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Expr, Integer, MatrixBase, Poly, Rational, Symbol, acos, asin, atan, cos, diff, oo, sign, sin, tan
+from sympy import (
+    Dummy,
+    Expr,
+    Integer,
+    MatrixBase,
+    Poly,
+    Rational,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cos,
+    diff,
+    oo,
+    sign,
+    sin,
+    tan,
+)
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -200,13 +217,16 @@ def _bent(sign: int) -> Predicate:
     """By the values a little to both sides of the place, in numbers: they are below it, or above."""
 
     def is_so(facts: Judged) -> bool:
-        value, x, place = (with_numbers(facts.inputs[role]) for role in ("value", "letter", "place"))
+        x = Dummy("x", **facts.inputs["letter"].assumptions0)  # that which varies has no number
+        varied = {facts.inputs["letter"]: x}
+        value, place = (with_numbers(facts.inputs[role].xreplace(varied)) for role in ("value", "place"))
         conditions = [c for c in (facts.inputs.get("condition"), *assumed()) if c is not None]
-        letters = {s for e in (value, place, *(c.residual for c in conditions)) for s in letters_of(e)} - {x}
+        apart = [(with_numbers(c.residual), c.mark in {">", ">="}) for c in conditions]
+        letters = {s for e in (value, place, *(residual for residual, _ in apart)) for s in letters_of(e)} - {x}
         seen = []
         for point in islice(points(letters, seed_of(value, place)), 40):
             try:
-                if all((value_at(c.residual, point) > 0) == (c.mark in {">", ">="}) for c in conditions):
+                if all((value_at(residual, point) > 0) == is_more for residual, is_more in apart):
                     seen.append(_beside(value, x, value_at(place, point), point))
             except (Undefined, NoNumber, TypeError):
                 continue

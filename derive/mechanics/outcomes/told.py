@@ -17,7 +17,7 @@ from derive.algebra.expansion import Approach
 from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.mechanics.outcomes.signs import MARK_OF
-from derive.steps.known_numbers import sign_known
+from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, told_by
 from derive.steps.step import is_zero
 
@@ -199,12 +199,17 @@ def _word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def _is_a_root_just_where_told(facts: Judged) -> bool:
-    """In numbers it is real, and positive where it must be, where the condition holds and nowhere else."""
+    """In numbers it is real, and positive where it must be, where the condition holds and nowhere else.
+
+    Letters with a number have that: it may have decided what the condition would leave open.
+    """
     told, given, value = facts.inputs.get("condition"), facts.inputs.get("existing"), explicit(facts.result)
     conditions = [explicit(each.residual) for each in (told, given) if each is not None]
     letters = letters_of(value).union(*map(letters_of, conditions))
-    for point in islice(points(letters, seed_of(value)), POINTS):
+    known = {letter: number for letter in letters if not (number := with_numbers(letter)).free_symbols}
+    for drawn in islice(points(letters, seed_of(value)), POINTS):
         try:
+            point = {**drawn, **known}
             number = value_at(value, point)
             if given is not None and not _is_so(given, point):
                 continue

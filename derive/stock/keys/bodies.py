@@ -140,6 +140,10 @@ class DescribedBody:
     def body(self) -> Body:
         """The body itself; what is said of it is said where it is described."""
         with told_at(self.place):
+            for part in self.parts:  # once more, now that the numbers of the letters are known
+                body: Body = part.body if isinstance(part, PlacedPart) else part
+                if is_dataclass(type(body)):
+                    body.check_sizes()
             if self.is_made_of_parts or self.points:
                 whole: Body = Composite(*self.parts, mass=self.mass, points=self.points)
             else:
