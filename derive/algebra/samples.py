@@ -22,6 +22,7 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import And, Not, Or
 
 from derive.algebra.expressions import PLUS_MINUS
+from derive.algebra.node import ScalarNode, explicit
 from derive.algebra.ranges import fulfilling, range_of
 
 DIGITS = 50
@@ -203,6 +204,7 @@ _OF_ZERO = -(10**30)
 _LARGEST = 300  # exponent that is taken: what is larger by far than all digits hides what stands beside it
 _MOST = 60  # bits of the whole part of any argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
+_OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # no digits of an argument are lost
 _ONE_ARGUMENT = {
     name: getattr(mp, name)
     for name in ("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "sinh", "cosh", "tanh", "coth")
@@ -270,12 +272,16 @@ class Values:
 
     def _function(self, expr: Expr) -> Any:
         name = type(expr).__name__
+        if isinstance(expr, ScalarNode):
+            return self._of(explicit(expr))
         if isinstance(expr, Piecewise):
             return self._piece(expr)
         if name in {"Integral", "Sum", "Product", "Limit", "Subs"} or not getattr(expr, "is_Function", False):
             return self._by_sympy(expr)
         arguments = [self._of(arg) for arg in expr.args]
-        if name in _GROWING and abs(arguments[0]) > _LARGEST or any(_bits(x) > _MOST for x in arguments):
+        if name in _GROWING and abs(arguments[0]) > _LARGEST:
+            raise NoNumber(expr)
+        if name not in _OF_ANY_SIZE and any(_bits(x) > _MOST for x in arguments):
             raise NoNumber(expr)
         taken = _ONE_ARGUMENT.get(name) or _OTHERS.get(name)
         value = taken(*arguments) if taken else self._by_sympy(expr)

@@ -17,7 +17,7 @@ from sympy import Expr
 
 from derive import FOLDER
 from derive.algebra.dimensions import NUMBER, Dimension
-from derive.algebra.expressions import TIME
+from derive.algebra.expressions import RATES, TIME
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named, unit_of_kind
 from derive.course.assumed import Assumed
 from derive.course.expression import Declared, read_expression
@@ -153,8 +153,8 @@ class InLetters:
 
     def value(self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False) -> Expr:
         """An expression of a kind; where letters of that kind are positive it cannot be known to be negative, nor zero
-        where that means nothing."""
-        found = self.of_kind(node, name, kind, of)
+        where that means nothing. It is constant."""
+        found = self.constant(node, name, kind, of)
         if (
             found.is_nonpositive
             and not (or_zero and found.is_zero)
@@ -162,6 +162,18 @@ class InLetters:
             and not about_kind(kind).signed
         ):
             rejected("not-positive", f"`{name}` must be positive, but `{_text(node)}` is not", node.place)
+        return found
+
+    def constant(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
+        """An expression of a kind that neither changes in time nor depends on a coordinate."""
+        found = self.of_kind(node, name, kind, of)
+        coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
+        moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}
+        changing = sorted(letter.name for letter in found.free_symbols if letter.name in moving)
+        if changing:
+            what = "the time t" if changing[0] == TIME.name else f"the coordinate {changing[0]}"
+            message = f"`{name}` must be constant, but `{_text(node)}` depends on {what}"
+            rejected("changes", message, node.place)
         return found
 
     def of_kind(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import isfinite
+from math import isfinite, nan
 from typing import Any
 
 from sympy import Expr, Symbol, diff, lambdify
@@ -41,12 +41,20 @@ def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps
 
 
 def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[Extremum, ...]:
-    """The extrema of an expression in one letter, strictly within the range."""
-    f, slope = (lambdify([variable], each, "math") for each in (expr, diff(expr, variable)))
-    xs = [lower + (upper - lower) * i / STEPS for i in range(STEPS + 1)]
+    """The extrema of an expression in one letter, strictly within the range; the slope may be infinite somewhere."""
+    f, derivative = (lambdify([variable], each, "math") for each in (expr, diff(expr, variable)))
+
+    def slope(x: float) -> float:
+        try:
+            return float(derivative(x))
+        except (ValueError, ZeroDivisionError, OverflowError, TypeError):
+            return nan
+
+    every = [lower + (upper - lower) * i / STEPS for i in range(STEPS + 1)]
+    xs = [x for x in every if isfinite(slope(x))]
     slopes = [slope(x) for x in xs]
     found = []
-    for i in range(STEPS):
+    for i in range(len(xs) - 1):
         if slopes[i] * slopes[i + 1] < 0:
             at = _narrowed(slope, xs[i], xs[i + 1])
             at = 0.0 if abs(at) < 1e-6 * (upper - lower) and slope(0.0) == 0 else at
@@ -61,6 +69,8 @@ def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
     below = slope(low) < 0
     for _ in range(80):
         middle = (low + high) / 2
+        if not isfinite(slope(middle)):
+            return middle
         if (slope(middle) < 0) == below:
             low = middle
         else:

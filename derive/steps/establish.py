@@ -24,6 +24,7 @@ from sympy.core.symbol import Str
 
 from derive.algebra.equality import Compared, Evidence, Grade, equal
 from derive.algebra.expressions import Relation, bound, explicit
+from derive.algebra.singular import has_no_value
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps import record
@@ -175,6 +176,7 @@ def establish(
     _check_letter(key, symbol, result, lines.means)
     check_symbol(key, symbol, result)
     check_can_hold(key, result)
+    _check_has_value(key, result)
     chain = lines.chain(symbol, formula, substituted, result)
     told = lines.means.keys() & getattr(symbol, "free_symbols", set())  # x_dot of x_dot^2, whatever a parent says
     others = {name: value for name, value in bindings.items() if name != symbol or not told}
@@ -341,6 +343,13 @@ def check_can_hold(key: str, result: Any) -> None:
     """Nothing is less than itself, more, or different."""
     if isinstance(result, Relation) and result.mark in {"<", ">", "!="} and result.left == result.right:
         raise Unverified(Complaint("unverified", f"`{key}` can never hold: {short(result)}"))
+
+
+def _check_has_value(key: str, result: Any) -> None:
+    """A result is neither undefined nor infinite."""
+    if has_no_value(result):
+        message = f"`{key}` has no value: a denominator in it vanishes, or a part of it is infinite"
+        raise Rejected(Complaint("no-value", message, help="look for values that make a denominator vanish"))
 
 
 def _unsupported(key: str, rule: str, definition: bool) -> Evidence:

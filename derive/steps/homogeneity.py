@@ -77,7 +77,7 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
 def _number_of(exponent: Any) -> Fraction:
     """An exponent; where it holds letters, for some numbers of these: what is homogeneous then is so for any."""
     some = {s: Rational(101 + crc32(s.name.encode()) % 97, 89) for s in exponent.free_symbols}
-    value = exponent.xreplace(some)
+    value = ex.explicit(exponent.xreplace(some))
     if not isinstance(value, Rational):
         raise TypeError(f"no rule for the exponent {exponent}")
     return Fraction(value.p, value.q)

@@ -7,17 +7,20 @@ letters alone do not decide.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import prod
 from typing import Any
 
-from sympy import Abs, Add, Expr, Mul, Pow
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, factor_list, lcm
+from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import TIME, Relation, bound, explicit, rate
+from derive.algebra.lowest_terms import factored
 from derive.algebra.normal_form import vanishes
-from derive.algebra.ranges import strict_sign_within
+from derive.algebra.ranges import strict_sign_within, take_as_positive, taken_as_positive
 from derive.algebra.tidy import tidied
 from derive.steps.outcomes import Doubt
-from derive.steps.record import current_run, named_coordinates, question
+from derive.steps.record import assume, current_run, named_coordinates, question
 
 DIGITS, SHORT = 30, 20
 DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is not known
@@ -74,3 +77,45 @@ def _sign_of_factor(factor: Expr) -> int | None:
         return 0
     approximate = value.evalf(DIGITS)
     return 1 if approximate > 0 else -1
+
+
+def may_vanish(value: Expr) -> Relation | None:
+    """What must not vanish where one divides by a value: those of its factors that nothing decides."""
+    factors = [f.as_base_exp()[0] for f in Mul.make_args(factored(tidied(value)))]
+    unsure = [f for f in factors if sign_known(f) is None and not f.is_nonzero]
+    return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
+
+
+def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
+    """What a sentence tells of the denominators of results: which factors of them must not vanish, if any may."""
+    below: Expr = Integer(1)
+    for value in values:
+        below = lcm(below, tidied(value).as_numer_denom()[1])
+    excluded = may_vanish(below) if below.free_symbols else None
+    return {} if excluded is None else {"excluded": (excluded, Relation(excluded.right, "!=", excluded.left))}
+
+
+def taken_positive(value: Expr) -> int | None:
+    """The sign of a value; where the letters leave it open the value is taken to be positive, which the page states."""
+    sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
+    if sign is not None:
+        return sign
+    open_factors = [factor for factor in _factors(tidied(value)) if sign_known(factor) != 1]
+    for each in open_factors if len(open_factors) == 1 else [Mul(*open_factors)]:
+        away = Add(*(-term for term in Add.make_args(each) if term.could_extract_minus_sign()))
+        take_as_positive(each)
+        assume(Relation(each + away, ">", away))
+    take_as_positive(tidied(value))
+    return 1
+
+
+def _factors(value: Expr) -> list[Expr]:
+    """Without numbers and even powers; the sign is that of the product."""
+    try:
+        number, found = factor_list(value)
+    except PolynomialError:
+        return list(Mul.make_args(value))
+    factors = [base for base, power in found if power % 2]
+    if number.is_negative and factors:
+        factors[0] = -factors[0]
+    return factors or [Integer(1)]

@@ -78,6 +78,8 @@ OTHER_LETTERS: Mapping[str, tuple[str, ...]] = {
     "tau": ("tau_0",),
     "omega": ("Omega",),
     "lambda": ("mu", "lambda_0"),
+    "beta": ("delta",),
+    "gamma": ("Gamma",),
     "rho": ("rho_0",),
     "sigma": ("sigma_0",),
 }

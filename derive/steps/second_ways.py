@@ -156,6 +156,7 @@ OTHERWISE = {
     ("gyroscopic.stability", "quadrature"): Compared.ROUTE,
     ("lagrangian.lagrangian", "energy"): Compared.CHECK,  # the energy function of the same T and U
     ("lagrangian.generalized_force", "given_virtual_work"): Compared.CHECK,  # the first order of the Lagrangian
+    ("minima.stability_on_constraints", "along_curves"): Compared.ROUTE,  # without multipliers
     ("minima.stable_where", "energies"): Compared.CHECK,  # in numbers
     ("rolling.no_slip", "at_rest"): Compared.ROUTE,
 }

@@ -46,8 +46,6 @@ def equation(claim: Claim) -> Verdict | None:
     scales = [_terms(residual) for residual in residuals]
     count = 0
     for trial in claim.trials():
-        if claim.blueprint.of.conditions and claim.loses_its_gradient(trial):
-            return claim.refuted("the gradient of a constraint vanishes where the constraint holds", trial)
         formulas = trial.formulas([*residuals, *(term for terms in scales for term in terms)])
         for state, response in claim.moments(trial):
             found = formulas.at(state, response)

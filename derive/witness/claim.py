@@ -23,7 +23,6 @@ PUT_IN = "substitution.put_in"
 REDUCED = frozenset(["effective.routhian", "effective.effective_potential"])
 APPROXIMATE = frozenset(["approximate", "limits"])
 CLOSE = 1e-6  # to which the two must agree, relative to the terms that are compared
-NO_GRADIENT = 1e-4  # where letters are of order one, and a place is found to 1e-5 at a double zero
 TRIALS = 2
 STATES = 3
 
@@ -130,17 +129,6 @@ class Claim:
                 return
             except (Singular, np.linalg.LinAlgError):
                 continue
-
-    def loses_its_gradient(self, trial: Trial) -> bool:
-        """Whether the gradient of a condition vanishes wherever the conditions hold, so that nothing keeps it."""
-        found = []
-        for which in range(STATES):
-            try:
-                _, gradients = trial.dynamics.gradients(trial.state((), which))
-            except Contradiction:
-                continue
-            found.append(np.min(np.linalg.norm(gradients, axis=1), initial=1.0) < NO_GRADIENT)
-        return bool(found) and all(found)
 
     def refuted(self, detail: str, trial: Trial, state: State | None = None) -> Verdict:
         """With the numbers at which the motion says otherwise."""

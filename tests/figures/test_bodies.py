@@ -382,7 +382,7 @@ def test_a_flat_body_is_drawn_by_its_edge_and_a_straight_wire_by_its_ends() -> N
 @pytest.mark.parametrize(
     "body",
     [
-        Composite(Cuboid((a, a, a), M), minus(Cylinder(R, a, M / 9))),
+        Composite(Cuboid((a, a, a), M), minus(Cylinder(R, a, M / 9).at(a / 2, a / 2, a / 2))),
         Composite(Ball(R, M), Torus(b, a, M).at(0, 0, 3 * R)),
         Wire((R * sympy.cos(theta), R * sympy.sin(theta), 0), {theta: (0, 1)}, mass=M),
     ],

@@ -182,7 +182,7 @@ def test_a_hole_in_a_disc_is_drawn_and_the_pointer_leads_to_the_centre_of_mass()
 
 
 def test_in_space_a_cavity_is_dashed_and_what_has_a_bore_is_not_drawn() -> None:
-    cavity, bore = minus(Ball(R / 2, M / 8).named("hole")), minus(Cylinder(R / 4, R, M / 9).named("hole"))
+    cavity, bore = minus(Ball(R / 2, M / 8).named("hole")), minus(Cylinder(R / 4, R / 2, M / 9).named("hole"))
     found = placed_outline(of_middle(Composite(Ball(R, M), cavity), point(0, 0, 0)))
     assert [type(mark) for mark in found] == [Revolved, Cavity]
     assert placed_outline(of_middle(Composite(Ball(R, M), bore), point(0, 0, 0))) == []

@@ -25,8 +25,10 @@ from derive.mechanics.bodies.landmarks import is_where_named
 from derive.mechanics.bodies.mapping import Map, cell, cylindrical, from_point
 from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.placed import Placeable
+from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.bodies.regions import Point, Region, no_such_coordinates
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import sign_known
 from derive.steps.record import free_letter
 from derive.steps.step import Form, Level, Quantity, is_zero
 from derive.steps.subject import Subject
@@ -62,6 +64,17 @@ class Body(Placeable, OfParticles):
     is_lopsided: ClassVar[bool] = False  # not its own image about its centre, although its particles are
     is_round: ClassVar[bool] = False  # every axis perpendicular to z, through one of its points, is like every other
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which its limits are known
+
+    def __post_init__(self) -> None:
+        self.check_sizes()
+
+    def check_sizes(self) -> None:
+        """Refuse a mass or a size that is not positive."""
+        require_positive(self.name, "mass", self.mass)
+        for role, size in self.measures.items():
+            for each in size if isinstance(size, tuple) else (size,):
+                if isinstance(each, Expr | int):
+                    require_positive(self.name, role.replace("_", " "), each)
 
     def named(self, called: str) -> Self:
         """The same body under a name of its own, for a page that has another: its steps, letters and words have it too.
@@ -279,7 +292,8 @@ class Hollow(Body):
     outer: Expr
     mass: Expr
 
-    def __post_init__(self) -> None:
+    def check_sizes(self) -> None:
+        super().check_sizes()
         require_order(self.name, self.inner, self.outer)
 
     @property
@@ -288,7 +302,7 @@ class Hollow(Body):
 
 
 def require_order(body: str, inner: Expr, outer: Expr) -> None:
-    if (outer - inner).is_nonpositive:
+    if sign_known(outer - inner) in (0, -1):
         message = f"{body} of the inner radius {inner} and the outer radius {outer} has nothing between them"
         raise Rejected(Complaint("sizes", message, help="the inner radius stands first"))
 

@@ -182,6 +182,7 @@ class Triangle(Cornered):
     name, seen_as, filling = "a triangle", "a triangular plate", "area"
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if tidied(self._signed_area) == 0:
             raise Rejected(Complaint("sizes", "the three corners of this triangle are on one line"))
 
@@ -260,6 +261,7 @@ class Tetrahedron(Cornered):
     faces = (0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if len(self.corners_at) != 4 or self._sixfold == 0:
             message = "a tetrahedron needs four corners that are not in one plane"
             raise Rejected(Complaint("sizes", message))

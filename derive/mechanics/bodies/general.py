@@ -33,6 +33,7 @@ from derive.mechanics.bodies.body import Body, density
 from derive.mechanics.bodies.equimomental import Particles, counted_from, from_moments
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.mapping import cell, checked_limits, from_point, inside, tangents_of
+from derive.mechanics.bodies.possible import check_map, require_positive
 from derive.mechanics.bodies.quadrature import agrees, spanned
 from derive.mechanics.bodies.regions import Bounds, Point, Region
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -87,6 +88,9 @@ class GeneralBody(Body):
             message = f"the position of this `{type(self).__name__}` does not depend on all of its variables"
             help_line = "a curve has one variable, a surface two, a solid three"
             raise Rejected(Complaint("no-size", message, help=help_line))
+        if mass is not None:
+            require_positive(self.name, "mass", mass)
+        check_map(type(self).__name__, self._position, self._limits, given.xreplace(fresh), mass is None)
 
     @property
     def is_uniform(self) -> bool:

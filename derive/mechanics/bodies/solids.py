@@ -224,7 +224,8 @@ class Tube(Body):
     mass: Expr
     name, seen_as, reference, is_round = "a tube", "a hollow cylinder", "base", True
 
-    def __post_init__(self) -> None:
+    def check_sizes(self) -> None:
+        super().check_sizes()
         require_order(self.name, self.inner, self.outer)
 
     @property
@@ -341,7 +342,8 @@ class Torus(Body):
     mass: Expr
     name, is_round = "a torus", True
 
-    def __post_init__(self) -> None:
+    def check_sizes(self) -> None:
+        super().check_sizes()
         require_order(self.name, self.section, self.radius)
 
     @property

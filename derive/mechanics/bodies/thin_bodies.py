@@ -119,6 +119,7 @@ class Arc(Body):
     is_lopsided = True
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if (self.half_angle - pi).is_nonnegative or self.half_angle.is_nonpositive:
             message = f"an arc of the half angle {self.half_angle} is not a piece of a circle"
             raise Rejected(Complaint("sizes", message, help="a whole circle is a `Hoop`"))

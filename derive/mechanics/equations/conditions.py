@@ -22,13 +22,12 @@ from derive.mechanics.equations.unknowns import (
     lecture_form,
     left_over,
     mark_for,
-    may_vanish,
     unknown_of,
     with_unknown,
     without_factors_beside,
 )
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
 from derive.steps.step import Form, Level, Quantity, value_behind
 
 __all__ = ["where"]

@@ -24,7 +24,7 @@ from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes,
 from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import T
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import require_constant
+from derive.steps.record import free_letter, require_constant
 from derive.steps.step import Quantity, is_zero
 
 __all__: list[str] = []
@@ -177,7 +177,7 @@ def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, s
     outcome = "oscillator" if twice else "growth" if sign_by_factors(value) == -1 else "decay"
     return establish(
         "damped.rate",
-        scalar(f"beta{number}"),
+        scalar(free_letter(f"beta{number}")),
         lambda *_: value,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
@@ -214,7 +214,7 @@ def _frequency(
     sign = sign_by_factors(tidied(4 * a * c - b**2))
     turned = -1 if sign == -1 else 1
     condition = positive(tidied(4 * a * c - b**2)) if sign is None else None
-    name = f"{'gamma' if turned < 0 else 'omega'}{number}"
+    name = free_letter(f"{'gamma' if turned < 0 else 'omega'}{number}")
 
     def motion(found: Expr) -> tuple[Expr, Expr]:
         """e^(-beta t) cos(omega t), or with a hyperbolic cosine, in a eta_ddot + b eta_dot + c eta."""

@@ -25,7 +25,9 @@ from derive.algebra.taylor import coefficient_along, slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.counting import is_countable, signs_counted
+from derive.mechanics.equations.held_stability import constraints_of
 from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.mechanics.equations.mass_matrix import check_regular
 from derive.mechanics.equations.reach import lies_within
 from derive.mechanics.equations.sides import (
     SidesOpen,
@@ -36,14 +38,14 @@ from derive.mechanics.equations.sides import (
     on_known_sides,
     sides_of,
 )
-from derive.mechanics.equations.unknowns import may_vanish
 from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
-from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import SeenWith
 from derive.mechanics.systems.forced import ActedOn
+from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import may_vanish
 from derive.steps.record import changes, given_letters
 from derive.steps.step import Fact, Quantity, Route, compared_with, is_zero, require_kind
 from derive.witness.facts import Rest
@@ -156,6 +158,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
         message = f"`equilibria`: the forces also depend on {others[0].name}"
         raise Rejected(Complaint("wrong-argument", message, help=f"name it among the coordinates: {others[0].name}"))
     states = _states(of, forces)
+    for state in states:
+        check_regular("equilibria", all_matter(potential), state.values)
     conditions = [_condition(potential, q, forces[q]) for q in sought]
     names = _names(potential, sought, len(states))
     return tuple(_rest(potential, conditions, sought, state, names, n, states) for n, state in enumerate(states))
@@ -163,10 +167,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
 
 def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
     """Refuse coordinates that conditions tie together: a force of constraint balances the others at rest."""
-    kept = of.fact(Kept)
-    tied = next(
-        (c for c in (kept.constraints if kept is not None else ()) if any(c.along(q) != 0 for q in sought)), None
-    )
+    tied = next((c for c in constraints_of(of) if any(c.along(q) != 0 for q in sought)), None)
     if tied is not None:
         message = f"`equilibria`: the coordinates are tied by {tied.left} = {tied.right}, which a force keeps"
         help_line = "rest is sought in free coordinates: write the places by fewer of them, without this constraint"
@@ -323,6 +324,13 @@ def matter_behind(potential: Quantity) -> Matter | None:
     """What made a potential energy: mass points and forces, or of an effective one those with momenta held constant."""
     seen, own = potential.fact(SeenWith), potential.fact(Matter)
     return seen.matter if seen is not None else own if own is not None and own.is_known else None
+
+
+def all_matter(potential: Quantity) -> Matter | None:
+    """What moves in a potential energy, with the kinetic energy and the magnetic fields that it does not contain."""
+    body = potential.subject.body
+    seen = potential.fact(SeenWith)
+    return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
 
 
 def named_by(potential: Quantity, routes: Mapping[str, Route]) -> dict[str, Route]:

@@ -43,6 +43,7 @@ from derive.mechanics.equations.conservation import Acting, highest_rates
 from derive.mechanics.rotation.given_moments import check_given_moment
 from derive.mechanics.rotation.vectors import RateByParticles, Through
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import sign_known
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject
@@ -103,7 +104,7 @@ class RigidBody(Placeable, OfParticles):
         if self.mass is not None:
             require_constant("RigidBody", "mass", self.mass)
         for axis, spread in zip(AXES, self.second_moments, strict=True):
-            if spread.is_negative:
+            if sign_known(spread) == -1:
                 message = f"no body has such moments: that about {axis} is more than the other two together"
                 raise Rejected(Complaint("no-such-body", message))
 

@@ -266,6 +266,12 @@ def _of_one_angle(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]
     return []
 
 
+def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:
+    """The expression with the numbers of all letters but the one that varies."""
+    varied = Dummy("x", **x.assumptions0)
+    return with_numbers(expr.xreplace({x: varied})).xreplace({varied: x})
+
+
 # --- the second routes ---
 
 
@@ -284,7 +290,7 @@ def _not_exceeded(
     place: Expr,
 ) -> Verdict:
     """At places spread over the interval, or near the place, nothing is beyond the extreme value."""
-    value, top, place = (with_numbers(e) for e in (value, top, place))
+    value, top, place = (_with_numbers_beside(e, x) for e in (value, top, place))
     letters = (letters_of(value) | letters_of(top) | letters_of(place)) - {x}
     conditions = [*told.values(), *assumed()]
     letters |= {s for each in conditions for s in letters_of(each.residual)}

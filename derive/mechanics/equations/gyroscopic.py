@@ -110,6 +110,7 @@ def _characteristic(
 ) -> Quantity:
     """det(K + i omega G - omega^2 M) = 0.
 
+    Outcomes: generic, plain (no term is linear in the rates).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23.
     """
     matrix = ImmutableDenseMatrix(together.rows_of(pencil.at(letter)).applyfunc(_tidy_entry))
@@ -121,7 +122,8 @@ def _characteristic(
         {"omega": letter},
         lines=Lines(put_in=None, arranged=lambda _: Relation(factored(pencil.parts, letter), "=", 0)),
         routes={"quadrature": lambda found: in_quadrature(found, linear, together, letter)},
-        telling=Telling(named={"trial": exp(I * letter * T)}),
+        outcome="plain" if is_zero(together.turning) else "generic",
+        telling=Telling(named={"trial": exp(I * letter * T)}, judged_by={"turning": tuple(together.turning)}),
         key=f"{start}characteristic_equation",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),

@@ -23,9 +23,12 @@ from derive.algebra.squares import with_squares
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.held_stability import constraints_of
+from derive.mechanics.equations.mass_matrix import check_regular
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import sign_known
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 from derive.witness.facts import Around, Rest
 
@@ -38,7 +41,7 @@ MOST_TOLD = 2  # terms of higher order that a sentence tells one by one
 @dataclass(frozen=True)
 class Linear(Fact):
     """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, where the
-    state of rest exists, and what drives them."""
+    state of rest exists, what drives them, and what each coordinate is at rest."""
 
     missing = "is not an equation of motion to first order"
     mass: MatrixBase
@@ -47,6 +50,7 @@ class Linear(Fact):
     displacements: tuple[Coordinate, ...]
     exists: Relation | None = None
     driven: tuple[Expr, ...] = ()
+    place: tuple[tuple[Coordinate, Expr], ...] = ()
 
     def rows_of(self, matrix: MatrixBase) -> MatrixBase:
         """A matrix of the amplitudes, each row without what all terms of its equation have in common."""
@@ -99,12 +103,15 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
     _check_whole(equations, moving)
     place = _place_of(equations, moving, at)
+    _check_exists(at)
+    check_regular("linearised", equations[0].needed(Matter), place)
     _check_rest(equations, moving, place)
     eta = _displacements(moving, place)
     exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
     mass, turning, stiffness = (_coefficients(equations, moving, place, order) for order in (2, 1, 0))
     driven = tuple(-_at_rest(explicit(equation.value).residual, moving, place) for equation in equations)
-    linear = Linear(mass, turning, stiffness, eta, exists, driven)
+    rest = tuple((q, place[q.symbol]) for q in moving)
+    linear = Linear(mass, turning, stiffness, eta, exists, driven, rest)
     rests = [at] if isinstance(at, Quantity) else []
     return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
 
@@ -244,6 +251,11 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
     for equation in equations:
         value = explicit(equation.value).residual
         others = [q for q in equation.coordinates if q not in known and value.has(q, rate(q), rate(q, 2))]
+        kept = next((q for q in others if any(q == c.force for c in constraints_of(equation))), None)
+        if kept is not None:
+            message = f"`linearised`: `{equation.key}` contains {kept.name}, the multiplier of a constraint"
+            help_line = "write the places by fewer coordinates, without this constraint"
+            raise Rejected(Complaint("constrained", message, help=help_line))
         if others:
             message = f"`linearised`: `{equation.key}` also has {others[0].name}, of which there is no equation"
             help_line = "give all equations together, as `equations_of_motion` yields them"
@@ -275,6 +287,17 @@ def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: A
 def _at_rest(value: Expr, moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> Expr:
     still = {letter: ZERO for q in moving for letter in (q.rate, q.acceleration)}
     return tidied(value.xreplace({**still, **place}))
+
+
+def _check_exists(at: Any) -> None:
+    """Refuse a state of rest that the given numbers do not allow."""
+    exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
+    sign = sign_known(exists.residual) if exists is not None else None
+    if exists is not None and sign is not None and sign != (1 if exists.mark == ">" else -1):
+        message = (
+            f"`{at.key}` exists only for {exists.left} {exists.mark} {exists.right}, which is not so for the values"
+        )
+        raise Rejected(Complaint("no-equilibrium", message, help="give other values, or another state of rest"))
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
@@ -352,6 +375,15 @@ def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) ->
     for s, eta in zip(together.displacements, motion, strict=True):
         put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
     return explicit(equation.value).residual.xreplace(put_in)
+
+
+def left_by_drift(linear: Sequence[Quantity], together: Linear, column: Sequence[Expr], time: Expr) -> list[Expr]:
+    """What the equations of motion, not linear, leave of a uniform motion away from rest along a column."""
+    equations = {e.needed(OfCoordinate).coordinate: e for each in linear for e in each.parents if e.fact(OfCoordinate)}
+    moved: dict[Any, Expr] = {}
+    for (q, at), share in zip(together.place, column, strict=True):
+        moved.update({q.symbol: at + share * time, q.rate: share, q.acceleration: ZERO})
+    return [explicit(equations[q].value).residual.xreplace(moved) for q, _ in together.place]
 
 
 def factors_of_amplitudes(linear: Sequence[Quantity], together: Linear, course: Expr) -> MatrixBase:

@@ -6,15 +6,17 @@ minors of the second derivatives (Sylvester).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol
 from sympy.matrices import MatrixBase
 
-from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
+from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.collect import spread_or_by_terms
+from derive.algebra.definite import sign_of_form
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
@@ -22,20 +24,21 @@ from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.equilibria import (
+    all_matter,
     matter_behind,
     potential_at_rest,
     slope_otherwise,
     steady_in,
 )
+from derive.mechanics.equations.held_stability import OnConstraints, constraints_of
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import place_given
+from derive.mechanics.equations.mass_matrix import check_regular, has_positive_inertia
 from derive.mechanics.equations.sides import on_known_sides
 from derive.mechanics.equations.stability import Shape, slope
 from derive.mechanics.equations.stable_where import StableWhere
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
-from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import SeenWith
-from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
@@ -44,8 +47,10 @@ from derive.witness.facts import Rest
 __all__ = ["stability"]
 
 HIGHEST = 8  # the order to which a border is looked at
+FEW = 5  # coordinates of which every direction of zeros and ones is tried
 SHORT = 80  # operations of a curvature that is written down before a place is put in
 ZERO = Integer(0)
+BY_FIRST_ORDER = "to first order the equations of motion tell, `linear_stability(linearised(motion))`"
 STEADY = "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`"
 
 
@@ -87,6 +92,12 @@ def stability(
     Source: that of `stability`.
     """
     require_kind("stability", "of", of, "energy")
+    held = constraints_of(of)
+    if held:
+        potential, values = _potential(of, at), place_given(at)
+        found = OnConstraints(potential, held, values).stability(key or "stability")
+        _check_nothing_else_holds_it(Place(potential, tuple(values), values, None, None), found.step.outcome)
+        return found
     place = _place(of, at)
     named = key or ("stability" if place.rest is None else place.rest.key.replace("rest", "stability"))
     if len(place.coordinates) > 1:
@@ -107,10 +118,7 @@ def _state(place: Place) -> tuple[Any, Any]:
 
 def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
     known = place_given(at)
-    rest = at if isinstance(at, Quantity) else None
-    potential = (
-        next((p for p in rest.parents if p.step.kind == "energy"), of) if rest is not None else potential_at_rest(of)
-    )
+    rest, potential = at if isinstance(at, Quantity) else None, _potential(of, at)
     if rest is not None and not (of.step == potential.step or potential.rests_on(of)):
         raise Rejected(Complaint("different-subjects", f"`{rest.key}` is no state of rest of `{of.key}`"))
     held = tuple(q for q in potential.coordinates if explicit(potential.value).has(q))
@@ -121,8 +129,16 @@ def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
         raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0].name}: 0`"))
     values = {q: value for q, value in known.items() if q in held}
     place = Place(potential, tuple(values), values, rest.needed(Rest).exists if rest else None, rest)
+    check_regular("stability", all_matter(potential), values)
     _check_level(place)
     return place
+
+
+def _potential(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Quantity:
+    """The potential energy of a state of rest, that of which it was found."""
+    if not isinstance(at, Quantity):
+        return potential_at_rest(of)
+    return next((parent for parent in at.parents if parent.step.kind == "energy"), of)
 
 
 def _check_level(place: Place) -> None:
@@ -281,6 +297,8 @@ def _of_several(place: Place, key: str) -> Quantity:
     told: dict[str, tuple[Any, Any]] = {"state": _state(place)}
     named: dict[str, Any] = {}
     way = _way_down(matrix) if outcome == "depends" else None
+    if outcome == "unstable" and not any(sign_by_factors(value) == -1 for value in values):
+        way = _plain_way_down(matrix, [place.potential.coordinates[q] for q in moving])
     if way is not None:
         outcome = "unstable_along"
         told |= _falling(place, matrix, way)
@@ -329,16 +347,9 @@ def _minor(matrix: MatrixBase, n: int) -> Expr:
 
 
 def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
-    signs = [sign_by_factors(value) for value in minors]
-    if all(sign == 1 for sign in signs):
+    if all(sign_by_factors(value) == 1 for value in minors):
         return "stable"
-    size = matrix.shape[0]
-    pairs = [(i, j) for i in range(size) for j in range(i + 1, size)]
-    falling = [matrix[i, i] for i in range(size)]
-    falling += [determinant_of(ImmutableDenseMatrix(matrix.extract([i, j], [i, j]))) for i, j in pairs]
-    if any(sign_by_factors(tidied(value)) == -1 for value in falling):
-        return "unstable"
-    return "level" if signs[-1] == 0 and None not in signs and -1 not in signs else "depends"
+    return {1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign_of_form(matrix, sign_by_factors)]
 
 
 def _way_down(matrix: MatrixBase) -> MatrixBase | None:
@@ -358,6 +369,21 @@ def _way_down(matrix: MatrixBase) -> MatrixBase | None:
     return None
 
 
+def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | None:
+    """A direction of zeros and ones in which the energy falls, where no leading minor is negative.
+
+    kinds   those of the coordinates, of which only equal ones are moved together
+    """
+    size = matrix.shape[0]
+    ways = product((0, 1, -1), repeat=size) if size <= FEW else ()
+    for way in sorted(ways, key=lambda each: (sum(map(abs, each)), [-n for n in each])):
+        if len({kind for kind, n in zip(kinds, way, strict=True) if n}) == 1:
+            column = ImmutableDenseMatrix(way)
+            if sign_by_factors(tidied((column.T * matrix * column)[0])) == -1:
+                return column
+    return None
+
+
 def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tuple[Any, Any]]:
     """How the slope of the energy changes along it, by the matrix and by the energy itself."""
     along = coefficient_along(place.energy, place.values, dict(zip(place.coordinates, way, strict=True)), 2)
@@ -368,7 +394,11 @@ def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tup
 
 def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
     """A minimum is stable whatever forces turn the motion aside; what is none they may hold, as a top that spins."""
-    matter = _all_matter(place.potential)
+    matter = all_matter(place.potential)
+    if matter is not None and not has_positive_inertia(matter, place.values):
+        message = f"`stability`: a minimum of `{place.potential.key}` is stable only where the kinetic energy is"
+        message += " positive for every motion, which is not known of this one"
+        raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))
     if outcome.startswith("stable") or matter is None:
         return
     still = {rate(q, n): ZERO for q in matter.coordinates for n in (1, 2)}
@@ -378,12 +408,4 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
             message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
             message += f" depend on the rates of {q.name} and {p.name} may hold the state all the same"
-            help_line = "to first order the equations of motion tell, `linear_stability(linearised(motion))`"
-            raise Rejected(Complaint("not-decided", message, help=help_line))
-
-
-def _all_matter(potential: Quantity) -> Matter | None:
-    """What moves, with the magnetic fields that a potential energy does not know."""
-    body = potential.subject.body
-    seen = potential.fact(SeenWith)
-    return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
+            raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))

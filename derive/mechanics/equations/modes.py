@@ -34,7 +34,7 @@ from derive.mechanics.equations.characteristic import Pencil, root_of
 from derive.mechanics.equations.characteristic import Root as RootOfPencil
 from derive.mechanics.equations.damped import DampedModes
 from derive.mechanics.equations.gyroscopic import TurningModes
-from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes, with_motion
+from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes, left_by_drift, with_motion
 from derive.mechanics.equations.oscillations import frequency, frequency_squared, told_where_positive
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -95,7 +95,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
         return (frequency(squared, key=f"{before}frequency", condition=True),)
     characteristic = _characteristic(linear, together, pencil, letter, before)
     frequencies = [
-        _frequency(characteristic, together, pencil, n, letter.name, before) for n in range(len(pencil.roots))
+        _frequency(characteristic, linear, together, pencil, n, letter.name, before) for n in range(len(pencil.roots))
     ]
     shapes: list[Quantity] = []
     for found in frequencies:
@@ -149,7 +149,25 @@ def _characteristic(
 _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
 
 
-def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: int, symbol: str, start: str) -> Quantity:
+def _drift(linear: Sequence[Quantity], together: Linear, root: RootOfPencil) -> dict[str, Any]:
+    """What the equations of motion leave of a uniform motion along a zero mode, if that is nothing at all:
+    then no force acts to any order."""
+    if root.sign != 0:
+        return {}
+    time = stand_in("s")
+    left = [value for column in root.columns for value in left_by_drift(linear, together, column, time)]
+    return {"drift": (Integer(0), Integer(0)), "left": tuple(left)} if all(map(is_zero, left)) else {}
+
+
+def _frequency(
+    characteristic: Quantity,
+    linear: Sequence[Quantity],
+    together: Linear,
+    pencil: Pencil,
+    n: int,
+    symbol: str,
+    start: str,
+) -> Quantity:
     """One frequency, or rate of growth.
 
     Outcomes: oscillating, growing, free, conditional, oscillating_repeated, growing_repeated, free_repeated,
@@ -176,6 +194,7 @@ def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: in
         return turned * found**2 * root.multiplicity + others, _trace(together)
 
     outcome = _OF_SIGN[root.sign] + ("_repeated" if root.multiplicity > 1 else "")
+    drift = _drift(linear, together, root)
     return establish(
         "modes.frequency",
         scalar(name),
@@ -186,8 +205,8 @@ def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: in
         outcome=outcome,
         telling=Telling(
             points_to={"characteristic": characteristic},
-            judged_by=_judged_by(together),
-            formulas=told_where_positive(root.value) if root.sign is None else {},
+            judged_by={**_judged_by(together), "left": drift.pop("left", ())},
+            formulas=told_where_positive(root.value) if root.sign is None else drift,
         ),
         key=f"{start}frequency_{n + 1}",
         kind="angular speed",
@@ -223,6 +242,7 @@ def _shape(
     Source: that of `normal_modes`.
     """
     root = frequency.needed(Mode).root
+    drift = _drift(linear, together, root)
     n = len(before) + 1
     squared = root.value
 
@@ -253,7 +273,8 @@ def _shape(
         telling=Telling(
             named={"moving": moved},
             points_to={"linear": linear[0]},
-            judged_by={"squared": squared, **_judged_by(together)},
+            judged_by={"squared": squared, **_judged_by(together), "left": drift.pop("left", ())},
+            formulas=drift,
         ),
         key=f"{start}mode_{n}",
         parents=[*linear, *before],

@@ -16,9 +16,9 @@ from derive.algebra.expressions import PLUS_MINUS, RATES, Factors, Ratio, Relati
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.conditions import solved_in_letters, where
-from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, may_vanish
+from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 

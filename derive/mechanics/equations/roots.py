@@ -40,7 +40,6 @@ from derive.mechanics.equations.unknowns import (
     kind_of_unknown,
     lecture_form,
     letter_of,
-    may_vanish,
     meaning,
     polynomial_in,
     residual_of,
@@ -48,7 +47,7 @@ from derive.mechanics.equations.unknowns import (
 )
 from derive.mechanics.equations.zeros import within_one
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
 from derive.steps.step import Level, Quantity, is_zero
 
 __all__ = ["roots"]
@@ -218,19 +217,19 @@ def _outcome(root: RootOf, i: int, kept: Sequence[RootOf], every: Sequence[RootO
 
 def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, key: str) -> Quantity:
     """The discriminant is negative; or the root that could be positive is not."""
-    last = _ascending(list(every))[-1]
+    last = _ascending(list(every))[-1] if real else every[0]
     mark = "=" if real and is_zero(last.value) else "<"
     if real:
         decides, otherwise = last.formula, last.value
     else:
-        a, b, c = every[0].coefficients
-        decides, otherwise = Terms(b**2, -FOUR * a * c), _by_resultant(every[0])
+        a, b, c = last.coefficients
+        decides, otherwise = Terms(b**2, -FOUR * a * c), _by_resultant(last)
     return establish(
         "roots.roots_absent",
         None,
         lambda *_: Relation(decides, mark, ZERO),
         {"equation": equation, "unknown": unknown},
-        lines=Lines(put_in=None),
+        lines=Lines(put_in=None, result=real or not decides.free_symbols),
         routes={"otherwise": lambda found: (found.residual, otherwise)},
         outcome="none_positive" if real else "none",
         telling=Telling(words={"asked": _asked(equation)}),
@@ -380,8 +379,8 @@ def _without_positive(value: Expr) -> Expr:
 def _ascending(found: list[RootOf]) -> list[RootOf]:
     """In ascending order, where that is known: by numbers, by the signs, or within one quadratic factor."""
     numbers = [with_numbers(root.value) for root in found]
-    if all(not number.free_symbols for number in numbers):
-        order = sorted(range(len(found)), key=lambda i: float(numbers[i]))
+    if all(number.is_real and not number.free_symbols for number in numbers):
+        order = sorted(range(len(found)), key=lambda i: numbers[i].evalf(30))
         return [found[i] for i in order]
     if len(found) == 2 and sign_known(found[0].value - found[1].value) == 1 or _turned(found):
         return found[::-1]

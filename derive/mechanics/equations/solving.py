@@ -16,12 +16,12 @@ from derive.mechanics.equations.unknowns import (
     lecture_form,
     letter_of,
     linear_coefficients,
-    may_vanish,
     meaning,
     polynomial_in,
     unknown_of,
 )
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import may_vanish
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import EVERYTHING
 

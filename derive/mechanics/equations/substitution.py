@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Symbol
@@ -12,6 +13,7 @@ from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
 from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, did_you_mean
+from derive.mechanics.equations.defined import check_defined
 from derive.mechanics.equations.unknowns import (
     ValueOf,
     coordinates_of,
@@ -241,6 +243,8 @@ def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity
     """The value after these replacements, of which one must find what it replaces; they are put on the list."""
     before = value
     for target, at in pairs:
+        put = partial(_replaced, target, at)
+        check_defined("put_in", of.key, f"{target} = {at}", value, put)
         after = _mapped(value, target, at)
         if after != value and not isinstance(target, Symbol) and left_over(after, target):
             message = f"`put_in`: `{of.key}` contains {letter_of(target).name} otherwise than in {target}"
@@ -252,6 +256,10 @@ def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity
         message = f"`put_in`: `{of.key}` has nothing that `{called}` could replace"
         raise Rejected(Complaint("nothing-to-put-in", message))
     return value
+
+
+def _replaced(target: Expr, at: Expr, part: Expr) -> Expr:
+    return with_unknown(part, target, at)
 
 
 def _mapped(value: Any, target: Expr, at: Expr) -> Any:

@@ -15,6 +15,7 @@ from sympy.polys.constructor import construct_domain
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import determinant_of
+from derive.algebra.definite import is_positive_definite, sign_of_form
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -135,10 +136,8 @@ class TurningPencil:
 
     @cached_property
     def is_minimum(self) -> bool:
-        """Whether the energy is least at rest, by the leading minors: then nothing grows."""
-        size = self.stiffness.shape[0]
-        minors = (determinant_of(ImmutableDenseMatrix(self.stiffness[:n, :n])) for n in range(1, size + 1))
-        return all(self.sign(tidied(minor)) == 1 for minor in minors)
+        """Whether the energy is least at rest, and the kinetic energy nowhere negative: then nothing grows."""
+        return is_positive_definite(self.stiffness, self.sign) and sign_of_form(self.mass, self.sign) in (0, 1)
 
     def sign(self, value: Expr) -> int | None:
         return 0 if is_zero(value) else sign_where(value, self.exists)

@@ -24,7 +24,7 @@ from derive.mechanics.equations.linearised import Linear
 from derive.mechanics.equations.turning_modes import Part, TurningPencil
 from derive.mechanics.equations.zeros import border_of, positive
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.step import Form, Level, Quantity
+from derive.steps.step import Form, Level, Quantity, is_zero
 from derive.witness.facts import Rest
 
 __all__ = ["linear_stability"]
@@ -51,7 +51,8 @@ def linear_stability(
     require_turning("linear_stability", together)
     given = {s.name for each in (together.mass, together.turning, together.stiffness) for s in each.free_symbols}
     letter_of_frequency = scalar("omega" if "omega" not in given else "Omega")
-    modes = TurningModes(linear, together, letter_of_frequency, "" if key == "stability" else f"{key}_")
+    is_shared = key == "stability" and not is_zero(together.turning)  # then the modes have this equation too
+    modes = TurningModes(linear, together, letter_of_frequency, "" if is_shared else f"{key}_")
     pencil, characteristic = modes.pencil, modes.characteristic
     needs = _needed(pencil)
     if any(pencil.sign(need) == -1 for need, _ in needs):

@@ -41,7 +41,6 @@ from derive.algebra.ranges import never_vanishes_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
-from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume, coordinate_named
 from derive.steps.step import Fact, Quantity
 
@@ -271,13 +270,6 @@ def _turns_under_root(value: Expr) -> bool:
     """Products of sines and cosines under a root stay, or no square could be drawn out of it."""
     roots = (power for power in value.atoms(Pow) if not power.exp.is_Integer)
     return any(root.base.has(sin, cos) for root in roots)
-
-
-def may_vanish(*values: Expr) -> Relation | None:
-    """What must not vanish where one divides by these values: those of their factors that nothing decides."""
-    factors = [f.as_base_exp()[0] for value in values for f in Mul.make_args(factored(tidied(value)))]
-    unsure = [f for f in dict.fromkeys(factors) if sign_known(f) is None and not f.is_nonzero]
-    return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
 
 
 def linear_coefficients(expressions: Sequence[Expr], marks: Sequence[Symbol]) -> tuple[Matrix, Matrix] | None:

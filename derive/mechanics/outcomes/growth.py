@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
+from itertools import product
 from typing import Any
 
 from mpmath import mp
 from sympy import Expr, Integer, Rational, Symbol, lambdify
 
 from derive.algebra.expressions import explicit, rate
-from derive.algebra.ranges import rational_in_range
+from derive.algebra.ranges import has_meaning, rational_in_range
 from derive.mechanics.equations.equilibria import matter_behind
 from derive.mechanics.systems.dalembert import Matter, Reaction
 from derive.mechanics.systems.effective import SeenWith
@@ -61,6 +62,19 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
     return True
 
 
+def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
+    """Whether no motion through the place has a negative kinetic energy, by the eigenvalues of M."""
+    for point, falling in product(points[:FEW], (False, True)):
+        motion = _motion(matter, place, point, SIZES[0], falling)
+        if motion is None:
+            continue
+        with mp.workdps(DIGITS):
+            least = min(mp.eigsy((motion[0] + motion[0].T) / 2, eigvals_only=True))
+            if least < -_largest(motion[0]) * mp.mpf(10) ** -SMALL:
+                return False
+    return True
+
+
 def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
     """Whether forces that are linear in the rates do no work, as in a frame that turns or in a magnetic field."""
     motions = (_motion(matter, place, point, SIZES[0]) for point in points[:FEW])
@@ -78,15 +92,22 @@ def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
     return letters, lambdify([*varied, *letters], left, "mpmath", cse=True, dummify=True)
 
 
-def _motion(matter: Matter, place: Numbers, point: Numbers, size: Expr) -> tuple[Any, Any, Any] | None:
+def _motion(
+    matter: Matter, place: Numbers, point: Numbers, size: Expr, falling: bool = False
+) -> tuple[Any, Any, Any] | None:
     """M, C and K: how m a - F changes with accelerations, rates and coordinates, at rest.
 
-    Nothing where the coordinates do not tell the places, as the angles of a top upright: that is not judged.
+    falling   whether of the letters that the energy does not have each is smaller than the one before it
+    Nothing where the coordinates do not tell the places, as the angles of a top upright, or where the numbers have no
+    meaning: that is not judged.
     """
     letters, left = _left_over(matter)
     count = len(matter.coordinates)
     with mp.workdps(DIGITS):
-        others = {s: rational_in_range(s, size + Rational(i, 9)) for i, s in enumerate(letters) if s not in point}
+        sizes = (size / (1 + Rational(i, 9)) if falling else size + Rational(i, 9) for i in range(len(letters)))
+        others = {s: rational_in_range(s, n) for s, n in zip(letters, sizes, strict=True) if s not in point}
+        if not has_meaning({**point, **others}):
+            return None
         known = [_number({**point, **others}[s]) for s in letters]
         there = [_number(place.get(q, ELSEWHERE).xreplace(dict(point))) for q in matter.coordinates]
         still = [*there, *[mp.mpf(0)] * (2 * count)]

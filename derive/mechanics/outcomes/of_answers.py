@@ -5,7 +5,24 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Expr, Integer, MatrixBase, Poly, Rational, Symbol, acos, asin, atan, cos, diff, oo, sign, sin, tan
+from sympy import (
+    Dummy,
+    Expr,
+    Integer,
+    MatrixBase,
+    Poly,
+    Rational,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cos,
+    diff,
+    oo,
+    sign,
+    sin,
+    tan,
+)
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -219,9 +236,11 @@ def _bent(sign: int) -> Predicate:
     """By the values a little to both sides of the place, in numbers: they are below it, or above."""
 
     def is_so(facts: Judged) -> bool:
-        value, x, place = (with_numbers(facts.inputs[role]) for role in ("value", "letter", "place"))
+        x = Dummy("x", **facts.inputs["letter"].assumptions0)  # that which varies has no number
+        varied = {facts.inputs["letter"]: x}
+        value, place = (with_numbers(facts.inputs[role].xreplace(varied)) for role in ("value", "place"))
         told = [c for role, c in facts.inputs.items() if role == "condition" or role.startswith("inside_")]
-        conditions = [with_numbers(condition) for condition in (*told, *assumed())]
+        conditions = [with_numbers(explicit(condition).xreplace(varied)) for condition in (*told, *assumed())]
         letters = {s for e in (value, place, *(c.residual for c in conditions)) for s in letters_of(e)} - {x}
         seen = []
         for point in islice(points(letters, seed_of(value, place)), 40):

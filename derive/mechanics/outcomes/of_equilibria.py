@@ -16,9 +16,10 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, explicit
-from derive.algebra.ranges import fulfilling, rational_in_range
+from derive.algebra.ranges import fulfilling, has_meaning, rational_in_range
 from derive.mechanics.equations.counting import is_countable
-from derive.mechanics.outcomes.growth import grows_always, is_turned_aside, matter_of
+from derive.mechanics.outcomes.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
+from derive.mechanics.outcomes.on_constraints import signs_on_constraints
 from derive.mechanics.outcomes.searched import none_is_missing
 from derive.mechanics.outcomes.signs import always_sign, lasts, may_be_negative, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
@@ -152,26 +153,37 @@ def _signs(facts: Judged) -> set[int]:
 
 
 def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
-    """1 where the energy rises in all directions of two coordinates, -1 where it falls in one, 0 where it is level.
+    """1 where the energy rises in all directions, -1 where it falls in one, 0 where it rises in all but some.
 
-    Nothing is differentiated: the energy is compared a little to all sides.
+    Nothing is differentiated: the energy is compared a little to all sides, which gives the matrix of second order,
+    and its least eigenvalue has that sign, each coordinate being measured in a size of its own.
     """
-    step, here = mp.mpf(10) ** -12, energy(*place)
+    step, here, size = mp.mpf(10) ** -12, energy(*place), len(place)
 
     def gained(*ways: int) -> Any:
         moved = [x + step * way for x, way in zip(place, ways, strict=True)]
         return (energy(*moved) - here) / step**2
 
-    size, worst = len(place), 1
+    def twice(i: int, j: int) -> Any:
+        """The second order along the sum of two directions."""
+        way = [int(k == i) + int(k == j and j != i) for k in range(size)]
+        return gained(*way) + gained(*(-w for w in way))
+
+    alone = [mp.re(twice(i, i)) for i in range(size)]
+    matrix = mp.matrix(size, size)
     for i, j in combinations_with_replacement(range(size), 2):
-        one, other = ([int(k == n) for k in range(size)] for n in (i, j))
-        first, second = (gained(*way) + gained(*(-w for w in way)) for way in (one, other))
-        both = [a + b for a, b in zip(one, other, strict=True)]
-        mixed = (gained(*both) + gained(*(-w for w in both)) - first - second) / 2
-        least = first if i == j else (first + second) / 2 - mp.sqrt((first - second) ** 2 / 4 + mixed**2)
-        scale = abs(first) + abs(second) + abs(mixed) + abs(here) + mp.mpf(10) ** -6
-        worst = min(worst, 0 if abs(least) < scale * mp.mpf(10) ** -16 else 1 if least > 0 else -1)
-    return worst
+        matrix[i, j] = matrix[j, i] = alone[i] if i == j else (mp.re(twice(i, j)) - alone[i] - alone[j]) / 2
+    noise = (abs(here) + mp.mpf(10) ** -6) * mp.mpf(10) ** -16
+    rough = [max(abs(matrix[i, j]) for j in range(size)) for i in range(size)]
+    kept = [i for i in range(size) if rough[i] > noise]
+    scaled = mp.matrix(len(kept), len(kept))
+    for m, i in enumerate(kept):
+        for n, j in enumerate(kept):
+            scaled[m, n] = matrix[i, j] / mp.sqrt(rough[i] * rough[j])
+    least = min(mp.eigsy(scaled, eigvals_only=True)) if kept else mp.mpf(0)
+    if least < -(mp.mpf(10) ** -12):
+        return -1
+    return 1 if least > mp.mpf(10) ** -12 and len(kept) == size else 0
 
 
 def _always(sign: int) -> Predicate:
@@ -183,6 +195,13 @@ def _runs_away(facts: Judged) -> bool:
     matter = matter_of(facts.quantities["potential"])
     falling = [numbers for numbers, sign in _signs_by_numbers(facts) if sign == -1]
     return matter is None or grows_always(matter, _at_rest(facts), falling)
+
+
+def _kinetic_energy_is_positive(facts: Judged) -> bool:
+    """A minimum of the potential energy is stable only then; numbers without a meaning do not count."""
+    matter = matter_of(facts.quantities["potential"])
+    there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
+    return matter is None or inertia_is_positive(matter, _at_rest(facts), there)
 
 
 def _falls_as_told(facts: Judged) -> bool:
@@ -198,6 +217,10 @@ def _nothing_turns_it(facts: Judged) -> bool:
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts)]
     return matter is None or not is_turned_aside(matter, _at_rest(facts), there)
+
+
+def _numbers_here(facts: Judged) -> list[dict[Any, Expr]]:
+    return list(_numbers(set(_letters_here(facts))))
 
 
 def _at_rest(facts: Judged) -> dict[Any, Expr]:
@@ -286,7 +309,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "where": lambda facts: _under_its_condition(facts) and _all_are_told(facts),
     },
     "minima.stability": {
-        "stable": _always(1),
+        "stable": _both(_always(1), _kinetic_energy_is_positive),
         "unstable": _both(_always(-1), _runs_away),
         "stable_by_higher_order": _higher("stable"),
         "unstable_by_higher_order": _both(_higher("unstable"), _nothing_turns_it),
@@ -301,12 +324,17 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "open": _bordered(None),
     },
     "minima.stability_of_several": {
-        "stable": _always(1),
+        "stable": _both(_always(1), _kinetic_energy_is_positive),
         "unstable": _both(_always(-1), _runs_away),
         "unstable_along": _both(_always(-1), _runs_away, _falls_as_told),
         "level": _both(_always(0), _nothing_turns_it),
         "depends": _both(lambda facts: len(_signs(facts)) > 1, _runs_away),
     },
+    "minima.stability_on_constraints": {
+        word: lambda facts, sign=sign: signs_on_constraints(facts, _numbers_here(facts)) == sign
+        for word, sign in (("stable", {1}), ("unstable", {-1}), ("level", {0}))
+    }
+    | {"depends": lambda facts: len(signs_on_constraints(facts, _numbers_here(facts))) > 1},
 }
 
 

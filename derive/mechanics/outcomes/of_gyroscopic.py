@@ -204,7 +204,12 @@ def _rate(kind: str) -> Predicate:
     return is_so
 
 
+def _has_turning(facts: Judged) -> bool:
+    return not all(is_zero(entry) for entry in facts.inputs["turning"])
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
+    "gyroscopic.characteristic": {"generic": _has_turning, "plain": lambda facts: not _has_turning(facts)},
     "gyroscopic.frequency": {
         "oscillating": _frequency(1),
         "growing": _frequency(-1),

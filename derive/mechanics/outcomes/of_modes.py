@@ -15,7 +15,7 @@ from sympy import Abs, Dummy, Expr, I, ImmutableDenseMatrix, Integer, Poly, Rati
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.ranges import rational_in_range
 from derive.mechanics.outcomes.signs import always_sign, lasts, turned, vanishes
-from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
 from derive.steps.step import is_zero
 
 LITTLE = Rational(1, 10**15)
@@ -135,6 +135,19 @@ def _linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
     return is_so
 
 
+def _drifts_as_told(facts: Judged, outcome: str) -> bool:
+    """That no force acts to any order needs equations that leave nothing of a uniform motion, in numbers."""
+    if "drift" not in facts.inputs:
+        return True
+    left = facts.inputs["left"]
+    letters = sorted(set().union(*(each.free_symbols for each in left)), key=str)
+    for n in (1, 2):
+        point = {s: rational_in_range(s, Rational(prime(5 + 3 * i + n), 7 + n)) for i, s in enumerate(letters)}
+        if any(abs(each.xreplace(point).evalf(30)) > LITTLE for each in left):
+            return False
+    return bool(left)
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "linearised.equation": {
         "generic": _linear(displaced=False, lossy=False, driven=False),
@@ -163,3 +176,5 @@ _TABLE: dict[str, dict[str, Predicate]] = {
 
 for _rule, _predicates in _TABLE.items():
     outcomes_of(_rule, _predicates)
+for _rule in ("modes.frequency", "modes.shape"):
+    told_by(_rule, _drifts_as_told)

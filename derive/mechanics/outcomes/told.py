@@ -17,7 +17,7 @@ from derive.algebra.expansion import Approach
 from derive.algebra.expressions import AXES, PLUS_MINUS, TIME, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.mechanics.outcomes.signs import MARK_OF, is_so
-from derive.steps.known_numbers import sign_known
+from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, told_by
 from derive.steps.record import assumed
 from derive.steps.step import is_zero
@@ -227,12 +227,17 @@ def _word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def is_a_root_just_where_told(facts: Judged) -> bool:
-    """In numbers it is real, and positive where it must be, where the condition holds and nowhere else."""
+    """In numbers it is real, and positive where it must be, where the condition holds and nowhere else.
+
+    Letters with a number have that: it may have decided what the condition would leave open.
+    """
     told, given, value = facts.inputs.get("condition"), facts.inputs.get("existing"), explicit(facts.result)
     conditions = [explicit(each.residual) for each in (told, given) if each is not None]
     letters = letters_of(value).union(*map(letters_of, conditions))
-    for point in islice(points(letters, seed_of(value)), POINTS):
+    known = {letter: number for letter in letters if not (number := with_numbers(letter)).free_symbols}
+    for drawn in islice(points(letters, seed_of(value)), POINTS):
         try:
+            point = {**drawn, **known}
             number = value_at(value, point)
             if given is not None and not is_so(given, point):
                 continue
@@ -387,6 +392,11 @@ _TABLE: dict[str, Told] = {
     "roots.roots_absent": _as_asked_for,
     "extrema.place": _there_where_told,
     "solving.solved_for": _says_what_it_divides_by,
+    "kept.acceleration": lambda facts, outcome: (
+        _a_second_rate(facts, outcome) and _says_what_it_divides_by(facts, outcome)
+    ),
+    "kept.multiplier": _says_what_it_divides_by,
+    "canonical.rate_by_momenta": _says_what_it_divides_by,
     "limits.limiting_case": _goes_where_it_is_said,
     "numbers.value": given_as_the_condition_has_it,
     "minima.stability_of_several": _about_an_energy,
@@ -402,7 +412,6 @@ _TABLE: dict[str, Told] = {
     "roots.one_of_two": _a_root_of_its_sign,
     "conditions.where": _word_of_its_mark,
     "cones.vector_component": _component_of_its_letter,
-    "kept.acceleration": _a_second_rate,
     "damped.frequency": _positive_where_real,
     "modes.frequency": _positive_where_real,
     "effective.value_kept": _of_its_coordinate,

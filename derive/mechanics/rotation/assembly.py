@@ -35,6 +35,7 @@ from derive.mechanics.bodies.equimomental import Particles, counted_from, square
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, place_of
+from derive.mechanics.bodies.possible import check_parts, require_positive
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.rotation.added_moments import moment_of_parts
 from derive.mechanics.rotation.inertia import inertia_tensor
@@ -116,6 +117,8 @@ class Composite(Body):
         self.given_mass = mass
         if is_zero(self.mass):
             raise Rejected(Complaint("no-mass", "what is cut out of this body has all of its mass"))
+        check_parts(self.parts)
+        require_positive(self.name, "mass", self.mass)
 
     @cached_property
     def mass(self) -> Expr:

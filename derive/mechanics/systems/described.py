@@ -147,6 +147,15 @@ def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]
     return [asked[i] for i in moving_alone(of, [places[i] for i in asked])]
 
 
+def conditions_that_nothing_keeps(of: plain.Description) -> list[plain.Condition]:
+    """Those whose gradient vanishes wherever they hold."""
+    if not any(each.multiplier is not None for each in of.conditions):
+        return []
+    from derive.witness.constraints import without_gradient
+
+    return [of.conditions[i] for i in without_gradient(of)]
+
+
 def _field(charge: Charge) -> tuple[Expr, ...]:
     zero = Integer(0)
     return charge.magnetic or ((zero,) if len(charge.at.components) == 2 else (zero, zero, zero))

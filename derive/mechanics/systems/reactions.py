@@ -26,6 +26,7 @@ from derive.mechanics.systems.gradients import gradient_length
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.mechanics.systems.rigid import by_squares
 from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import told_of_divisors
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 
@@ -224,6 +225,7 @@ def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Qu
             "constraint": lambda value: _keeps_holding(problem, {**found, rate(q, 2): value}),
         },
         outcome=lambda value: "zero" if value == 0 else "generic",
+        telling=Telling(formulas=told_of_divisors([found[rate(p, 2)] for p in problem.moving])),
         key=f"acceleration_{q.name}",
         kind=_kind_of_acceleration(coordinate.kind),
         parents=[*problem.equations, *rates],
@@ -245,7 +247,7 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
         routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
         outcome=lambda value: "zero" if value == 0 else "generic" if is_force else "multiplier",
         telling=Telling(
-            formulas=shown,
+            formulas={**told_of_divisors([found[each.force]]), **shown},
             judged_by={"condition": each.residual, "place": _places(problem) if length is not None else ()},
         ),
         key=each.force.name,

@@ -18,11 +18,18 @@ from derive.algebra.expressions import TIME, Factors, Relation, Terms, column, e
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
+from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
-from derive.mechanics.systems.described import Described, described, places_that_move_alone
+from derive.mechanics.systems.described import (
+    Described,
+    conditions_that_nothing_keeps,
+    described,
+    places_that_move_alone,
+)
 from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
+from derive.steps.known_numbers import taken_positive
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Fact, Quantity, is_zero
 from derive.witness import description as plain
@@ -49,6 +56,7 @@ class Particle:
             message = "`Particle` needs the expression of a mass and a place that `point` or `place` gives"
             raise Rejected(Complaint("wrong-argument", message))
         require_constant("Particle", "mass", self.mass)
+        require_positive("`Particle`", "mass", self.mass)
 
 
 @dataclass(frozen=True)
@@ -225,6 +233,9 @@ class System:
         for placed in self.bodies:
             if placed.body.mass is None:
                 raise Rejected(Complaint("wrong-argument", f"`System` needs the mass of {placed.body.name}"))
+        for mass, _ in self.masses:
+            if taken_positive(explicit(mass)) != 1:
+                raise Rejected(Complaint("no-such-body", f"a mass of a `System` must be positive, but {mass} is not"))
         if len(self.weights) > 1:
             raise Rejected(Complaint("wrong-argument", "a `System` has one weight, that of all its particles"))
         if len({len(place.components) for place in self.places}) > 1:
@@ -238,6 +249,7 @@ class System:
         self._check_partners()
         for condition in self.conditions:
             _check_kept(condition)
+        self._check_gradients()
         letters = [each.force.name for each in self.constraints]
         if len(set(letters)) < len(letters):
             message = "two constraints of this `System` have forces of one letter"
@@ -269,6 +281,14 @@ class System:
             where = ", ".join(map(str, place))
             message = f"the {what} at ({where}) acts on no particle: that place moves with no body and no particle here"
             raise ActsOnNothing.of(part, Complaint("which-body", message, help=WHICH_BODY[what]))
+
+    def _check_gradients(self) -> None:
+        """A force keeps a constraint along its gradient, which does not vanish where the constraint holds."""
+        for lost in conditions_that_nothing_keeps(self.described.description):
+            part = next((each for each in self.constraints if each.force == lost.multiplier), None)
+            message = f"the gradient of {lost.residual} vanishes wherever it is zero, so no force can keep it at zero"
+            help_line = "without a square it can be kept: `x - y` in place of `(x - y)**2`"
+            raise ActsOnNothing.of(part, Complaint("constrained", message, help=help_line))
 
     def _check_partners(self) -> None:
         """A force in proportion to a force of constraint acts between two: the opposite one acts on the other."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from decimal import Decimal
 from enum import IntEnum, auto
 from typing import Any
 
@@ -46,12 +45,28 @@ from derive.render.notation.layout import (
 def decimal(number: Rational) -> Layout:
     """1.5, as it was written, not 3/2; a third stays a fraction; 2.657*10^-26 with its power of ten."""
     sign = (MINUS,) if number < 0 else ()
-    if set(factorint(number.q)) - {2, 5}:
+    places = _places(number.q)
+    if places is None:
         return row(*sign, Fraction(Digits(str(abs(number.p))), Digits(str(number.q))))
     power, front = _power_of_ten(abs(number))
-    places = max(factorint(front.q).values(), default=0)
-    digits = Digits(f"{Decimal(front.p) / front.q:.{places}f}")
+    digits = Digits(_point_before(_places(front.q) or 0, front))
     return row(*sign, digits, TIMES, times_ten_to(power)) if power else row(*sign, digits)
+
+
+def _places(denominator: int) -> int | None:
+    """How many places a decimal has behind the point; nothing where they do not end. Large numbers are not factored."""
+    found = {}
+    for prime in (2, 5):
+        found[prime] = 0
+        while denominator % prime == 0:
+            denominator, found[prime] = denominator // prime, found[prime] + 1
+    return max(found.values()) if denominator == 1 else None
+
+
+def _point_before(places: int, number: Rational) -> str:
+    """All digits of a decimal, with the point before the last places."""
+    digits = str(number.p * 10**places // number.q).rjust(places + 1, "0")
+    return f"{digits[:-places]}.{digits[-places:]}" if places else digits
 
 
 def unit_behind_number(name: str) -> Layout:
@@ -68,14 +83,17 @@ def rounded_number(text: str) -> Layout:
 
 
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:
-    """Of what is very small, or very large and round: the power of ten apart, one digit before the point."""
+    """Of what is very small, or very large and round: the power of ten apart, one digit before the point.
+
+    Round is what has at most four digits before its zeros, or not more digits than zeros.
+    """
     power = 0
     while number and number * Integer(10) ** -power < 1:
         power -= 1
     while number * Integer(10) ** -power >= 10:
         power += 1
     front = number * Integer(10) ** -power
-    is_round = number.q == 1 and number.p % 10 ** max(power - 3, 0) == 0
+    is_round = number.q == 1 and number.p % 10 ** max(power + 1 - max(4, power // 2), 0) == 0
     return (power, front) if power < -4 or power > 6 and is_round else (0, number)
 
 

@@ -174,7 +174,11 @@ class Answers:
         for name, q in self.coordinates.items():
             if L.has(q.rate) and not L.has(q.symbol) or name in letters:
                 own = None if name in self.kept else letters.get(name) or constant(f"p_{name}")
-                found[name] = conserved(self.lagrangian, q, value=own)
+                try:
+                    found[name] = conserved(self.lagrangian, q, value=own)
+                except Rejected as refused:
+                    if name in letters or any(each.code != "not-cyclic" for each in refused.complaints):
+                        raise  # else a force acts along it, so its momentum is not constant
         return found
 
     @cached_property
@@ -236,11 +240,13 @@ class Answers:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
         is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
+        is_pushed = is_driven or bool(self.system.given_forces)
+        if self.system.constraints:  # a force of constraint may act along a cyclic coordinate
+            return self.lagrangian if is_pushed else self.potential_energy
         for momentum in self.cyclic.values():
             assume(Relation(momentum.symbol, ">" if momentum.symbol.is_positive else "!=", Integer(0)))
         if self.cyclic and len(self.cyclic) < len(self.coordinates) or is_driven and len(self.coordinates) == 1:
             return self.effective_potential
-        is_pushed = is_driven or bool(self.system.given_forces)
         return self.lagrangian if is_pushed else self.potential_energy
 
     @cached_property

@@ -140,6 +140,10 @@ class DescribedBody:
     def body(self) -> Body:
         """The body itself; what is said of it is said where it is described."""
         with told_at(self.place):
+            for part in self.parts:  # once more, now that the numbers of the letters are known
+                body: Body = part.body if isinstance(part, PlacedPart) else part
+                if is_dataclass(type(body)):
+                    body.check_sizes()
             if self.is_made_of_parts or self.points:
                 whole: Body = Composite(*self.parts, mass=self.mass, points=self.points)
             else:
@@ -213,7 +217,7 @@ class Bodies:
 
     def place(self, components: Sequence[Tree], name: str) -> tuple[Expr, ...]:
         return tuple(
-            each([partial(self.letters.of_kind, node, f"a component of {name}", "length") for node in components])
+            each([partial(self.letters.constant, node, f"a component of {name}", "length") for node in components])
         )
 
     def _part(self, name: Word, written: PartKeys, whole_mass: Expr | None, has_others: bool) -> Body | PlacedPart:
@@ -232,7 +236,7 @@ class Bodies:
         elif written.of:
             rejected("missing-key", f"`{name}` says which point of it is held, but not where", written.of.place)
         for axis, node in written.turned.items():
-            angle = self.letters.of_kind(node, f"the angle of {name}", "angle")
+            angle = self.letters.constant(node, f"the angle of {name}", "angle")
             with told_at(axis.place):
                 part = part.turned(str(axis), angle)
         with told_at(name.place):
@@ -281,7 +285,7 @@ class Bodies:
                 message = f"{shape.name} needs {wanted} lengths as `{name}`, not {len(node)}"
                 rejected("wrong-length", message, written.places[name])
             return tuple(each([partial(self.letters.value, item, f"each of {name}", kind) for item in node]))
-        read = self.letters.of_kind if name == "foot" else self.letters.value
+        read = self.letters.constant if name == "foot" else self.letters.value
         return read(node, name, kind)
 
     # -- position maps --------------------------------------------------------------------------------------------
@@ -339,7 +343,7 @@ class WithVariables(InLetters):
         refused: Rejected | None = None
         for kind in ("length", "angle"):
             try:
-                lower, upper = each([partial(self.of_kind, end, f"a limit of {name}", kind) for end in written])
+                lower, upper = each([partial(self.constant, end, f"a limit of {name}", kind) for end in written])
             except Rejected as error:
                 if any(complaint.code != "wrong-kind" for complaint in error.complaints):
                     raise

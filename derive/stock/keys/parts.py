@@ -191,11 +191,11 @@ class ChargeKeys(Record):
         if self.electric:
             fields.append(("E", tuple(letters.of_kind(node, "electric", "electric field") for node in self.electric)))
         if isinstance(self.magnetic, Sequence):
-            three = tuple(letters.of_kind(node, "magnetic", "magnetic field") for node in self.magnetic.items)
+            three = tuple(letters.constant(node, "magnetic", "magnetic field") for node in self.magnetic.items)
             fields.append(("B", three))
         elif isinstance(self.magnetic, Scalar):
-            fields.append(("B", letters.of_kind(self.magnetic, "magnetic", "magnetic field")))
-        amount = letters.of_kind(_there(self.charge), "charge", "charge")
+            fields.append(("B", letters.constant(self.magnetic, "magnetic", "magnetic field")))
+        amount = letters.constant(_there(self.charge), "charge", "charge")
         at = places.at(_there(self.at), "at")
         if not fields:
             message = "a charge without a field has no effect"

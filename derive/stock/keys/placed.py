@@ -101,7 +101,7 @@ class MovingBodyKeys(BodyKeys):
         kind = "moment of inertia"
         moments = tuple(each([partial(letters.value, node, "moments", kind) for node in nodes if node]))
         mass = letters.value(self.mass, "mass", "mass")
-        middle = tuple(each([partial(letters.of_kind, node, "middle", "length") for node in self.middle]))
+        middle = tuple(each([partial(letters.constant, node, "middle", "length") for node in self.middle]))
         with told_at(self.places[""]):
             known: dict[str, Any] = {"centre": middle} if middle else {}
             body = RigidBody(mass, moments if len(moments) == 3 else moments[0], **known)
@@ -114,7 +114,7 @@ class MovingBodyKeys(BodyKeys):
             name = self.held.text.strip().replace("_", " ")
             return "centre" if name == CENTRE_OF_MASS else name.replace(" ", "_")
         assert isinstance(self.held, Sequence)
-        return tuple(each([partial(letters.of_kind, node, "held", "length") for node in self.held.items]))
+        return tuple(each([partial(letters.constant, node, "held", "length") for node in self.held.items]))
 
 
 @dataclass(frozen=True)

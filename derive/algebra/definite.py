@@ -1,0 +1,52 @@
+"""Whether a symmetric matrix is positive definite or semidefinite, by the signs of its minors (Sylvester)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import combinations
+
+from sympy import Expr, ImmutableDenseMatrix, MatrixBase
+
+from derive.algebra.amplitudes import determinant_of
+from derive.algebra.tidy import tidied
+
+Sign = Callable[[Expr], int | None]  # 1, 0 or -1; None where it depends on the letters
+
+
+def is_positive_definite(matrix: MatrixBase, sign: Sign) -> bool:
+    """Whether all leading principal minors are positive."""
+    return all(sign(minor) == 1 for minor in leading_minors(matrix))
+
+
+def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
+    """The determinants of the first row and column, of the first two, and so on."""
+    yield from (_minor(matrix, tuple(range(n))) for n in range(1, matrix.shape[0] + 1))
+
+
+def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
+    """The least sign that the quadratic form takes: 1 where it is positive definite, 0 where it is semidefinite, -1
+    where it is negative in some direction; None where the letters decide.
+
+    Semidefinite needs all principal minors, not the leading ones alone.
+    """
+    if is_positive_definite(matrix, sign):
+        return 1
+    signs = []
+    for minor in principal_minors(matrix):
+        signs.append(sign(minor))
+        if signs[-1] == -1:
+            return -1
+    return None if None in signs else 0
+
+
+def principal_minors(matrix: MatrixBase) -> Iterator[Expr]:
+    """Those of one row and column, then of two, and so on."""
+    size = matrix.shape[0]
+    for n in range(1, size + 1):
+        yield from (_minor(matrix, rows) for rows in combinations(range(size), n))
+
+
+def _minor(matrix: MatrixBase, rows: tuple[int, ...]) -> Expr:
+    if len(rows) == 1:
+        return matrix[rows[0], rows[0]]
+    return tidied(determinant_of(ImmutableDenseMatrix(matrix.extract(list(rows), list(rows)))))

@@ -1,0 +1,172 @@
+"""What cannot be a body: a hole outside of it, parts that share a volume, a map that covers places twice, a density
+that changes sign, a negative mass or size.
+
+Geometry is decided in numbers: points of one part are sought in another by Newton's method on its position map. A body
+is refused only where every draw of its letters shows it impossible, or the numbers of the problem do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from random import Random
+from typing import Any
+
+from sympy import Expr, Symbol, lambdify
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import explicit
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.charts import CLOSE, Chart, Place, draws
+from derive.mechanics.bodies.regions import Bounds
+from derive.steps.known_numbers import sign_known
+
+POINTS, TWINS = 40, 6  # of a part, and of a map
+APART = 1e-3  # of a range of a variable, by which two values of it differ
+
+
+def require_positive(body: str, role: str, value: Any) -> None:
+    """Refuse a mass or a size that is known to be zero or negative."""
+    if sign_known(explicit(value)) in (0, -1):
+        message = f"{body} needs a positive {role}, but {value} is not positive"
+        raise Rejected(Complaint("no-such-body", message))
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A part of a body: what it is called, 1 or -1 for what is cut out, what it fills, and its position map."""
+
+    called: str
+    sign: int
+    filling: str
+    position: ImmutableMatrix
+    limits: Bounds
+
+    @property
+    def letters(self) -> set[Symbol]:
+        names = {x for x, _, _ in self.limits}
+        found: set[Symbol] = {s for _, *ends in self.limits for end in ends for s in end.free_symbols}
+        found.update(self.position.free_symbols)
+        return found - names
+
+
+def _pieces(parts: Sequence[Any], sign: int = 1) -> Iterator[Piece]:
+    """The parts that are more than a particle, and those of parts that are made of parts."""
+    for part in parts:
+        for piece in _pieces(part.body.parts, sign * part.sign) if hasattr(part.body, "parts") else _own(part, sign):
+            if hasattr(part.body, "parts"):
+                piece = replace(piece, position=part.seen(piece.position))
+            yield piece
+
+
+def _own(part: Any, sign: int) -> Iterator[Piece]:
+    position, limits = part.body.map()
+    if limits:
+        yield Piece(str(part.body.called), sign * part.sign, part.body.filling, part.seen(position), limits)
+
+
+def check_parts(parts: Sequence[Any]) -> None:
+    """Refuse parts of which one is cut out where nothing is, or two of which fill the same volume."""
+    pieces = list(_pieces(parts))
+    filled = [piece for piece in pieces if piece.sign > 0]
+    for hole in (piece for piece in pieces if piece.sign < 0):
+        around = [piece for piece in filled if piece.filling == hole.filling]
+        if _always([hole, *around], lambda charts: _outside(charts[0], charts[1:])):
+            message = f"`{hole.called}` is cut out of the body, but some of it lies outside of the body"
+            raise Rejected(Complaint("no-such-body", message, help="a hole lies within what it is cut out of"))
+    solid = [piece for piece in filled if piece.filling == "volume"]
+    for i, one in enumerate(solid):
+        for other in solid[:i]:
+            if _always([one, other], lambda charts: _inside(charts[0], charts[1])):
+                message = f"`{other.called}` and `{one.called}` fill the same place"
+                help_line = "cut the one out of the other, or place them side by side"
+                raise Rejected(Complaint("no-such-body", message, help=help_line))
+
+
+def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Expr, negative_is_refused: bool) -> None:
+    """Refuse a map that covers places twice, and a density that is negative somewhere in the body.
+
+    negative_is_refused   whether a density that is negative everywhere is refused too
+    """
+    names = {x for x, _, _ in limits}
+    letters = (position.free_symbols | density.free_symbols) - names
+    letters |= {s for _, *ends in limits for end in ends for s in end.free_symbols} - names
+    drawn = list(draws(letters, [limits]))
+    charts = [Chart.of(position, limits, at) for at in drawn]
+    if charts and all(_covered_twice(chart) for chart in charts):
+        message = f"the map of this `{name}` covers places twice: different values of its variables give one place"
+        raise Rejected(Complaint("folded", message, help="give limits between which it covers each place once"))
+    signs = [_signs(density, chart, at) for chart, at in zip(charts, drawn, strict=True)]
+    if signs and all(found == {1, -1} for found in signs):
+        message = f"the density {density} of this `{name}` is negative in a part of the body"
+        raise Rejected(Complaint("no-such-body", message, help="a density is positive throughout the body"))
+    if signs and negative_is_refused and all(found == {-1} for found in signs):
+        raise Rejected(Complaint("no-such-body", f"the density {density} of this `{name}` is negative"))
+
+
+def _always(pieces: Sequence[Piece], shown: Callable[[list[Chart]], bool]) -> bool:
+    """Whether it is shown for all numbers that the letters are given."""
+    found = False
+    letters = {s for piece in pieces for s in piece.letters}
+    for at in draws(letters, [piece.limits for piece in pieces]):
+        charts = [Chart.of(piece.position, piece.limits, at) for piece in pieces]
+        try:
+            if not shown(charts):
+                return False
+        except (TypeError, ValueError, OverflowError, ZeroDivisionError):  # these numbers have no such body
+            continue
+        found = True
+    return found
+
+
+def _outside(hole: Chart, around: Sequence[Chart]) -> bool:
+    """Whether some point of the hole lies in no part."""
+    points = [hole.place(*at) for at in hole.points(POINTS, Random(1))]
+    outside = (point for point in points if all(next(chart.sought(point), None) is None for chart in around))
+    return len(list(islice(outside, 2))) == 2
+
+
+def _inside(one: Chart, other: Chart) -> bool:
+    """Whether some point of the one lies within the other, or the other way round."""
+    source = Random(2)
+    for own, chart in ((one, other), (other, one)):
+        if any(_strictly(chart, own.place(*at)) for at in own.points(POINTS, source)):
+            return True
+    return False
+
+
+def _strictly(chart: Chart, point: Sequence[float]) -> bool:
+    """Whether a point lies in a body, and not on its surface alone."""
+    return any(_is_between(chart, at) for at in chart.sought(point))
+
+
+def _is_between(chart: Chart, at: Place) -> bool:
+    pairs = [(x, *ends(*at[:i])) for i, (x, ends) in enumerate(zip(at, chart.ends, strict=True))]
+    return all(low + APART * (high - low) < x < high - APART * (high - low) for x, low, high in pairs)
+
+
+def _covered_twice(chart: Chart) -> bool:
+    """Whether different values of the variables give one place, for some of some places."""
+    try:
+        return any(_has_twin(chart, at) for at in chart.points(TWINS, Random(3), margin=0.1))
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        return False
+
+
+def _has_twin(chart: Chart, at: Place) -> bool:
+    widths = [high - low for low, high in (ends(*at[:i]) for i, ends in enumerate(chart.ends))]
+    for other in chart.sought(chart.place(*at)):
+        if _is_between(chart, other) and any(abs(x - y) > APART * w for x, y, w in zip(at, other, widths, strict=True)):
+            return True
+    return False
+
+
+def _signs(density: Expr, chart: Chart, at: Mapping[Symbol, Expr]) -> set[int]:
+    """The signs of a density within the body."""
+    value = lambdify(chart.names, explicit(density).xreplace(dict(at)), "math")
+    try:
+        found = [value(*point) for point in chart.points(POINTS, Random(4))]
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        return set()
+    return {1 if each > 0 else -1 for each in found if abs(each) > CLOSE * max(map(abs, found))}
