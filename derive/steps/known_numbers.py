@@ -79,10 +79,10 @@ def _sign_of_factor(factor: Expr) -> int | None:
     return 1 if approximate > 0 else -1
 
 
-def may_vanish(value: Expr) -> Relation | None:
-    """What must not vanish where one divides by a value: those of its factors that nothing decides."""
-    factors = [f.as_base_exp()[0] for f in Mul.make_args(factored(tidied(value)))]
-    unsure = [f for f in factors if sign_known(f) is None and not f.is_nonzero]
+def may_vanish(*values: Expr) -> Relation | None:
+    """What must not vanish where one divides by these values: those of their factors that nothing decides."""
+    factors = [f.as_base_exp()[0] for value in values for f in Mul.make_args(factored(tidied(value)))]
+    unsure = [f for f in dict.fromkeys(factors) if sign_known(f) is None and not f.is_nonzero]
     return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
 
 

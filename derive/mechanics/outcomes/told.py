@@ -385,6 +385,10 @@ def _functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     return all(any(is_zero(diff(residual, letter) + f) for f in along) for letter in facts.inputs["letters"])
 
 
+def _both(one: Told, other: Told) -> Told:
+    return lambda facts, outcome: one(facts, outcome) and other(facts, outcome)
+
+
 _TABLE: dict[str, Told] = {
     "forced.equation_of_motion": _functions_of_its_constraints,
     "superposition.motion": _starts_as_all_are_told,
@@ -392,9 +396,7 @@ _TABLE: dict[str, Told] = {
     "roots.roots_absent": _as_asked_for,
     "extrema.place": _there_where_told,
     "solving.solved_for": _says_what_it_divides_by,
-    "kept.acceleration": lambda facts, outcome: (
-        _a_second_rate(facts, outcome) and _says_what_it_divides_by(facts, outcome)
-    ),
+    "kept.acceleration": _both(_a_second_rate, _says_what_it_divides_by),
     "kept.multiplier": _says_what_it_divides_by,
     "canonical.rate_by_momenta": _says_what_it_divides_by,
     "limits.limiting_case": _goes_where_it_is_said,
