@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 from sympy import Expr
@@ -203,12 +203,12 @@ class Answers:
         found = next((parent for parent in tensor.parents if parent.key == f"{tensor.key}_{pair}"), None)
         return found or tensor_entry(tensor, pair, key=f"{tensor.key}_{pair}")
 
-    def moment_about(self) -> Quantity:
+    def moment_about(self, **named: str) -> Quantity:
         direction = self.asked.direction
         if direction is None:
             rejected("no-direction", "`moment_about` needs `direction`", None, "write `direction: [1, 1, 0]`")
         along = self.body.direction(direction.named) if direction.is_name else direction.components
-        return moment_about(self.inertia_tensor, along)
+        return moment_about(self.inertia_tensor, along, **named)
 
     def turned_tensor(self) -> tuple[Quantity, ...]:
         if not self.asked.turns:
@@ -240,6 +240,34 @@ class Answers:
             return moved_to(there, centre_of_mass(self.body, start), key="parallel_axes")
         central = inertia_tensor(self.body, "centre", key="central_tensor")
         return moved_from_centre(central, centre_of_mass(self.body, self.about), key="parallel_axes")
+
+    def called(self, name: Word, own: str, another: str, result: Result) -> Quantity:
+        """The answer of that name under the name of a result; `another` is the letter of its tensor."""
+        depends = {"about": result.about, "origin": result.origin, "direction": result.direction}
+        for given in (given for given, value in depends.items() if value is not None):
+            if not own.startswith(DEPENDING[given]):
+                rejected("unused-key", f"`{name}` does not depend on `{given}`", result.place, "leave it out")
+        key, letter, axis = str(result.name), result.symbol, own[-1]
+        if own == "inertia_tensor":
+            return inertia_tensor(self.body, self.about, **{"symbol": another, **letter}, key=key)
+        if own == "centre_of_mass":
+            return centre_of_mass(self.body, self.asked.origin, key=key, **letter)
+        if own.startswith("moment_of_inertia_"):
+            return moment_of_inertia(self.body, axis, self.about, **{"symbol": f"J_{axis}", **letter}, key=key)
+        if own.startswith("radius_of_gyration_"):
+            moment = moment_of_inertia(self.body, axis, self.about, f"J_{axis}", f"{key}_moment")
+            return radius_of_gyration(moment, key=key, **letter)
+        if own == "moment_about":
+            self.inertia_tensor = self._tensor_of(result, another)
+            return self.moment_about(key=key, **letter)
+        known = "a tensor, a moment of inertia, a radius of gyration, or a centre of mass"
+        rejected("wrong-argument", f"`answer` yields {known}, not `{name}`", name.place)
+
+    def _tensor_of(self, result: Result, another: str) -> Quantity:
+        """About the point of a result, under a key of its own; else that which parts ask for."""
+        if not result.about:
+            return inertia_tensor(self.body, self.about)
+        return inertia_tensor(self.body, self.about, symbol=another, key=f"{result.name}_tensor")
 
     def asks(self) -> dict[str, Callable[[], object]]:
         """Every name that a part may ask by."""
@@ -291,7 +319,28 @@ def _answers(described: DescribedBodies) -> dict[str, Answers]:
 
 def _by_name(described: DescribedBodies, of: Mapping[str, Answers]) -> ByName:
     asks = {f"{prefix}{name}": answer for prefix, one in of.items() for name, answer in one.asks().items()}
-    return ByName(asks, "a body", described.results, again=lambda: _by_name(described, _answers(described)))
+    return ByName(
+        asks,
+        "a body",
+        described.results,
+        again=lambda: _by_name(described, _answers(described)),
+        elsewhere=partial(_elsewhere, of=of),
+    )
+
+
+def _elsewhere(result: Result, of: Mapping[str, Answers]) -> Quantity:
+    """An answer about another point or axis than the one given."""
+    (wanted,) = result.of
+    prefix = max((prefix for prefix in of if wanted.startswith(prefix)), key=len, default=None)
+    if prefix is None:
+        rejected("no-such-answer", f"`{wanted}` is not an answer of one of these bodies", wanted.place)
+    asked = of[prefix].asked
+    about = asked.described.point(result.about) if result.about else asked.about
+    origin = asked.described.point(result.origin) if result.origin else asked.origin
+    there = Answers(replace(asked, about=about, origin=origin, direction=result.direction or asked.direction))
+    there.body = of[prefix].body
+    another = "I" if about == "centre" else "J" if asked.about == "centre" else "K"
+    return there.called(wanted, wanted.removeprefix(prefix), another, result)
 
 
 def every(described: DescribedBodies) -> dict[str, tuple[Quantity, ...] | DeriveError]:

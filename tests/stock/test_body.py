@@ -168,3 +168,52 @@ def test_a_tensor_is_found_directly_and_by_the_theorem_in_either_order(order: st
     found = solved(tmp_path, edited(CONE, ("answer: inertia_tensor", f"answer: {order}")))
     for name in ("inertia_tensor", "parallel_axes"):
         assert equal(found[name].value[2, 2], Rational(3, 10) * M * R**2)
+
+
+ELSEWHERE = "  results:\n    again: MADE\n"
+
+
+@pytest.mark.parametrize(
+    ("made", "value"),
+    [
+        ("{answer: moment_of_inertia_x, about: base}", M * (3 * R**2 + 2 * h**2) / 20),
+        ("{answer: moment_of_inertia_x, about: centre_of_mass}", 3 * M * (4 * R**2 + h**2) / 80),
+        ("{answer: radius_of_gyration_z, about: base, symbol: k_b}", sqrt(Rational(3, 10)) * R),
+        ("{answer: moment_about, direction: z}", Rational(3, 10) * M * R**2),
+        ("{answer: moment_about, about: base, direction: x}", M * (3 * R**2 + 2 * h**2) / 20),
+    ],
+)
+def test_another_point_or_axis_of_the_same_body_is_asked_about(made: str, value: object, tmp_path: Path) -> None:
+    """By hand: about a diameter of the base M (3 R^2 + 2 h^2)/20, about the centre of mass 3 M (4 R^2 + h^2)/80."""
+    text = edited(CONE, ("  about: apex\n", "  about: apex\n" + ELSEWHERE.replace("MADE", made)))
+    found = solved(tmp_path, edited(text, ("answer: inertia_tensor", "answer: [moment_of_inertia_x, again]")))
+    assert equal(found["again"].value, value)
+    assert equal(found["moment_of_inertia_x"].value, Rational(3, 20) * M * (R**2 + 4 * h**2))
+
+
+def test_a_second_tensor_has_its_own_name_and_is_used_in_results(tmp_path: Path) -> None:
+    """By hand: the moments across the axis about apex and centre differ by M (3 h/4)^2."""
+    made = """{answer: inertia_tensor, about: centre_of_mass}
+    first: {answer: moment_of_inertia_x, about: centre_of_mass}
+    shift: {value: (moment_of_inertia_x - first)/M}"""
+    text = edited(CONE, ("answer: inertia_tensor", "answer: [inertia_tensor, again, shift]"))
+    found = solved(tmp_path, edited(text, ("  about: apex\n", "  about: apex\n" + ELSEWHERE.replace("MADE", made))))
+    assert equal(found["again"].value[0, 0], 3 * M * (4 * R**2 + h**2) / 80)
+    assert equal(found["shift"].value, Rational(9, 16) * h**2)
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        ("{answer: moment_of_inertia_x, about: tip}", "has no point `tip`"),
+        ("{answer: moment_of_inertia_x, direction: x}", "`moment_of_inertia_x` does not depend on `direction`"),
+        ("{answer: centre_of_mass, about: base}", "`centre_of_mass` does not depend on `about`"),
+        ("{answer: principal_axes, about: base}", "`answer` yields a tensor"),
+        ("{answer: moment_of_inertia_x}", "`answer` needs `about`, `origin` or `direction`"),
+    ],
+)
+def test_what_cannot_be_asked_about_another_point_is_told(made: str, said: str, tmp_path: Path) -> None:
+    text = edited(CONE, ("answer: inertia_tensor", "answer: again"))
+    text = edited(text, ("  about: apex\n", "  about: apex\n" + ELSEWHERE.replace("MADE", made)))
+    found = messages(tmp_path, text)
+    assert any(said in message for message in found), found

@@ -36,6 +36,7 @@ class ByName:
     results       what is made of answers
     coordinates   those that results are about
     again         makes the same answers from the start, with nothing derived
+    elsewhere     the answer of a result about another point or axis than the one given
     """
 
     def __init__(
@@ -45,6 +46,7 @@ class ByName:
         results: Sequence[Result] = (),
         coordinates: Mapping[str, Coordinate] | None = None,
         again: Callable[[], ByName] | None = None,
+        elsewhere: Callable[[Result], Quantity] | None = None,
     ):
         self.asks, self.what, self.again = dict(asks), what, again
         self.results = {str(result.name): result for result in results}
@@ -52,7 +54,8 @@ class ByName:
         self._in_progress: list[str] = []
         self._sought: frozenset[str] = frozenset()
         each([partial(self._check_free, result.name) for result in results])
-        self.asks |= {name: partial(one.made, self.named, coordinates or {}) for name, one in self.results.items()}
+        given = (self.named, coordinates or {}, elsewhere)
+        self.asks |= {name: partial(one.made, *given) for name, one in self.results.items()}
 
     def answers(self, asked: Sequence[Word]) -> dict[str, object]:
         """Each answer that a part asks for; what is refused is refused where it is asked for, and all of it."""

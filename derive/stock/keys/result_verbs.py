@@ -23,6 +23,7 @@ class Verb:
     one_of        keys of which it needs at least one
     excludes      pairs of keys of which the second has no effect beside the first
     of_formulas   whether its own key holds formulas, and not names of answers
+    asks          whether it asks for an answer of its own, and is not made of one
     """
 
     yields: str
@@ -31,6 +32,7 @@ class Verb:
     one_of: tuple[str, ...] = ()
     excludes: tuple[tuple[str, str], ...] = ()
     of_formulas: bool = False
+    asks: bool = False
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -118,6 +120,13 @@ VERBS: Mapping[str, Verb] = {
         "from the Lagrangian what is conserved by the symmetry",
         {"values": "the shift of each coordinate, `{x: -y, y: x}`"},
         {"gained": "", **_LETTER},
+    ),
+    "answer": Verb(
+        "of a body the tensor, a moment or radius of gyration, or the centre of mass about another point or axis: "
+        "`{answer: moment_of_inertia_z, about: tip}`",
+        uses={"about": "a point", "origin": "a point", "direction": "an axis", **_LETTER},
+        one_of=("about", "origin", "direction"),
+        asks=True,
     ),
 }
 

@@ -45,11 +45,13 @@ from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.bodies import ENDS
 from derive.stock.keys.chosen_root import chosen_root
+from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.formulas import Formula, FoundLetter, formula
 from derive.stock.keys.result_verbs import VERBS, check_verb, schema_of_verbs
 from derive.stock.keys.result_words import function_or_name, names, nodes, value_or_infinity, value_put_in, whole_order
 from derive.stock.keys.starts import from_start
 
+TEXT_OF_ANSWER = as_written(TEXT.schema, "the name of an answer")
 NAMES = as_written(one_or_more(TEXT.schema), "the name of an answer, or a list of names")
 EXPRESSIONS = as_written(one_or_more(SCALAR.schema), "an expression, or a list of them")
 
@@ -105,6 +107,10 @@ class ResultKeys(Record):
         "`{x: -y, y: x}`",
         NAMES,
     )
+    answer: Tree | None = key("of a body, an answer about another point or axis than the one given", TEXT_OF_ANSWER)
+    about: Word | None = key("the point of `answer`", TEXT)
+    origin: Word | None = key("the point from which the centre of mass of `answer` is measured", TEXT)
+    direction: Tree | None = key("the axis of `answer: moment_about`", DIRECTION)
     gained: Tree | None = key("of `noether`: of which function the Lagrangian gains the rate; without it none", SCALAR)
     unknowns: Tree | None = key("a letter, a rate such as `theta_dot`, or several", EXPRESSIONS, called="for")
     results: Tree | None = key("answers that are put in", NAMES)
@@ -153,6 +159,9 @@ class ResultKeys(Record):
                 within=tuple(value_or_infinity(node, letters) for node in self.within),
                 case=str(self.case) if self.case else None,
                 root=self.root,
+                about=self.about,
+                origin=self.origin,
+                direction=Directions(letters).axis(self.direction, "direction") if self.direction else None,
                 symbols=names(self.symbol),
                 place=name.place,
             )
@@ -195,11 +204,25 @@ class Result:
     within: tuple[Expr, ...] = ()
     case: str | None = None
     root: Word | None = None
+    about: Word | None = None
+    origin: Word | None = None
+    direction: Axis | None = None
     symbols: tuple[Word, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
 
-    def made(self, answers: Callable[[Word], tuple[Quantity, ...]], coordinates: Mapping[str, Coordinate]) -> Any:
-        """By the verb, of the answers of those names."""
+    def made(
+        self,
+        answers: Callable[[Word], tuple[Quantity, ...]],
+        coordinates: Mapping[str, Coordinate],
+        elsewhere: Callable[[Result], Quantity] | None = None,
+    ) -> Any:
+        """By the verb, of the answers of those names; `elsewhere` asks about another point or axis."""
+        if VERBS[self.verb].asks:
+            if elsewhere is None:
+                message = f"`{self.verb}` asks about another point of a body, which is for `solve: body`"
+                rejected("wrong-argument", message, self.place)
+            with told_at(self.place):
+                return elsewhere(self)
         self._momenta_named(coordinates)
         if self.formula is not None:
             with told_at(self.place):

@@ -11,7 +11,7 @@ from derive.algebra.equality import equal
 from tests.stock.described import complaints, edited, solved
 
 g, h, v_0 = symbols("g h v_0", positive=True)
-alpha = symbols("alpha", real=True)
+alpha = symbols("alpha", positive=True)  # in (0, pi/2)
 
 FALL = """\
 title: A fall
