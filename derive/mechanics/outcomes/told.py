@@ -99,7 +99,8 @@ def _vanish_again(facts: Judged, outcome: str) -> bool:
     """Products of inertia vanish here too where a tensor about another point, from which this one is, has none."""
     tensor = facts.quantities["inertia"]
     before = [e.value for e in tensor.ancestors() if isinstance(e.value, MatrixBase) and e.value.shape == (3, 3)]
-    return facts.words["seen"] == "first" or any(each.is_diagonal() and each != tensor.value for each in before)
+    again = any(each.is_diagonal() and each != tensor.value for each in before)
+    return facts.words["seen"] == "first" or again and facts.words["seen"] == "kept"
 
 
 def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
@@ -189,7 +190,7 @@ def _as_asked_for(facts: Judged, outcome: str) -> bool:
     given = facts.inputs["equation"]
     beside = facts.inputs.get("elsewhere")
     vanishes = beside is None or is_zero(explicit(given).subs(beside.left, 0))
-    return vanishes and (facts.words["asked"] == "roots") == isinstance(given, Relation)
+    return vanishes and facts.words["asked"] == ("roots" if isinstance(given, Relation) else "zeros")
 
 
 def _as_asked(facts: Judged, outcome: str) -> bool:
@@ -338,6 +339,8 @@ def _functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """What each multiplier has as a factor in the equation is the derivative of a function that is told, by its
     coordinate or by its rate."""
     q = facts.inputs["coordinate"]
+    if facts.words["between"] not in ("coordinates", "rates", "both"):
+        return False
     by = rate(q) if facts.words.get("between") == "rates" else q
     told = [explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")]
     residual = explicit(facts.result).residual
