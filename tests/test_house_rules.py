@@ -486,7 +486,7 @@ def test_one_value_twice_is_found_in_a_pair(source: str, twice: bool) -> None:
 
 
 CARRIED = {  # facts that say where a value comes from; what does not fit together is refused where they are read
-    "bodies and points, which `united` compares": {"OfBody", "AboutPoint", "CountedFrom", "Integrated", "PrincipalOf"},
+    "bodies and points, which `united` compares": {"OfBody", "AboutPoint", "Integrated", "PrincipalOf"},
     "the matter or the law itself, of which the routes are made": {
         "Matter",
         "ReducedMatter",

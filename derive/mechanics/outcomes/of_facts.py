@@ -11,6 +11,7 @@ from sympy import Matrix, MatrixBase, Pow, Symbol, diff, factorial
 
 from derive.algebra.expressions import Partial, Relation, explicit, rate
 from derive.algebra.tidy import tidied
+from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.equations.energy_integral import ByEnergy
 from derive.mechanics.equations.linearised import Linear
 from derive.mechanics.equations.modes import Mode
@@ -157,6 +158,11 @@ def _steady(facts: Judged, fact: Steady) -> bool:
     return fits and all(s in held and is_zero(held[s] - value) for s, value in told.items())
 
 
+def _counted_from(facts: Judged, fact: CountedFrom) -> bool:
+    """The point that the sentence names is the one from which later steps count."""
+    return facts.words.get("start", fact.start.name) == fact.start.name
+
+
 def _disturbed(facts: Judged, fact: Disturbed) -> bool:
     return "xyz"[fact.axis] == facts.words["axis"]
 
@@ -180,6 +186,7 @@ _TABLE: dict[type[Any], Naming] = {
     ByEnergy: _by_energy,
     Steady: _steady,
     Disturbed: _disturbed,
+    CountedFrom: _counted_from,
 }
 
 for _kind, _predicate in _TABLE.items():

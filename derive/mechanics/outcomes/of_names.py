@@ -176,7 +176,7 @@ def _put_in(facts: Judged, value: Any) -> bool:
 def _stays_and_turns(facts: Judged, relation: Any) -> bool:
     """With what stays and what turns as the sentence says, the slope of L vanishes where the result does."""
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
-    if relation.mark != "=":
+    if relation.mark != "=" or relation.left == relation.right:
         return False
     if "lagrangian" not in facts.quantities:  # of an equation of motion, which holds the rates themselves
         q = facts.inputs["coordinate"]

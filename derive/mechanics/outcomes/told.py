@@ -100,7 +100,8 @@ def _vanish_again(facts: Judged, outcome: str) -> bool:
     """Products of inertia vanish here too where a tensor about another point, from which this one is, has none."""
     tensor = facts.quantities["inertia"]
     before = [e.value for e in tensor.ancestors() if isinstance(e.value, MatrixBase) and e.value.shape == (3, 3)]
-    return facts.words["seen"] == "first" or any(each.is_diagonal() and each != tensor.value for each in before)
+    again = any(each.is_diagonal() and each != tensor.value for each in before)
+    return facts.words["seen"] == "first" or again and facts.words["seen"] == "kept"
 
 
 def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
@@ -202,7 +203,7 @@ def _as_asked_for(facts: Judged, outcome: str) -> bool:
     beside, whole = facts.inputs.get("elsewhere"), explicit(given)
     whole = whole.residual if isinstance(whole, Relation) else whole
     vanishes = beside is None or all(is_zero(whole.subs(factor, 0)) for factor in Mul.make_args(beside.left))
-    return vanishes and (facts.words["asked"] == "roots") == isinstance(given, Relation)
+    return vanishes and facts.words["asked"] == ("roots" if isinstance(given, Relation) else "zeros")
 
 
 def _as_asked(facts: Judged, outcome: str) -> bool:
@@ -376,6 +377,8 @@ def _functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """What each multiplier has as a factor in the equation is the derivative of a function that is told, by its
     coordinate or by its rate; but for what friction, which is given by the multiplier, adds to it."""
     q = facts.inputs["coordinate"]
+    if facts.words["between"] not in ("coordinates", "rates", "both"):
+        return False
     by = rate(q) if facts.words.get("between") == "rates" else q
     told = [explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")]
     residual = explicit(facts.result).residual + explicit(facts.inputs.get("applied", Integer(0)))

@@ -13,11 +13,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from sympy import Expr, Integer, Matrix, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol
 
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.taylor import slope
+from derive.errors import Complaint, Unverified
 from derive.mechanics.systems.coordinates import by_functions_of_time
+from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Route
 
 Vector = tuple[Expr, ...]
@@ -62,6 +64,11 @@ class MagneticForce:
     charge: Expr
     place: Vector
     field: Vector
+
+    def __post_init__(self) -> None:
+        if coordinates_in(ImmutableDenseMatrix(self.field)):
+            message = "a magnetic field that changes from place to place is not uniform"
+            raise Unverified(Complaint("unverified", message))
 
     def load(self, moving: Sequence[Symbol]) -> Load:
         """By the vector product of SymPy, of which the potential makes no use: the one is checked by the other."""
