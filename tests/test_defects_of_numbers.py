@@ -262,3 +262,13 @@ def test_a_restoring_force_of_third_order_is_not_denied(tmp_path: Path) -> None:
         "potential: k*(x - y)**2/2"
     )
     assert "with no restoring force" in page(tmp_path, problem("m: mass, k: spring constant", free, "normal_modes"))
+
+
+def test_the_centre_of_mass_of_a_body_told_by_a_map_is_derived_with_named_points_too(tmp_path: Path) -> None:
+    """The integral of x * 2 x/L^2 from 0 to L is 2 L/3."""
+    given = (
+        "body:\n  position: [x, 0, 0]\n  limits: {x: [0, L]}\n  density: x\n  mass: M\n"
+        "  points: {light end: [0, 0, 0]}\norigin: light end"
+    )
+    found = page(tmp_path, problem("M: mass, L: length", given, "centre_of_mass", solve="body"))
+    assert "∫(0..L) x² dx" in found and "2/3 L (1, 0, 0)" in found

@@ -28,8 +28,8 @@ from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.body import RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.placed import PlacedBody
-from derive.mechanics.bodies.solids import Tube
-from derive.mechanics.bodies.thin_bodies import Annulus
+from derive.mechanics.bodies.solids import HalfCylinder, Tube
+from derive.mechanics.bodies.thin_bodies import Annulus, HalfDisc
 from derive.mechanics.systems.no_slip import Rolling
 from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import System
@@ -370,7 +370,8 @@ def _sides(body: Any, corners: tuple[Position, ...]) -> Iterable[Mark]:
 
 def _mapped(body: Any, placed: Any, at: Any, words: dict[str, Any]) -> list[Mark]:
     """A flat body in its own plane by its edge, which the ends of its map have."""
-    corners = tuple(dict.fromkeys(at(*spot) for spot in edge_of(body))) if placed.across == 2 and placed.point else ()
+    flat = HalfDisc(body.radius, body.mass) if isinstance(body, HalfCylinder) else body  # its section across its axis
+    corners = tuple(dict.fromkeys(at(*spot) for spot in edge_of(flat))) if placed.across == 2 and placed.point else ()
     return [SilhouetteMark(corners, **words)] if corners else []
 
 

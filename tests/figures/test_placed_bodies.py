@@ -7,7 +7,7 @@ from math import cos, hypot, sin
 from typing import Any
 
 import pytest
-from sympy import ImmutableDenseMatrix, Symbol, sqrt
+from sympy import ImmutableDenseMatrix, Integer, Symbol, sqrt
 from sympy import cos as cosine
 from sympy import sin as sine
 
@@ -25,6 +25,7 @@ from derive.mechanics import (
     Cuboid,
     Cylinder,
     Disc,
+    HalfCylinder,
     Particle,
     Rod,
     System,
@@ -206,3 +207,11 @@ def test_a_rod_whose_middle_goes_round_is_drawn_there(across: str, shown: type[M
     assert found is not None
     assert any(isinstance(mark, shown) for mark in found.marks)
     assert any(isinstance(mark, Circle) for mark in found.marks) == (shown is Circle)
+
+
+def test_a_half_cylinder_seen_along_its_axis_is_half_a_disc() -> None:
+    (mark,) = placed_outline(HalfCylinder(R, l, M).held(Integer(0), "circle_centre", point(0, 0), across="z"))
+    assert isinstance(mark, SilhouetteMark)
+    corners = [numbers(corner)[:2] for corner in mark.corners]
+    assert all(y >= -1e-9 and hypot(x, y) <= 1 + 1e-9 for x, y in corners)
+    assert max(y for _, y in corners) == pytest.approx(1)

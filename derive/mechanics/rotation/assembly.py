@@ -33,6 +33,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.equimomental import Particles, counted_from, squared_distance, summed, tensor_at
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
+from derive.mechanics.bodies.general import GeneralBody
 from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, place_of
 from derive.mechanics.bodies.possible import check_parts, require_positive
@@ -293,7 +294,7 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
         {"mass": body.mass if body.shares else body.whole_mass},
         key=key,
         kind="length",
-        parents=list(body.shares),
+        parents=[*body.shares, *(part.body.centre for part in body.parts if isinstance(part.body, GeneralBody))],
         routes={
             "integration": lambda r: (body.mass * r, body.over_mass(lambda at: at, start)),
             "particles": mean_place,
