@@ -5,11 +5,13 @@ Later steps rely on a fact as they rely on a value: what it says is found here o
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import Any
 
-from sympy import Matrix, MatrixBase, Pow, Symbol, diff, factorial
+from sympy import Abs, Add, Expr, Matrix, MatrixBase, Pow, Rational, Symbol, binomial, diff, factorial
 
 from derive.algebra.expressions import Partial, Relation, explicit, rate
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.equations.energy_integral import ByEnergy
@@ -31,6 +33,8 @@ from derive.steps.numeric import Extreme
 from derive.steps.outcomes import Judged, Naming, handed_on_by
 from derive.steps.step import is_zero
 from derive.witness.facts import Rest
+
+TRIED = 6  # places
 
 
 def _value(facts: Judged, role: str) -> Any:
@@ -70,8 +74,29 @@ def _force_of_its_constraint(facts: Judged, fact: ForceOf) -> bool:
 
 def _derivative(facts: Judged, fact: DerivativeOf) -> bool:
     of, q, order = facts.symbol.args
-    value = diff(explicit(fact.potential.value), fact.coordinate, int(order))
-    return (of, q) == (fact.potential.symbol, fact.coordinate) and is_zero(value - explicit(facts.result))
+    energy, found = explicit(fact.potential.value), explicit(facts.result)
+    if (of, q) != (fact.potential.symbol, fact.coordinate):
+        return False
+    if energy.has(Abs):
+        return _is_slope_in_numbers(energy, q, int(order), found)
+    return is_zero(diff(energy, fact.coordinate, int(order)) - found)
+
+
+def _is_slope_in_numbers(energy: Expr, q: Symbol, order: int, found: Expr) -> bool:
+    """Of an energy with distances |x - d|, by central differences at drawn places."""
+    near, seen = Rational(1, 10**9), 0
+    for point in islice(points(letters_of(energy) | letters_of(found), seed_of(energy)), TRIED):
+        try:
+            steps = range(order + 1)
+            there = [value_at(energy, {**point, q: point[q] + (n - Rational(order, 2)) * near}) for n in steps]
+            slope = Add(*((-1) ** (order - n) * binomial(order, n) * there[n] for n in steps)) / near**order
+            apart, size = slope - value_at(found, point), abs(slope) + 1
+        except (Undefined, NoNumber):
+            continue
+        if abs(apart) > size / 10**6:
+            return False
+        seen += 1
+    return seen > 0
 
 
 def _curvature(facts: Judged, fact: Extreme) -> bool:

@@ -191,15 +191,23 @@ def _stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def _momentum_there(facts: Judged, relation: Any) -> bool:
-    """The momentum of that letter, as it was found, in the steady motion."""
+    """The momentum of that letter, as it was found, in the steady motion; or a letter of the value that it keeps."""
     steady = next((f for f in facts.quantities["where"].facts if hasattr(f, "conditions")), None)
-    momenta = [e for e in facts.quantities["potential"].ancestors() if e.symbol == relation.left]
-    if steady is None or not momenta or relation.mark != "=":
+    behind = list(facts.quantities["potential"].ancestors())
+    if steady is None or relation.mark != "=":
         return False
-    moving = {rate(s): Integer(0) for s in momenta[0].coordinates}
-    moving |= {rate(s): v for s, v in steady.rates.items()} | dict(steady.values)
-    found = next((e for e in momenta if not isinstance(e.value, Symbol)), momenta[0])
-    return is_zero(explicit(found.value).subs(moving, simultaneous=True) - explicit(relation.right))
+    kept = [dict(e.step.roles) for e in behind if e.step.rule == "effective.value_kept"]
+    values = {roles["momentum"]: explicit(roles["value"]) for roles in kept}
+    stated = {relation.left: explicit(relation.right)}
+    for letter, value in {**values, relation.left: relation.left}.items():
+        momenta = [e for e in behind if e.symbol == letter]
+        if not momenta or not value.has(relation.left):
+            continue
+        moving = {rate(s): Integer(0) for s in momenta[0].coordinates}
+        moving |= {rate(s): v for s, v in steady.rates.items()} | dict(steady.values)
+        found = next((e for e in momenta if not isinstance(e.value, Symbol)), momenta[0])
+        return is_zero(explicit(found.value).subs(moving, simultaneous=True) - value.xreplace(stated))
+    return False
 
 
 def _there_where_it_exists(facts: Judged, exists: Any) -> bool:
