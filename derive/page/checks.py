@@ -24,8 +24,8 @@ from derive.steps.step import Step
 @dataclass(frozen=True)
 class Row:
     """Steps that follow each other, are of one rule and were checked alike: what they were made from, how many lines
-    were compared, and in words the second routes that were taken, followed by the motion if it was followed numerically,
-    and the checks that were made."""
+    were compared, and in words the second routes that were taken (then the motion, if it was followed numerically) and
+    the checks that were made."""
 
     steps: tuple[str, ...]
     made_from: tuple[str, ...]
