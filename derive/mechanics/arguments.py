@@ -14,7 +14,7 @@ from collections.abc import Sequence as SequenceType
 from dataclasses import fields, is_dataclass
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from sympy import Basic, Expr, Integer, Symbol
+from sympy import Basic, Expr, Integer, MatrixBase, Symbol
 
 from derive.algebra.expressions import explicit
 from derive.errors import Complaint, Rejected, Unverified
@@ -88,6 +88,8 @@ def _values(given: Any) -> Iterator[Any]:
     if isinstance(given, tuple | list):
         for each in given:
             yield from _values(each)
+    elif isinstance(given, MatrixBase):
+        yield from map(explicit, given)
     elif isinstance(given, Quantity):
         yield from _values(given.value)
     elif isinstance(getattr(given, "symbol", None), Symbol):
