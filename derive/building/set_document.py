@@ -25,7 +25,7 @@ from derive.steps.level import Level
 FONT = "math.woff"  # of formulas, see tools/webfont.py
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
-    "routes", "routes_proved", "checks", "agree", "agree_to_figures", "errata", "remarks",
+    "routes", "routes_proved", "checks", "witnesses", "agree", "agree_to_figures", "errata", "remarks",
 )  # fmt: skip
 
 

@@ -88,6 +88,8 @@ def _values(given: Any) -> Iterator[Any]:
     if isinstance(given, tuple | list):
         for each in given:
             yield from _values(each)
+    elif isinstance(given, MatrixBase):
+        yield from map(explicit, given)
     elif isinstance(given, Quantity):
         yield from _values(given.value)
     elif isinstance(getattr(given, "symbol", None), Symbol):

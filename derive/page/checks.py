@@ -1,7 +1,8 @@
 """How a problem was checked, counted and step by step: what its closing note and the report of its set tell.
 
 A step counts by the least sure of its lines and by the surest of its second routes and checks. Each of these counts for
-every result that it was taken to; a check, which puts a result to a test, is no second route and is counted apart.
+every result that it was taken to. A check, which puts a result to a test, is not a second route and is counted apart.
+The motion that the witness follows numerically is counted apart too.
 """
 
 from __future__ import annotations
@@ -23,7 +24,8 @@ from derive.steps.step import Step
 @dataclass(frozen=True)
 class Row:
     """Steps that follow each other, are of one rule and were checked alike: what they were made from, how many lines
-    were compared, and in words the second routes that were taken and the checks that were made."""
+    were compared, and in words the second routes that were taken (then the motion, if it was followed numerically) and
+    the checks that were made."""
 
     steps: tuple[str, ...]
     made_from: tuple[str, ...]
@@ -52,6 +54,7 @@ class Checks:
     lines: Mapping[Grade, int]
     routes: Mapping[Grade, int]
     checks: Mapping[Grade, int]
+    witnesses: int
     rows: tuple[Row, ...]
     agree: int
     agree_to_figures: int
@@ -77,6 +80,7 @@ class Checks:
             "routes": sum(self.routes.values()),
             "routes_proved": self.routes.get(Grade.PROVED, 0),
             "checks": sum(self.checks.values()),
+            "witnesses": self.witnesses,
             "claims_sampled": sum(counts.get(Grade.SAMPLED, 0) for counts in (self.lines, self.routes, self.checks)),
             "agree": self.agree,
             "agree_to_figures": self.agree_to_figures,
@@ -94,6 +98,7 @@ class Checks:
             "routes": sum(self.routes.values()),
             "routes_by_grade": _by_grade(self.routes, words.grades),
             "checks": sum(self.checks.values()),
+            "witnesses": self.witnesses,
             "steps_by_grade": _by_grade(self.steps, _columns_of_steps(words)),
             "compared": self.compared,
             "agree": self.agree + self.agree_to_figures,
@@ -115,6 +120,7 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
         lines=Counter(e.grade for e in lines),
         routes=Counter(e.grade for e in routes),
         checks=Counter(e.grade for e in checks),
+        witnesses=sum(e.compared is Compared.WITNESS for _, e in evidence),
         rows=_rows(steps, words),
         agree=outcomes.count("agrees"),
         agree_to_figures=sum(outcome.startswith("agrees to") for outcome in outcomes),
@@ -129,11 +135,17 @@ def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...
     return tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
 
 
+def is_witnessed(step: Step) -> bool:
+    """Whether the described motion was followed numerically, and agrees with the step."""
+    return any(e.compared is Compared.WITNESS for e in step.evidence)
+
+
 def _rows(steps: Sequence[Step], words: Phrases) -> tuple[Row, ...]:
     rows: list[Row] = []
     for step in steps:
         lines = sum(e.compared is Compared.LINES for e in step.evidence)
         routes, checks = (second_ways_of(step, sort, words) for sort in (Compared.ROUTE, Compared.CHECK))
+        routes += (words.labels["motion"],) if is_witnessed(step) else ()
         row = Row((step.key,), step.inputs, step.rule, step.grade, lines, routes, checks)
         if rows and rows[-1].is_like(row):
             rows[-1] = rows[-1].with_more(row)

@@ -39,6 +39,7 @@ class Explanation:
     lines: Mapping[str, int]
     routes: tuple[tuple[str, str], ...]
     checks: tuple[tuple[str, str], ...]
+    witnesses: tuple[tuple[str, str], ...]
     sentence: str
     own_words: Place | None
     outcomes: tuple[str, ...]
@@ -62,6 +63,7 @@ class Explanation:
             "lines": dict(self.lines),
             "routes": [{"words": words, "grade": grade} for words, grade in self.routes],
             "checks": [{"words": words, "grade": grade} for words, grade in self.checks],
+            "witnesses": [{"detail": detail, "grade": grade} for detail, grade in self.witnesses],
             "outcome": self.step.outcome,
             "outcomes": list(self.outcomes),
             "sentence": str(self.sentence),
@@ -90,6 +92,7 @@ def explanation_of(
         lines=Counter(e.grade.value for e in step.evidence if e.compared is Compared.LINES),
         routes=ways[Compared.ROUTE],
         checks=ways[Compared.CHECK],
+        witnesses=tuple((e.detail, e.grade.value) for e in step.evidence if e.compared is Compared.WITNESS),
         sentence=words.phrase(step),
         own_words=_own_words(step, problem),
         outcomes=tuple(words.rules[step.rule]),
@@ -173,7 +176,8 @@ class _Teller:
         compared = [self.line("lines", count=sum(self.of.lines.values()), counts=counts)] if self.of.lines else []
         routes = [self.line("route", words=words, grade=grades[grade]) for words, grade in self.of.routes]
         checks = [self.line("check", words=words, grade=grades[grade]) for words, grade in self.of.checks]
-        return [self.line("grade", grade=grades[self.step.grade.value]), *compared, *routes, *checks]
+        motions = [self.line("motion", grade=grades[grade]) for _, grade in self.of.witnesses]
+        return [self.line("grade", grade=grades[self.step.grade.value]), *compared, *routes, *checks, *motions]
 
     def wording(self) -> list[tuple[Inline, ...]]:
         stock = self.line("sentence", place=self.of.sentence_at, sentence=" ".join(self.of.sentence.split()))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 from sympy import Integer, symbols
 
-from derive.algebra.equality import LEAST_SURE_FIRST
+from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Evidence, Grade
 from derive.algebra.expressions import scalar
 from derive.course.names import EvidenceShown
 from derive.course.reference.errata import Erratum
@@ -42,6 +43,8 @@ def told(outcome: str, erratum: Any = None, remark: Any = None) -> Any:
 class OwnWords:
     """A route is told by its claim."""
 
+    labels: ClassVar = {"motion": "followed"}
+
     def route(self, step: Step, claim: str) -> str:
         return f"by {claim}"
 
@@ -65,6 +68,31 @@ def test_neighbours_of_one_rule_that_were_checked_alike_are_one_row() -> None:
         (("four",), ("by work",), ()),
     ]
     assert rows[0].lines == 2 * rows[2].lines
+
+
+def witnessed(made: Step) -> Step:
+    motion = Evidence("motion", Compared.WITNESS, Grade.SAMPLED, "12 states")
+    return replace(made, evidence=(*made.evidence, motion))
+
+
+def test_a_motion_that_was_followed_is_among_the_second_ways_of_a_row_and_counted_apart() -> None:
+    checks = counted(witnessed(step("one", "work")), step("two", "work"), step("three", "work", "sum"))
+    assert [(row.steps, row.routes, row.checks) for row in checks.rows] == [
+        (("one",), ("by work", "followed"), ()),
+        (("two",), ("by work",), ()),
+        (("three",), ("by work",), ("by sum",)),
+    ]
+    counts = checks.counts()
+    assert (counts["witnesses"], counts["routes"], counts["checks"], counts["claims_sampled"]) == (1, 3, 1, 0)
+
+
+def test_the_closing_note_says_how_often_the_motion_was_followed(words: Phrases) -> None:
+    def said(*steps: Step) -> str:
+        nodes = counted(*steps).closing(words, EvidenceShown.END)
+        return "".join(node.text for node in nodes if isinstance(node, Text))
+
+    assert "numerically for 1 step. Counted" in " ".join(said(witnessed(step("one", "work"))).split())
+    assert "numerically" not in said(step("one", "work"))
 
 
 def test_statements_are_counted_by_how_they_compare() -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import derive
+from derive.algebra.equality import Compared, Evidence, Grade
 from derive.building.solved import Solved
 from derive.course.problem import Problem
 from derive.page.explanation import Explanation, explanation_of, told_of
@@ -92,6 +94,18 @@ def test_the_number_of_an_answer_has_no_words_of_the_problem(block: Block) -> No
     assert told["why"].startswith("Part (c) asks for it.")
     assert "shown" not in told
     assert "wording:" not in told["words"]
+
+
+def test_a_motion_that_was_followed_is_told_with_its_grade(block: Block) -> None:
+    problem, solved = block
+    torque = next(step for step in solved.derivation.steps if step.key == "torque")
+    motion = Evidence("motion", Compared.WITNESS, Grade.SAMPLED, "12 states")
+    step = replace(torque, evidence=(*torque.evidence, motion))
+    found = explanation_of(step, problem, solved.derivation, solved.values, WORDS)
+    assert found.facts()["witnesses"] == [{"detail": "12 states", "grade": "sampled"}]
+    (checked,) = (lines for heading, lines in told_of(found, WORDS) if heading == "checked")
+    assert "followed numerically" in "".join(node.text for node in checked[-1] if isinstance(node, Text))
+    assert explained(block, "torque").facts()["witnesses"] == []
 
 
 def test_the_facts_are_those_of_the_text(block: Block) -> None:
