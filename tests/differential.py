@@ -5,7 +5,7 @@ second moments are those of the body; every position is a function of the time a
 numerical second derivative, and d'Alembert's principle sum of (m a - F) . dr/dq - lambda df/dq = 0 is the equation of
 motion of q. Springs, drag, weight and given forces act on positions.
 
-`python -m tests.differential --count 300 --seed 1` tries many systems; the suite tries a few.
+`python -P -m tests.differential --count 300 --seed 1` tries many systems; the suite tries a few.
 """
 
 from __future__ import annotations

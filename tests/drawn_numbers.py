@@ -1,6 +1,6 @@
 """Every problem of hw9 and the library with drawn numbers for its letters: no draw may end in an internal error.
 
-`python -m tests.drawn_numbers --draws 4 --seed 1` derives and prints all of them, and lists what is refused and what
+`python -P -m tests.drawn_numbers --draws 4 --seed 1` derives and prints all of them, and lists what is refused and what
 ends otherwise. Numbers lie in the declared ranges and fulfil what a page assumes; some are very large or very small.
 """
 
@@ -165,7 +165,7 @@ def with_values(text: str, values: Mapping[str, str]) -> str:
 
 
 def main(arguments: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(prog="python -m tests.drawn_numbers", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -P -m tests.drawn_numbers", description=__doc__)
     parser.add_argument("--draws", type=int, default=4)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("names", nargs="*", help="problems; all of them unless given")

@@ -12,7 +12,7 @@ MADE = runpy.run_path(str(ROOT / "tools" / "result_verbs.py"))
 
 def test_the_table_in_the_documentation_is_up_to_date() -> None:
     text = MADE["DOCUMENT"].read_text(encoding="utf-8")
-    assert MADE["updated"](text) == text, "run `python -m tools.result_verbs`"
+    assert MADE["updated"](text) == text, "run `python -P -m tools.result_verbs`"
 
 
 def test_every_verb_has_its_line_with_its_keys() -> None:
