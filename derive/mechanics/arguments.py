@@ -14,7 +14,7 @@ from collections.abc import Sequence as SequenceType
 from dataclasses import fields, is_dataclass
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from sympy import Basic, Expr, Integer, Symbol
+from sympy import Basic, Expr, Integer, MatrixBase, Symbol
 
 from derive.algebra.expressions import explicit
 from derive.errors import Complaint, Rejected, Unverified
@@ -88,12 +88,16 @@ def _values(given: Any) -> Iterator[Any]:
     if isinstance(given, tuple | list):
         for each in given:
             yield from _values(each)
+    elif isinstance(given, MatrixBase):
+        yield from map(explicit, given)
     elif isinstance(given, Quantity):
         yield from _values(given.value)
     elif isinstance(getattr(given, "symbol", None), Symbol):
         yield given.symbol
     elif is_dataclass(given):
         yield from _values(tuple(getattr(given, each.name) for each in fields(given)))
+    elif isinstance(given, MatrixBase):
+        yield from map(explicit, given)
     elif isinstance(given, Expr) or isinstance(given, int) and not isinstance(given, bool):
         yield explicit(Integer(0) + given)
 

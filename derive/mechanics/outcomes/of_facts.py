@@ -115,13 +115,13 @@ def _lowest_order(facts: Judged, fact: LowestOrder) -> bool:
 def _shape(facts: Judged, fact: Shape) -> bool:
     """The curvature at the place is the result, and vanishes on the border."""
     q, result = fact.coordinate, explicit(facts.result)
-    there = diff(explicit(fact.potential.value), q, 2).subs(q, fact.place)
+    there = tidied(diff(explicit(fact.potential.value), q, 2).subs(q, fact.place))
     on_border = fact.border is None or is_zero(result.subs(fact.border.left, fact.border.right))
     return on_border and is_zero(there - result)
 
 
 def _stable_where(facts: Judged, fact: StableWhere) -> bool:
-    there = diff(fact.energy, fact.coordinate, 2).subs(fact.coordinate, fact.place)
+    there = tidied(diff(fact.energy, fact.coordinate, 2).subs(fact.coordinate, fact.place))
     return fact.condition == facts.inputs["condition"] and is_zero(there - explicit(facts.result))
 
 

@@ -107,9 +107,7 @@ def described(
         energies=tuple(part.energy for part in parts if isinstance(part, StoredEnergy)),
         forces=tuple(_force(each, bodies) for part in parts if isinstance(part, GivenForce) for each in _pair(part)),
         drags=tuple(
-            plain.Drag(part.constant, _plain(part), _number(part.of, bodies))
-            for part in parts
-            if isinstance(part, Damper)
+            plain.Drag(part.constant, _place(part), _number(part.of, bodies)) for part in parts if isinstance(part, Damper)
         ),
         charges=tuple(plain.Charge(c.charge, c.at.components, c.electric, _field(c)) for c in charges),
         conditions=(*kept, *(condition_of(part) for part in parts if isinstance(part, Constraint))),
@@ -123,12 +121,12 @@ def _pair(force: GivenForce) -> list[GivenForce]:
 
 
 def _force(force: GivenForce, bodies: Sequence[PlacedBody]) -> plain.Force:
-    return plain.Force(force.components, _plain(force), _number(force.of, bodies))
+    return plain.Force(force.components, _place(force), _number(force.of, bodies))
 
 
-def _plain(acting: GivenForce | Damper) -> plain.Vector:
-    """The place itself."""
-    return tuple(c.xreplace(dict(acting.held)) for c in acting.at)
+def _place(acting: GivenForce | Damper) -> plain.Vector:
+    """Where it acts: on a body at that place of it, on a particle wherever this is."""
+    return acting.at if acting.point.held else acting.point.place
 
 
 def _number(of: Any, bodies: Sequence[PlacedBody]) -> int | None:

@@ -106,7 +106,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
 def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
     """v^2 of what is damped; of a particle of a body by the components of its velocity."""
-    if not damper.held:
+    if not damper.point.held:
         return squares_of_rates(damper.at, moving)
     squares = [Pow(v, 2) for v in damper.velocity(moving) if v != 0]
     return Terms(*squares) if len(squares) > 1 else squares[0] if squares else ZERO

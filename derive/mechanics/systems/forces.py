@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
@@ -16,7 +17,7 @@ from derive.algebra.expressions import TIME, TimeRate, explicit, rate
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Load, MagneticForce
-from derive.mechanics.systems.material import GROUND, Held, material_point
+from derive.mechanics.systems.material import GROUND, MaterialPoint, material_point
 from derive.mechanics.systems.places import Location
 from derive.steps.record import coordinates_in, require_constant
 from derive.steps.step import is_zero
@@ -31,44 +32,50 @@ ZERO = Integer(0)
 class GivenForce:
     """A force at a place, N, or along a coordinate what does the work Q dq: for an angle a couple, N m.
 
-    held   letters in the place that no displacement changes, with their values; see `material`
-    of     what it acts on, if that is stated: a body, a particle, or "massless"
-    by     what exerts it: a body or particle, on which the opposite force acts, or "ground"
+    of   what it acts on, if that is stated: a body, a particle, or "massless"
+    by   what exerts it: a body or particle, on which the opposite force acts, or "ground"
     """
 
     components: Vector
     at: Vector
-    held: Held = ()
     of: Any = None
     by: Any = None
 
+    @cached_property
+    def point(self) -> MaterialPoint:
+        """What it acts on, as that moves."""
+        return material_point("force", self.of, Location(self.at))
+
     def load(self, moving: Sequence[Symbol]) -> Load:
-        return Load(self.components, self.at, self.held)
+        return Load(self.components, self.point.place, self.point.held)
 
     @property
     def opposite(self) -> GivenForce | None:
         """The force on what exerts this one, at the same place."""
         if self.by is None or self.by == GROUND:
             return None
-        here = Location(tuple(c.xreplace(dict(self.held)) for c in self.at))
-        point = material_point("force", self.by, here)
-        return GivenForce(tuple(-c for c in self.components), point.place, point.held, self.by, self.of)
+        return GivenForce(tuple(-c for c in self.components), self.at, self.by, self.of)
 
 
 @dataclass(frozen=True)
 class Damper:
-    """A drag -c v against the velocity of a place, or the rate of a coordinate; `held` and `of` as for forces."""
+    """A drag -c v against the velocity of a place, or the rate of a coordinate; `of` as for forces."""
 
     constant: Expr
     at: Vector
-    held: Held = ()
     of: Any = None
 
+    @cached_property
+    def point(self) -> MaterialPoint:
+        """What it acts on, as that moves."""
+        return material_point("damping", self.of, Location(self.at))
+
     def velocity(self, moving: Sequence[Symbol]) -> Vector:
-        return tuple(explicit(TimeRate(c, *moving)).xreplace(dict(self.held)) for c in self.at)
+        return tuple(explicit(TimeRate(c, *moving)).xreplace(self.point.values) for c in self.point.place)
 
     def load(self, moving: Sequence[Symbol]) -> Load:
-        return Load(tuple(-self.constant * v for v in self.velocity(moving)), self.at, self.held)
+        drag = tuple(-self.constant * v for v in self.velocity(moving))
+        return Load(drag, self.point.place, self.point.held)
 
 
 @dataclass(frozen=True)
@@ -141,10 +148,11 @@ def force(components: Any, at: Location, of: Any = None, by: Any = None) -> Give
     by   the body or particle that exerts it, on which the opposite force acts; or "ground"
     """
     place = _place("force", at)
-    point = material_point("force", of, place)
-    return GivenForce(
-        _vector("force", "components", components, len(place.components)), point.place, point.held, of, by
-    )
+    found = GivenForce(_vector("force", "components", components, len(place.components)), place.components, of, by)
+    for each in (found, found.opposite):
+        if each is not None:
+            each.load(())  # which refuses what nothing can act on
+    return found
 
 
 def couple(torque: Any, on: Any) -> GivenForce:
@@ -162,8 +170,9 @@ def damping(constant: Any, at: Any, of: Any = None) -> Damper:
     """
     require_constant("damping", "constant", constant)
     if isinstance(at, Location):
-        point = material_point("damping", of, at)
-        return Damper(constant, point.place, point.held, of)
+        found = Damper(constant, at.components, of)
+        found.load(())  # which refuses what nothing can act on
+        return found
     if not isinstance(at, Coordinate | Expr) or not coordinates_in(ZERO + at):
         message = "`damping` acts against the velocity of a place or against the rate of a coordinate"
         raise Rejected(Complaint("wrong-argument", message))

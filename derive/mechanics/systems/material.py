@@ -6,7 +6,6 @@ on the particle that is there.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -68,9 +67,3 @@ def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
         return MaterialPoint(of.at.components)
     message = f"`{verb}` acts on a particle or on a body that is placed or held"
     raise Rejected(Complaint("wrong-argument", message, help='give one of these as `of=`, or "massless"'))
-
-
-def with_known(point: MaterialPoint, known: Mapping[Symbol, Expr]) -> MaterialPoint:
-    """The same where conditions give some coordinates by others."""
-    place = tuple(c.subs(known) for c in point.place)
-    return MaterialPoint(place, tuple((name, value.subs(known)) for name, value in point.held))

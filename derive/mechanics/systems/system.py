@@ -409,11 +409,11 @@ def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:
         return replace(part, at=_moved(part.at, known))
     if isinstance(part, StoredEnergy):
         return StoredEnergy(part.energy.subs(known))
-    if isinstance(part, GivenForce | Damper):
-        moved = {"at": tuple(c.subs(known) for c in part.at), "of": _with_known(part.of, known)}
-        moved["held"] = tuple((name, value.subs(known)) for name, value in part.held)
-        moved |= {"by": _with_known(part.by, known)} if isinstance(part, GivenForce) else {}
-        return replace(part, **moved)
+    if isinstance(part, GivenForce):
+        at = tuple(c.subs(known) for c in part.at)
+        return replace(part, at=at, of=_with_known(part.of, known), by=_with_known(part.by, known))
+    if isinstance(part, Damper):
+        return replace(part, at=tuple(c.subs(known) for c in part.at), of=_with_known(part.of, known))
     return part
 
 
