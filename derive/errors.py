@@ -1,4 +1,4 @@
-"""What can go wrong, as one tree, and how a fault is shown.
+"""All errors, as one tree, and how an error is shown.
 
     DeriveError                 nothing but these reaches the command line
     ├── Rejected                faults in a file that somebody wrote, all of them at once

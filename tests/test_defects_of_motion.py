@@ -380,6 +380,13 @@ def test_small_nutation_about_steady_precession_has_the_known_frequency(tmp_path
     assert equal(found["nutation"].value, sqrt(squared))
 
 
+def test_a_rod_points_upwards_where_it_is_not_turned_and_the_manual_says_so(tmp_path: Path) -> None:
+    found = answers(tmp_path, "f17_rod_points_up", ("turned: theta - pi/2", "turned: theta"))
+    assert agree(found, {"potential_energy": "m*g*(q*sin(alpha) + l/2*cos(theta))"}) == {}
+    manual = " ".join((ROOT / "docs" / "yaml-alone.md").read_text(encoding="utf-8").split())
+    assert "a `rod` points upwards from its `end` where `turned` is zero" in manual
+
+
 def test_every_problem_of_the_folder_is_tried() -> None:
     tried = {*VALUES, *SAID, *REFUSED, *CORRECTED, "f15_wavy_road_timeout", "f16_nutation_timeout"}
     assert {path.stem for path in FOLDER.glob("*.yaml")} == tried

@@ -1,6 +1,6 @@
-"""Write docs/errors.md: every code of a complaint, with its messages, its cause, its mend and an example.
+"""Write docs/errors.md: every code of an error, with its messages, its cause, its fix and an example.
 
-Messages are read off the code, examples are the golden complaints of the tests, cause and mend are tools/errors.yaml.
+Messages are read from the code, examples are golden complaints of the tests, cause and fix are in tools/errors.yaml.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ _SAID = re.compile(r"(?:error|warning)\[([a-z-]+)\]: ")
 _RAISING = {"Complaint", "Misfit", "complaint", "error", "rejected", "refuse", "refused", "_fault", "_stopped"}
 
 _BEGINNING = """\
-# Complaints and what mends them
+# Errors and how to fix them
 
 Made by `tools/errors.py` from the code, the tests and `tools/errors.yaml`; do not edit it.
 
-A complaint says where (file, line, column) and what is wrong, under a code such as `wrong-kind`; it shows the line, and
-helps where it can. All complaints about a file come at once; earlier outputs stay as they were. In the messages below,
-`…` stands for names and numbers of your problem.
+An error message says where (file, line, column) and what is wrong, under a code such as `wrong-kind`. It shows the
+line, and helps if it can. All errors of a file are reported at once; earlier outputs stay unchanged. In the messages
+below, `…` replaces names and numbers of your problem.
 """
 
 
@@ -140,7 +140,7 @@ def _entry(code: str, said: list[str]) -> str:
     lines = [f"## {code}", "", *(f"- {_in_words(message)}" for message in said[:MOST])]
     if said[MOST:]:
         lines.append(f"- and {len(said) - MOST} more like these")
-    lines += [*([""] if said else []), f"**Cause.** {cause}", "", f"**Mend.** {mend}", ""]
+    lines += [*([""] if said else []), f"**Cause.** {cause}", "", f"**Fix.** {mend}", ""]
     if code in examples():
         lines += ["```", examples()[code], "```", ""]
     return "\n".join(lines)

@@ -1,1 +1,1 @@
-"""What changed is made again: derivations, sheets and PDFs, in workers of their own."""
+"""Makes again what changed: derivations, sheets and PDFs, in workers of their own."""

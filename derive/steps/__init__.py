@@ -1,1 +1,1 @@
-"""A verified step, the one door through which it is made, and the walk back from the answers to what they rest on."""
+"""A verified step, the one function that makes it, and the path from the answers back to what they depend on."""

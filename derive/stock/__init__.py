@@ -1,1 +1,1 @@
-"""Scripts of the engine for a `solve:` that names one: the problem's `given:` then describes all there is."""
+"""Scripts of the engine, for a `solve:` that names one: `given:` then describes the whole system."""

@@ -73,7 +73,7 @@ class RotationKeys(Record):
         "the principal moments of inertia of any body, about x, y and z, in place of `body`",
         list_of(SCALAR, "three moments of inertia, `[A, B, C]`", length=3),
     )
-    about: Word | None = key("the point that stays at rest; without it the centre of mass", TEXT)
+    about: Word | None = key("the point that is fixed; by default the centre of mass", TEXT)
     rate: Tree | None = key("the constant rate at which it turns", SCALAR)
     along: Tree | None = key("the axis about which it turns: `diagonal`, `x` or components", DIRECTION)
     rates: tuple[Tree, ...] = key(
@@ -85,7 +85,7 @@ class RotationKeys(Record):
         list_of(SCALAR, "three angular speeds", length=3),
     )
     torque: tuple[Tree, ...] = key(
-        "the torque on a body that turns in any way, along its axes; without it none",
+        "the torque on a body that turns in any way, along its axes; by default none",
         list_of(SCALAR, "three torques", length=3),
     )
     results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)

@@ -91,7 +91,7 @@ class SystemKeys(Record):
     particles: Mapping[Word, ParticleKeys] = key("particles by name", PARTICLES)
     bodies: Mapping[Word, MovingBodyKeys] = key("rigid bodies by name", BODIES)
     rolling: Sequence[RollingKeys] = key("bodies that roll without slipping", ROLLING)
-    gravity: Tree | None = key("the acceleration of free fall, downwards; without it nothing has weight", SCALAR)
+    gravity: Tree | None = key("the acceleration of free fall, downwards; without gravity nothing has weight", SCALAR)
     springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
     central: Sequence[CentralKeys] = key("potential energies of the distance of two places", CENTRAL)
     lagrangian: Tree | None = key(
@@ -115,7 +115,7 @@ class SystemKeys(Record):
     )
     at: Tree | None = key(
         "the state about which equations are linearised and stability is judged: `{theta: 0}`, or one of the states of "
-        "rest by its name, `rest_3`; without it all of them",
+        "rest by its name, `rest_3`; by default all of them",
         as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
     )
     results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)

@@ -8,10 +8,10 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Expr, Matrix, MatrixBase, Pow, Rational, Symbol, binomial, diff, factorial
+from sympy import Abs, Add, Expr, Integer, Matrix, MatrixBase, Pow, Rational, Symbol, binomial, diff, factorial
 
 from derive.algebra.expressions import Partial, Relation, explicit, rate
-from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.samples import NoNumber, SamplePoint, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.equations.energy_integral import ByEnergy
@@ -83,12 +83,17 @@ def _derivative(facts: Judged, fact: DerivativeOf) -> bool:
     return is_zero(diff(energy, fact.coordinate, int(order)) - found)
 
 
+def _nearby(point: SamplePoint) -> Expr:
+    """A distance that is small beside every number of a point."""
+    return min((abs(number) for number in point.values()), default=Integer(1)) / 10**9
+
+
 def _is_slope_in_numbers(energy: Expr, q: Symbol, order: int, found: Expr) -> bool:
     """Of an energy with distances |x - d|, by central differences at drawn places."""
-    near, seen = Rational(1, 10**9), 0
+    seen = 0
     for point in islice(points(letters_of(energy) | letters_of(found), seed_of(energy)), TRIED):
         try:
-            steps = range(order + 1)
+            near, steps = _nearby(point), range(order + 1)
             there = [value_at(energy, {**point, q: point[q] + (n - Rational(order, 2)) * near}) for n in steps]
             slope = Add(*((-1) ** (order - n) * binomial(order, n) * there[n] for n in steps)) / near**order
             apart, size = slope - value_at(found, point), abs(slope) + 1
@@ -124,14 +129,14 @@ def _shape(facts: Judged, fact: Shape) -> bool:
 
 def _is_curvature_in_numbers(facts: Judged, energy: Expr, fact: Shape, found: Expr) -> bool:
     """Of an energy with distances |x - d| at the place, where this is a state of rest: by a central difference."""
-    near, seen, exists = Rational(1, 10**9), 0, facts.inputs.get("exists")
+    seen, exists = 0, facts.inputs.get("exists")
     conditions = [each for each in (exists, *assumed()) if each is not None]
     letters = letters_of(energy) | letters_of(found) | {s for c in conditions for s in letters_of(c.residual)}
     for point in islice(points(letters - {fact.coordinate}, seed_of(energy)), 4 * TRIED):
         try:
             if not all(is_so(each, point) for each in conditions):
                 continue
-            at = value_at(fact.place, point)
+            at, near = value_at(fact.place, point), _nearby(point)
             below, there, above = (value_at(energy, {**point, fact.coordinate: at + n * near}) for n in (-1, 0, 1))
             apart = (below - 2 * there + above) / near**2 - value_at(found, point)
         except (Undefined, NoNumber):

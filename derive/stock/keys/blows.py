@@ -84,7 +84,7 @@ class CollisionKeys(Record):
         "with `along`, the part of the speed of approach with which they part: 1 where the collision is elastic", SCALAR
     )
     letter: Word | None = key(
-        "the letter of the impulse, without it `K`; of what stays together its components are `K_x`, `K_y`",
+        "the letter of the impulse, by default `K`; of what stays together its components are `K_x`, `K_y`",
         TEXT,
         called="impulse",
     )

@@ -85,7 +85,7 @@ class ShapeKeys(Record):
     semi_axes: tuple[Tree, ...] = key("half the length of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
     corners: tuple[tuple[Tree, ...], ...] = key("where the corners of a triangle or a tetrahedron are", CORNERS)
     base: Tree | None = key("the base of a triangle, along x", SCALAR)
-    foot: Tree | None = key("over which x of its base the top of a triangle is; without it over the middle", SCALAR)
+    foot: Tree | None = key("over which x of its base the top of a triangle is; by default over the middle", SCALAR)
     side: Tree | None = key("the side of an equilateral triangle", SCALAR)
     position: tuple[Tree, ...] = key("where the points of any body are: formulas in the letters of `limits`", PLACE)
     limits: Mapping[Word, tuple[Tree, ...]] = key(

@@ -85,7 +85,7 @@ class SpringKeys(Record):
     constant: Tree | None = key("its spring constant", SCALAR, required=True)
     start: WrittenPlace | None = key("where it begins", PLACE, called="from", required=True)
     end: WrittenPlace | None = key("where it ends", PLACE, called="to", required=True)
-    length: Tree | None = key("its natural length; without it zero", SCALAR)
+    length: Tree | None = key("its natural length; by default zero", SCALAR)
     massless: Word | None = key("`true` where it may end at a joint without mass", TEXT)
 
     def part(self, places: Places, letters: InLetters) -> Part:
@@ -208,8 +208,8 @@ class ConstraintKeys(Record):
     """The keys of one of `constraints:`, which a force keeps."""
 
     condition: Tree | None = key("a formula of the coordinates, or linear in their rates", SCALAR, required=True)
-    equals: Tree | None = key("what it equals; without it zero", SCALAR)
-    force: Word | None = key("the letter of the force that keeps it, a multiplier; without it `lambda`", TEXT)
+    equals: Tree | None = key("what it equals; by default zero", SCALAR)
+    force: Word | None = key("the letter of the force that keeps it, a multiplier; by default `lambda`", TEXT)
 
     def part(self, places: Places, letters: InLetters) -> Part:
         condition, dimension = letters.read(_there(self.condition), "condition")

@@ -45,7 +45,7 @@ class MovingBodyKeys(BodyKeys):
     )
     centre: WrittenPlace | None = key("where its centre of mass is", PLACE)
     held: Tree | None = key("in place of it, the point of the body that is held, by name or components", POINT)
-    on: WrittenPlace | None = key("where that point is held; without it the origin", PLACE)
+    on: WrittenPlace | None = key("where that point is held; by default the origin", PLACE)
     across: str | None = key("in a plane, which of its axes lies across it", one_of(("x", "y", "z")))
 
     def part(self, name: Word, alone: bool, places: Places, letters: InLetters) -> Part:

@@ -50,7 +50,7 @@ AXIS_OF = {"x": X, "y": Y, "z": Z}
 class WayKeys(Record):
     """The keys of a place that is told by the way to it."""
 
-    start: Word | None = key("the place from which the way goes; without it the origin", TEXT, called="from")
+    start: Word | None = key("the place from which the way goes; by default the origin", TEXT, called="from")
     by: tuple[Tree, ...] = key("its components", COMPONENTS, required=True)
     axes: Word | None = key("the turning axes along which they are, by their name under `axes`", TEXT, called="in")
 
