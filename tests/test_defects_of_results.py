@@ -37,13 +37,13 @@ given:
   at: {x: 0, theta: 0}
   results:
     heavy: {limit: frequency_2, for: M, to: infinity}
-    period: {value: 2*pi/heavy, symbol: tau}
+    swing: {value: 2*pi/heavy, symbol: tau}
 statement: A cart of mass <<M>>, a pendulum with bob <<m>> on a rod <<l>>, and <<g>>.
 parts:
   - ask: Find the frequencies.
     answer: normal_modes
   - ask: What is the frequency for a heavy cart, and the period?
-    answer: [heavy, period]
+    answer: [heavy, swing]
 values: {M: 2 kg, m: 1 kg, l: 1 m, g: 9.81 m/s^2}
 """
 
@@ -103,8 +103,8 @@ def test_the_json_says_what_is_approximate(tmp_path: Path) -> None:
     data = json.loads(printed(tmp_path, PENDULUM_ON_CART, "json"))
     steps = {step["key"]: step for step in data["steps"]}
     assert steps["heavy"]["approximates"] == r"\omega_{2}" and not steps["heavy"]["about"]
-    assert steps["period"]["about"] and "about" not in steps["frequency_2"]
-    assert data["answers"]["period"]["text"].startswith("τ ≈ ")
+    assert steps["swing"]["about"] and "about" not in steps["frequency_2"]
+    assert data["answers"]["swing"]["text"].startswith("τ ≈ ")
 
 
 def test_everything_computed_from_an_approximation_is_approximate() -> None:

@@ -511,8 +511,13 @@ CARRIED = {  # facts that say where a value comes from; what does not fit togeth
         "Through",
         "WobbleOf",
         "Acting",
+        "Around",
+        "Described",
+        "Struck",
+        "Witness",
     },
-    "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Turning", "Roots"},
+    "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Turning", "Roots", "ValueOf"},
+    "numbers that a test of their own compares": {"WholeSwing"},
 }
 
 

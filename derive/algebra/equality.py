@@ -80,8 +80,7 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """What a piece of evidence is about: two lines of a chain, the result by another route through the physics, the
-    result put to a test, the described system followed in numbers, or nothing but what a name means."""
+    """What was compared: two lines, the result with another route, a test or the followed motion, or nothing."""
 
     LINES = "lines"
     ROUTE = "route"

@@ -33,6 +33,7 @@ JUDGES: Mapping[str, Judge] = {
     "linear_motion.solution": runs.solution,
     "equilibria.rest": small.rest,
     "minima.stability": small.stability,
+    "minima.stability_on_constraints": small.stability,
     "minima.stability_of_several": small.stability,
     "modes.frequency": small.frequency,
     "oscillations.frequency": small.frequency,

@@ -90,7 +90,6 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
         "mechanics.equations.stability:leading_order: order: At(energy, where.left, where.right) -> At(energy, where.right, where.left)",
         "mechanics.bodies.edged_bodies:Triangle._stands_on_x: name: x2.is_positive -> x2.is_negative",
         "mechanics.equations.modes:normal_modes: condition: turns and (not is_zero(together.turning + together.turning.T)) -> not (turns and (not is_zero(together.turning + together.turning.T)))",
-        "mechanics.equations.minima:_of_minors: comparison: sign == 1 -> sign != 1",
         "mechanics.bodies.edged_bodies:Tetrahedron.map: comparison: i == k -> i != k",
         "mechanics.bodies.mapping:spherical: order: (sin(down) * cos(about), sin(down) * sin(about), cos(down)) -> [sin(down) * sin(about), sin(down) * cos(about), cos(down)]",
         "mechanics.equations.minima:_of_one: and/or: place.rest is None and is_short -> place.rest is None or is_short",
@@ -272,7 +271,6 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
         "mechanics.equations.characteristic:_presentable: sign: column * ilcm(1, *(entry.q for entry in column)) -> -(column * ilcm(1, *(entry.q for entry in column)))",
         "mechanics.equations.zeros:_with_sine: comparison: sign_by_factors(value) != -1 -> sign_by_factors(value) == -1",
         "mechanics.equations.damped:_shape: law: lambda _: Amplitudes(*column) -> lambda *given: 2 * (lambda _: Amplitudes(*column))(*given)",
-        "mechanics.systems.blow:collision: order: Collision(start, end, normal, par ... er, (tuple(along), restitution)) -> Collision(end, start, normal, par ... er, (tuple(along), restitution))",
         "mechanics.systems.constraint:constraint: order: (explicit(ZERO + condition), explicit(ZERO + equals)) -> [explicit(ZERO + equals), explicit(ZERO + condition)]",
     ),
 }

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from sympy import Integer, Rational, cos, pi, sin, sqrt, symbols
+from sympy import Integer, cos, pi, sin, sqrt, symbols
 
 from derive.algebra.expressions import Relation
-from derive.errors import DeriveError
 from derive.mechanics import (
     Particle,
     System,
@@ -125,12 +124,3 @@ def test_a_rate_of_growth_is_an_eigenvalue_too() -> None:
     assert growth.step.outcome == "unstable"
     assert small.frequency(claim(growth))
     assert not small.frequency(claim(growth, outcome="stable"))
-
-
-def test_a_stable_equilibrium_of_negative_mass_is_refused_at_the_door() -> None:
-    x = coordinate("x")
-    system = System(
-        Particle(m - 2 * m * Rational(1, 1), point(x.symbol, 0)), spring(k, point(0, 0), point(x.symbol, 0))
-    )
-    with pytest.raises(DeriveError):
-        stability(potential_energy_of(system), {x: 0})

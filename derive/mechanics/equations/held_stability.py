@@ -141,10 +141,10 @@ class OnConstraints:
         alone = len(minors) == 1
         state = Relation(Amplitudes(*allowed.coordinates), "=", Amplitudes(*allowed.place.values()))
         moved = Amplitudes(*allowed.coordinates)
-        told = {"state": (state, state), "moving": (moved, moved)}
-        told |= {f"way_{n}": (Amplitudes(*way), Amplitudes(*way)) for n, way in enumerate(allowed.ways, 1)}
+        named: dict[str, Any] = {"state": state, "moving": moved}
+        named |= {f"way_{n}": Amplitudes(*way) for n, way in enumerate(allowed.ways, 1)}
         for constraint in self.constraints[:1]:
-            told["constraint"] = (constraint.relation, constraint.relation)
+            named["constraint"] = constraint.relation
 
         def along_curves(found: Any) -> tuple[Any, Any]:
             curved = list(leading_minors(allowed.along_curves()))
@@ -161,7 +161,7 @@ class OnConstraints:
             routes={"along_curves": along_curves},
             outcome={1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign],
             telling=Telling(
-                formulas=told,
+                named=named,
                 judged_by={
                     "coordinates": tuple(allowed.coordinates),
                     "place": tuple(allowed.place.values()),

@@ -156,7 +156,7 @@ def _drift(linear: Sequence[Quantity], together: Linear, root: RootOfPencil) -> 
         return {}
     time = stand_in("s")
     left = [value for column in root.columns for value in left_by_drift(linear, together, column, time)]
-    return {"drift": (Integer(0), Integer(0)), "left": tuple(left)} if all(map(is_zero, left)) else {}
+    return {"drift": Integer(0), "left": tuple(left)} if all(map(is_zero, left)) else {}
 
 
 def _frequency(
@@ -206,7 +206,8 @@ def _frequency(
         telling=Telling(
             points_to={"characteristic": characteristic},
             judged_by={**_judged_by(together), "left": drift.pop("left", ())},
-            formulas=told_where_positive(root.value) if root.sign is None else drift,
+            formulas=told_where_positive(root.value) if root.sign is None else {},
+            named=drift,
         ),
         key=f"{start}frequency_{n + 1}",
         kind="angular speed",
@@ -271,10 +272,9 @@ def _shape(
         routes={"motion": moving, "orthogonal": across},
         outcome=_shape_outcome(root, column, together.displacements),
         telling=Telling(
-            named={"moving": moved},
             points_to={"linear": linear[0]},
             judged_by={"squared": squared, **_judged_by(together), "left": drift.pop("left", ())},
-            formulas=drift,
+            named={"moving": moved, **drift},
         ),
         key=f"{start}mode_{n}",
         parents=[*linear, *before],

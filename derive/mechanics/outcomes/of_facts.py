@@ -24,13 +24,14 @@ from derive.mechanics.equations.stable_where import StableWhere
 from derive.mechanics.equations.steady import Steady
 from derive.mechanics.equations.substitution import WithMomenta
 from derive.mechanics.equations.wobble import Disturbed
-from derive.mechanics.outcomes.signs import same_equation
+from derive.mechanics.outcomes.signs import is_so, same_equation
 from derive.mechanics.systems.coordinates import OfCoordinate
 from derive.mechanics.systems.effective import Constant
 from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.mechanics.systems.reactions import ForceOf
 from derive.steps.numeric import Extreme
 from derive.steps.outcomes import Judged, Naming, handed_on_by
+from derive.steps.record import assumed
 from derive.steps.step import is_zero
 from derive.witness.facts import Rest
 
@@ -114,10 +115,31 @@ def _lowest_order(facts: Judged, fact: LowestOrder) -> bool:
 
 def _shape(facts: Judged, fact: Shape) -> bool:
     """The curvature at the place is the result, and vanishes on the border."""
-    q, result = fact.coordinate, explicit(facts.result)
-    there = tidied(diff(explicit(fact.potential.value), q, 2).subs(q, fact.place))
+    q, result, energy = fact.coordinate, explicit(facts.result), explicit(fact.potential.value)
     on_border = fact.border is None or is_zero(result.subs(fact.border.left, fact.border.right))
-    return on_border and is_zero(there - result)
+    if energy.has(Abs):
+        return on_border and _is_curvature_in_numbers(facts, energy, fact, result)
+    return on_border and is_zero(tidied(diff(energy, q, 2).subs(q, fact.place)) - result)
+
+
+def _is_curvature_in_numbers(facts: Judged, energy: Expr, fact: Shape, found: Expr) -> bool:
+    """Of an energy with distances |x - d| at the place, where this is a state of rest: by a central difference."""
+    near, seen, exists = Rational(1, 10**9), 0, facts.inputs.get("exists")
+    conditions = [each for each in (exists, *assumed()) if each is not None]
+    letters = letters_of(energy) | letters_of(found) | {s for c in conditions for s in letters_of(c.residual)}
+    for point in islice(points(letters - {fact.coordinate}, seed_of(energy)), 4 * TRIED):
+        try:
+            if not all(is_so(each, point) for each in conditions):
+                continue
+            at = value_at(fact.place, point)
+            below, there, above = (value_at(energy, {**point, fact.coordinate: at + n * near}) for n in (-1, 0, 1))
+            apart = (below - 2 * there + above) / near**2 - value_at(found, point)
+        except (Undefined, NoNumber):
+            continue
+        if abs(apart) > (abs(value_at(found, point)) + 1) / 10**6:
+            return False
+        seen += 1
+    return seen > 0
 
 
 def _stable_where(facts: Judged, fact: StableWhere) -> bool:

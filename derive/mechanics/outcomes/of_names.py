@@ -145,6 +145,37 @@ def _force_vanishes_there(facts: Judged, place: Any) -> bool:
     return place.mark == "=" and is_zero(_value(facts, "force").xreplace({place.left: explicit(place.right)}))
 
 
+def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
+    return dict(zip(facts.inputs["coordinates"], facts.inputs["place"], strict=True))
+
+
+def _on_the_constraints(facts: Judged, named: Any) -> bool:
+    """The coordinates, their values at rest, at which every constraint holds, or one of the constraints itself."""
+    there = _there_on_constraints(facts)
+    kept = all(is_zero(explicit(residual).xreplace(there)) for residual in facts.inputs["constraints"])
+    if not isinstance(named, Relation):
+        return kept and list(explicit(named)) == list(there)
+    if isinstance(explicit(named.left), MatrixBase):
+        return kept and dict(zip(explicit(named.left), explicit(named.right), strict=True)) == there
+    return kept and any(is_zero(explicit(named).residual - explicit(each)) for each in facts.inputs["constraints"])
+
+
+def _along_the_constraints(facts: Judged, way: Any) -> bool:
+    """To first order a displacement in this direction keeps every constraint."""
+    there = _there_on_constraints(facts)
+    slopes = [
+        sum(diff(explicit(residual), q) * dq for q, dq in zip(there, explicit(way), strict=True)).xreplace(there)
+        for residual in facts.inputs["constraints"]
+    ]
+    return all(map(is_zero, slopes))
+
+
+def _nothing_is_left(facts: Judged, drift: Any) -> bool:
+    """In a uniform motion along the zero mode nothing is left of the whole equations of motion."""
+    left = facts.inputs["left"]
+    return drift == 0 and bool(left) and all(is_zero(explicit(each)) for each in left)
+
+
 def _slope_vanishes_by(facts: Judged, letter: Any) -> bool:
     slope = diff(_value(facts, "quantity"), letter)
     return letter != facts.symbol and is_zero(slope.subs(letter, explicit(facts.result)))
@@ -336,6 +367,12 @@ _TABLE: dict[str, dict[str, Naming]] = {
     "equilibria.condition": {"steady": _only_coordinate},
     "equilibria.rest": {"steady": _only_coordinate},
     "minima.stability": {"steady": _only_coordinate, "place": _level_there("potential_here")},
+    "minima.stability_on_constraints": {
+        "state": _on_the_constraints,
+        "moving": _on_the_constraints,
+        "constraint": _on_the_constraints,
+        "way": _along_the_constraints,
+    },
     "minima.stability_of_several": {"moving": _falls_along, "direction": _falls_along},
     "potentials.extreme_value": {"place": _extreme_there},
     "potentials.leading_order": {"case": _flat_in_that_case},
@@ -359,7 +396,8 @@ _TABLE: dict[str, dict[str, Naming]] = {
     "damped.characteristic": {"trial": _trial(1, "exponent")},
     "gyroscopic.characteristic": {"trial": _trial(I, "omega")},
     "gyroscopic.motion": {"displacements": _moves_so, "first": _moves_as(0), "second": _moves_as(1)},
-    "modes.shape": {"moving": _moves_alone},
+    "modes.shape": {"moving": _moves_alone, "drift": _nothing_is_left},
+    "modes.frequency": {"drift": _nothing_is_left},
     "oscillations.frequency_squared": {
         "oscillator": _oscillator,
         "inertia": _divided_by,

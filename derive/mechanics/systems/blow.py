@@ -13,12 +13,13 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import unknown
+from derive.mechanics.systems.acted_on import ActsOnNothing
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.systems.described import Struck, places_that_move_alone
 from derive.mechanics.systems.material import material_point
 from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import ActsOnNothing, System
+from derive.mechanics.systems.system import System
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import is_zero
 from derive.witness import description as plain
@@ -75,7 +76,7 @@ def angular_impulse(amount: Any, on: Any) -> Impulse:
     """A given angular impulse, the integral of a torque over the short time of a blow, on an angle, N m s."""
     if not coordinates_in(ZERO + on):
         raise Rejected(Complaint("wrong-argument", f"`angular_impulse` turns something, but {on} does not move"))
-    return Impulse((ZERO + amount,), (ZERO + on,), (amount,))
+    return Impulse((ZERO + amount,), (ZERO + on,), given=(amount,))
 
 
 def collision(

@@ -107,7 +107,9 @@ def described(
         energies=tuple(part.energy for part in parts if isinstance(part, StoredEnergy)),
         forces=tuple(_force(each, bodies) for part in parts if isinstance(part, GivenForce) for each in _pair(part)),
         drags=tuple(
-            plain.Drag(part.constant, _place(part), _number(part.of, bodies)) for part in parts if isinstance(part, Damper)
+            plain.Drag(part.constant, _place(part), _number(part.of, bodies))
+            for part in parts
+            if isinstance(part, Damper)
         ),
         charges=tuple(plain.Charge(c.charge, c.at.components, c.electric, _field(c)) for c in charges),
         conditions=(*kept, *(condition_of(part) for part in parts if isinstance(part, Constraint))),

@@ -19,14 +19,10 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.bodies.possible import require_positive
+from derive.mechanics.systems.acted_on import check_what_is_acted_on
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
-from derive.mechanics.systems.described import (
-    Described,
-    conditions_that_nothing_keeps,
-    described,
-    places_that_move_alone,
-)
+from derive.mechanics.systems.described import Described, described
 from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
 from derive.steps.known_numbers import taken_positive
@@ -168,26 +164,6 @@ class Eliminated(Fact):
     eliminates: tuple[Symbol, ...]
 
 
-WHICH_BODY = {
-    "force": "name the body whose particle it acts on, `of: ball`, or write `of: massless` for a part without mass",
-    "drag": "name the body whose particle it acts on, `of: ball`, or write `of: massless` for a part without mass",
-    "spring": "end it at a particle or a point of a body, or write `massless: true` for a joint without mass",
-    "central force": "end it at a particle or a point of a body, or write `massless: true` for a joint without mass",
-}
-
-
-class ActsOnNothing(Rejected):
-    """A part of a system that acts on no particle, or of which the other side is not stated."""
-
-    part: Any = None
-
-    @classmethod
-    def of(cls, part: Any, complaint: Complaint) -> ActsOnNothing:
-        found = cls(complaint)
-        found.part = part
-        return found
-
-
 class System:
     """Particles and bodies, the forces on them, and the conditions on their motion.
 
@@ -245,11 +221,9 @@ class System:
             message = "nothing in this `System` moves: its places depend on no coordinate"
             raise Rejected(Complaint("wrong-argument", message, help='name what varies with `coordinate("theta")`'))
         self._check_what_acts()
-        self._check_material_points()
-        self._check_partners()
+        check_what_is_acted_on(self)
         for condition in self.conditions:
             _check_kept(condition)
-        self._check_gradients()
         letters = [each.force.name for each in self.constraints]
         if len(set(letters)) < len(letters):
             message = "two constraints of this `System` have forces of one letter"
@@ -265,46 +239,6 @@ class System:
                 if q not in self.coordinates:
                     message = f"a force or constraint of this `System` depends on {q.name}, but nothing in it moves so"
                     raise Rejected(Complaint("wrong-argument", message))
-
-    def _check_material_points(self) -> None:
-        """What acts on a body acts on one of its particles: each place moves with a body, a particle or the ground."""
-        acting: list[tuple[Any, str, tuple[Expr, ...]]] = []
-        for each in (part for part in self._described if isinstance(part, GivenForce | Damper)):
-            if each.of is None and len(each.at) > 1:
-                acting.append((each, "force" if isinstance(each, GivenForce) else "drag", each.at))
-        for between in (part for part in self._described if isinstance(part, Central)):
-            if not between.massless:
-                what = "spring" if between.is_spring else "central force"
-                acting += [(between, what, end.components) for end in (between.start, between.end)]
-        for i in places_that_move_alone(self.described.description, [place for _, _, place in acting]):
-            part, what, place = acting[i]
-            where = ", ".join(map(str, place))
-            message = f"the {what} at ({where}) acts on no particle: that place moves with no body and no particle here"
-            raise ActsOnNothing.of(part, Complaint("which-body", message, help=WHICH_BODY[what]))
-
-    def _check_gradients(self) -> None:
-        """A force keeps a constraint along its gradient, which does not vanish where the constraint holds."""
-        for lost in conditions_that_nothing_keeps(self.described.description):
-            part = next((each for each in self.constraints if each.force == lost.multiplier), None)
-            message = f"the gradient of {lost.residual} vanishes wherever it is zero, so no force can keep it at zero"
-            help_line = "without a square it can be kept: `x - y` in place of `(x - y)**2`"
-            raise ActsOnNothing.of(part, Complaint("constrained", message, help=help_line))
-
-    def _check_partners(self) -> None:
-        """A force in proportion to a force of constraint acts between two: the opposite one acts on the other."""
-        letters = {each.force for each in self.constraints}
-        touching = [f for f in self.given_forces if any(c.free_symbols & letters for c in f.components)]
-        open_ = [f for f in touching if f.by is None]
-        if len(self.masses) < 2 or not open_:
-            return
-        size = len(open_[0].components)
-        resultant = [Add(*(f.components[i] for f in touching if len(f.components) == size)) for i in range(size)]
-        if all(is_zero(c) for c in resultant):
-            return
-        (letter, *_) = sorted({s.name for c in open_[0].components for s in c.free_symbols & letters})
-        message = f"a force with {letter} acts between two bodies, but it is not stated which body exerts it"
-        help_line = "name the body on which the opposite force acts, `by: plank`, or write `by: ground`"
-        raise ActsOnNothing.of(open_[0], Complaint("which-body", message, help=help_line))
 
     @property
     def places(self) -> list[Location]:
@@ -332,6 +266,19 @@ class System:
         """Those that its places and the turning of its bodies depend on, with their kinds."""
         entries = [c for place in self.places for c in place.components]
         return coordinates_in(ImmutableDenseMatrix([*entries, *(e for b in self.bodies for e in b.depends_on)]))
+
+    @property
+    def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
+        """The places at which parts act of which it is not stated on what, with these parts and what they are."""
+        found: list[tuple[Any, str, tuple[Expr, ...]]] = []
+        for each in (part for part in self._described if isinstance(part, GivenForce | Damper)):
+            if each.of is None and len(each.at) > 1:
+                found.append((each, "force" if isinstance(each, GivenForce) else "drag", each.at))
+        for pair in (part for part in self._described if isinstance(part, Central)):
+            if not pair.massless:
+                what = "spring" if pair.is_spring else "central force"
+                found += [(pair, what, end.components) for end in (pair.start, pair.end)]
+        return found
 
     @property
     def described_bodies(self) -> list[PlacedBody]:
