@@ -54,13 +54,13 @@ class Checks:
     lines: Mapping[Grade, int]
     routes: Mapping[Grade, int]
     checks: Mapping[Grade, int]
-    witnesses: int
     rows: tuple[Row, ...]
     agree: int
     agree_to_figures: int
     errata: tuple[Erratum, ...]
     remarks: tuple[Remark, ...] = ()
     source: str = ""
+    witnesses: int = 0
 
     @property
     def compared(self) -> int:

@@ -231,7 +231,7 @@ def test_the_report_has_a_table_of_each_problem_and_the_errata(course: Path, sol
     typeset(report_document(course, problem_set(course, "hw9"), solved), target, chosen_engine(None))
     reader = PdfReader(target)
     text = squeezed(target)
-    for told in ("Report", "StepWhatitisGradeLinesSecondrouteChecks", "bydefinition", "Errataofthesource", "22for21"):
+    for told in ("Report", "StepWhatitisGradeLinesSecondwayChecks", "bydefinition", "Errataofthesource", "22for21"):
         assert told in text, told
     width = float(reader.pages[0].mediabox.width)
     ends: list[float] = []
