@@ -367,6 +367,24 @@ def test_a_disc_on_a_wavy_road_has_its_equations_and_rolls(tmp_path: Path) -> No
     assert equal(along.left, left)
     assert equal(around.left, m * R**2 * phi_ddot / 2)
     assert equal(along.right * R, around.right * moves)
+    assert equal(around.right, R * letters["F"])
+
+
+def test_the_friction_of_a_disc_in_a_bowl_is_that_on_a_slope(tmp_path: Path) -> None:
+    """A third of the weight along the road, and up the road, as on any slope."""
+    long = "sqrt(1 + x**2/b**2)"
+    text = edited(
+        text_of("f15_wavy_road_timeout"),
+        ("A: length, b", "b"),
+        (
+            "[x + R*A/b*sin(x/b)/sqrt(1 + A**2/b**2*sin(x/b)**2), A*cos(x/b) + R/sqrt(1 + A**2/b**2*sin(x/b)**2)]",
+            f"[x - R*x/(b*{long}), x**2/(2*b) + R/{long}]",
+        ),
+        ("[x, A*cos(x/b)]", "[x, x**2/(2*b)]"),
+        ("height <<A>> cos(<<x>>/<<b>>)", "shape of a bowl"),
+        ("answer: equations_of_motion", "answer: multipliers"),
+    )
+    assert agree(solved(tmp_path, text), {"F": "m*g*x/(3*sqrt(b**2 + x**2))"}) == {}
 
 
 def test_small_nutation_about_steady_precession_has_the_known_frequency(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, factor
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, factor, sqrt
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_rates
@@ -64,13 +64,27 @@ def rolling_constraint(
     body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
     """The conditions of rolling, each kept by a force: F, or F_1, F_2 where there are several."""
-    conditions = list(_independent(body, at, ground))
-    _check_against_particle(body, at, ground, [each.left for each in conditions])
+    conditions = [each.left for each in _independent(body, at, ground)]
+    if len(conditions) == 1:
+        conditions = [_along_the_surface(conditions[0], contact_velocity(body, at, ground))]
+    _check_against_particle(body, at, ground, conditions)
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
     return tuple(
-        Constraint(each.left, ZERO, scalar(letter), in_rates=True)
-        for each, letter in zip(conditions, letters, strict=True)
+        Constraint(each, ZERO, scalar(letter), in_rates=True) for each, letter in zip(conditions, letters, strict=True)
     )
+
+
+def _along_the_surface(condition: Expr, velocity: ImmutableMatrix) -> Expr:
+    """The velocity of slipping itself, of which the condition is a multiple: friction is the force that keeps it."""
+    moving = coordinates_in(condition)
+    by_rate = {rate(q): tidied(derivative(condition, rate(q))) for q in moving}
+    plain = tidied(condition.xreplace(dict.fromkeys(by_rate, ZERO)))
+    fast = min((each for each, along in by_rate.items() if along != 0), key=lambda each: int(by_rate[each].count_ops()))
+    square = Add(*(tidied(derivative(component, fast) / by_rate[fast]) ** 2 for component in velocity))
+    length = tidied(sqrt(tidied(square)))
+    if length == 1:
+        return condition
+    return Add(*(tidied(along * length) * each for each, along in by_rate.items()), tidied(plain * length))
 
 
 def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
