@@ -64,9 +64,7 @@ def rolling_constraint(
     body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
     """The conditions of rolling, each kept by a force: F, or F_1, F_2 where there are several."""
-    conditions = [each.left for each in _independent(body, at, ground)]
-    if len(conditions) == 1:
-        conditions = [_along_the_surface(conditions[0], contact_velocity(body, at, ground))]
+    conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
     _check_against_particle(body, at, ground, conditions)
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
     return tuple(
@@ -74,17 +72,39 @@ def rolling_constraint(
     )
 
 
-def _along_the_surface(condition: Expr, velocity: ImmutableMatrix) -> Expr:
-    """The velocity of slipping itself, of which the condition is a multiple: friction is the force that keeps it."""
-    moving = coordinates_in(condition)
-    by_rate = {rate(q): tidied(derivative(condition, rate(q))) for q in moving}
-    plain = tidied(condition.xreplace(dict.fromkeys(by_rate, ZERO)))
-    fast = min((each for each, along in by_rate.items() if along != 0), key=lambda each: int(by_rate[each].count_ops()))
-    square = Add(*(tidied(derivative(component, fast) / by_rate[fast]) ** 2 for component in velocity))
-    length = tidied(sqrt(tidied(square)))
-    if length == 1:
-        return condition
-    return Add(*(tidied(along * length) * each for each, along in by_rate.items()), tidied(plain * length))
+def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr]:
+    """The components of the velocity of slipping along directions at right angles: friction has the same components.
+
+    The velocity is a sum of the conditions, each times a vector; the directions are those of these vectors, made
+    perpendicular to one another.
+    """
+    vectors: list[ImmutableMatrix] = []
+    for each in conditions:
+        fast = rate(each.q)
+        before = [(vector, derivative(other.left, fast)) for vector, other in zip(vectors, conditions, strict=False)]
+        own = velocity.applyfunc(lambda c, fast=fast: derivative(c, fast))
+        for vector, share in before:
+            own = own - vector * share
+        vectors.append(ImmutableDenseMatrix((own / each.factor).applyfunc(tidied)))
+    ways: list[ImmutableMatrix] = []
+    for vector in vectors:
+        across = vector
+        for way in ways:
+            across = across - way * tidied(way.dot(vector))
+        length = tidied(sqrt(tidied(across.dot(across))))
+        ways.append(ImmutableDenseMatrix((across / length).applyfunc(tidied)))
+    return [_sum_of([tidied(way.dot(vector)) for vector in vectors], conditions) for way in ways]
+
+
+def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
+    """By its rates; a condition alone stays as it is."""
+    parts = [(share, each.left) for share, each in zip(shares, conditions, strict=True) if share != 0]
+    if len(parts) == 1 and parts[0][0] == 1:
+        return parts[0][1]
+    whole = Add(*(share * left for share, left in parts))
+    by_rate = {rate(q): derivative(whole, rate(q)) for q in coordinates_in(whole)}
+    plain = whole.xreplace(dict.fromkeys(by_rate, ZERO))
+    return Add(*(tidied(along) * fast for fast, along in by_rate.items()), tidied(plain))
 
 
 def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
