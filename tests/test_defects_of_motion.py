@@ -367,6 +367,42 @@ def test_a_disc_on_a_wavy_road_has_its_equations_and_rolls(tmp_path: Path) -> No
     assert equal(along.left, left)
     assert equal(around.left, m * R**2 * phi_ddot / 2)
     assert equal(along.right * R, around.right * moves)
+    assert equal(around.right, R * letters["F"])
+
+
+def test_the_friction_of_a_disc_in_a_bowl_is_that_on_a_slope(tmp_path: Path) -> None:
+    """A third of the weight along the road, and up the road, as on any slope."""
+    long = "sqrt(1 + x**2/b**2)"
+    text = edited(
+        text_of("f15_wavy_road_timeout"),
+        ("A: length, b", "b"),
+        (
+            "[x + R*A/b*sin(x/b)/sqrt(1 + A**2/b**2*sin(x/b)**2), A*cos(x/b) + R/sqrt(1 + A**2/b**2*sin(x/b)**2)]",
+            f"[x - R*x/(b*{long}), x**2/(2*b) + R/{long}]",
+        ),
+        ("[x, A*cos(x/b)]", "[x, x**2/(2*b)]"),
+        ("height <<A>> cos(<<x>>/<<b>>)", "shape of a bowl"),
+        ("answer: equations_of_motion", "answer: multipliers"),
+    )
+    assert agree(solved(tmp_path, text), {"F": "m*g*x/(3*sqrt(b**2 + x**2))"}) == {}
+
+
+def test_the_friction_of_a_ball_on_a_slope_is_along_the_slope(tmp_path: Path) -> None:
+    """m s'' = m g sin(beta) - R and 2/5 m a s'' = R a give s'' = 5/7 g sin(beta) and R = 2/7 m g sin(beta)."""
+    text = edited(
+        text_of("f04_turntable_ground"),
+        ("Omega: angular speed", "g: acceleration, beta: 'angle in (0, pi/2)'"),
+        ("    table: [{z: Omega*t}]\n", ""),
+        ("{x: length", "{s: length"),
+        ("[x, y, a]", "[s*cos(beta) + a*sin(beta), y, a*cos(beta) - s*sin(beta)]"),
+        ("[x, y, 0]", "[s*cos(beta), y, -s*sin(beta)]"),
+        (", ground: {in: table, by: [x*cos(Omega*t) + y*sin(Omega*t), y*cos(Omega*t) - x*sin(Omega*t), 0]}", ""),
+        ("\nstatement:", "\n  gravity: g\nstatement:"),
+        (" table that turns at the rate <<Omega>>", " slope"),
+        ("[acceleration_x, acceleration_y]", "[acceleration_s, multipliers]"),
+    )
+    expected = {"acceleration_s": "5*g*sin(beta)/7", "F_1": "-2*m*g*sin(beta)/7", "F_2": "0"}
+    assert agree(solved(tmp_path, text), expected) == {}
 
 
 def test_small_nutation_about_steady_precession_has_the_known_frequency(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, factor
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, factor, sqrt
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_rates
@@ -64,13 +64,47 @@ def rolling_constraint(
     body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
     """The conditions of rolling, each kept by a force: F, or F_1, F_2 where there are several."""
-    conditions = list(_independent(body, at, ground))
-    _check_against_particle(body, at, ground, [each.left for each in conditions])
+    conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
+    _check_against_particle(body, at, ground, conditions)
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
     return tuple(
-        Constraint(each.left, ZERO, scalar(letter), in_rates=True)
-        for each, letter in zip(conditions, letters, strict=True)
+        Constraint(each, ZERO, scalar(letter), in_rates=True) for each, letter in zip(conditions, letters, strict=True)
     )
+
+
+def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr]:
+    """The components of the velocity of slipping along directions at right angles: friction has the same components.
+
+    The velocity is a sum of the conditions, each times a vector; the directions are those of these vectors, made
+    perpendicular to one another.
+    """
+    vectors: list[ImmutableMatrix] = []
+    for each in conditions:
+        fast = rate(each.q)
+        before = [(vector, derivative(other.left, fast)) for vector, other in zip(vectors, conditions, strict=False)]
+        own = velocity.applyfunc(lambda c, fast=fast: derivative(c, fast))
+        for vector, share in before:
+            own = own - vector * share
+        vectors.append(ImmutableDenseMatrix((own / each.factor).applyfunc(tidied)))
+    ways: list[ImmutableMatrix] = []
+    for vector in vectors:
+        across = vector
+        for way in ways:
+            across = across - way * tidied(way.dot(vector))
+        length = tidied(sqrt(tidied(across.dot(across))))
+        ways.append(ImmutableDenseMatrix((across / length).applyfunc(tidied)))
+    return [_sum_of([tidied(way.dot(vector)) for vector in vectors], conditions) for way in ways]
+
+
+def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
+    """By its rates; a condition alone stays as it is."""
+    parts = [(share, each.left) for share, each in zip(shares, conditions, strict=True) if share != 0]
+    if len(parts) == 1 and parts[0][0] == 1:
+        return parts[0][1]
+    whole = Add(*(share * left for share, left in parts))
+    by_rate = {rate(q): derivative(whole, rate(q)) for q in coordinates_in(whole)}
+    plain = whole.xreplace(dict.fromkeys(by_rate, ZERO))
+    return Add(*(tidied(along) * fast for fast, along in by_rate.items()), tidied(plain))
 
 
 def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
