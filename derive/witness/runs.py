@@ -114,6 +114,8 @@ def leaves(claim: Claim) -> Verdict | None:
     inputs = claim.judged.inputs
     if "unknown" not in inputs or "start" not in inputs or not isinstance(claim.value, Relation):
         return None
+    if claim.outcome == TURNS_THERE:  # the followed motion only comes close to the place
+        return None
     conditions = [each for each in inputs.values() if isinstance(each, Relation) and each.mark not in ("=", "!=")]
     place = inputs["place"].right if claim.outcome == TURNS_BACK else claim.value.right
     count = 0
@@ -127,7 +129,7 @@ def leaves(claim: Claim) -> Verdict | None:
     return seen(count, "motions")
 
 
-TURNS_BACK = "turns_back"
+TURNS_BACK, TURNS_THERE = "turns_back", "turns_there"
 
 
 def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Expr) -> Verdict | int:

@@ -123,11 +123,22 @@ def rest(claim: Claim) -> Verdict | None:
         except Singular:
             if near.momenta:  # a place at which the coordinates are singular, and the reduced ones are not
                 continue
+            if _is_balanced(near):  # a part without mass has no acceleration, but is at rest where no force acts
+                count += 1
+                continue
             return claim.refuted("the accelerations are not determined there", near.trial, near.state)
         if np.max(np.abs(response.a[list(near.free)])) > STAYS * 10:
             return claim.refuted("the described system does not stay there", near.trial, near.state)
         count += 1
     return seen(count, "states")
+
+
+def _is_balanced(near: Neighbourhood) -> bool:
+    """Whether no generalized force acts at rest, where no condition is kept."""
+    if near.trial.blueprint.of.conditions:
+        return False
+    _, forces = near.trial.dynamics.inertia(near.state)
+    return bool(np.max(np.abs(forces), initial=0.0) < STAYS * 10)
 
 
 STABLE = frozenset(["stable", "stable_by_higher_order", "level"])

@@ -54,7 +54,8 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
     there are such factors also numerically, along the coordinate itself. Witness: the described motion, followed from
     the start until the multiplier vanishes.
     Outcomes: lost; lost_later (at the start itself the force is zero, and positive from then on); never (the force is
-    positive whatever the letter is); turns_back (it would vanish at a place that the motion does not reach).
+    positive whatever the letter is); turns_back (it would vanish at a place that the motion does not reach);
+    turns_there (it vanishes only where the motion turns back).
     Errors: the force is not positive from the start on, or it is not linear in the letter; whether the motion gets
     there is not known.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
@@ -84,7 +85,7 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
         raise unsolvable(force, unknown)
     squared = squared_rate_behind(force, unknown)
     there = None if squared is None else tidied(with_unknown(squared, unknown, solved))
-    if squared is not None and there is not None and sign_known(there) == -1:
+    if squared is not None and there is not None and sign_known(there) in (0, -1):
         return _turns_back(force, unknown, (begin, solved), squared, key)
     reached = None if squared is None else _reached(force, unknown, squared, (begin, solved))
     result = Relation(unknown, "=", solved)
@@ -116,7 +117,7 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
         },
         outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
         telling=Telling(
-            formulas=conditions_told(existing=existing and positive(existing.residual), reached=reached),
+            formulas=conditions_told(existing=existing and _as_positive(existing), reached=reached),
             named={"from": Relation(unknown, "=", start)},
             judged_by={
                 "unknown": unknown,
@@ -126,6 +127,11 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
         ),
         key=key,
     )
+
+
+def _as_positive(condition: Relation) -> Relation:
+    """An inequality without what is positive whatever the letters are: v^2 < 5 g l."""
+    return positive(condition.residual if condition.mark in (">", ">=") else -condition.residual)
 
 
 def squared_rate_behind(force: Quantity, unknown: Expr) -> Expr | None:
@@ -158,14 +164,15 @@ def _reached(force: Quantity, unknown: Expr, squared: Expr, ends: tuple[Expr, Ex
 
 
 def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
-    """The motion turns back before the place where the force would vanish.
+    """The motion turns back before the place where the force would vanish, or just there.
 
-    Outcomes: turns_back.
+    Outcomes: turns_back, turns_there.
     Source: that of `leaves_contact`.
     """
     begin, place = ends
     value = tidied(explicit(number_of(force)))
     there = tidied(with_unknown(squared, unknown, place))
+    mark = ">=" if sign_known(there) == 0 else ">"
     ((q, angle),) = meaning(unknown, place).items()
     at_angle = squared.xreplace({q: angle})
 
@@ -173,17 +180,17 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
         """From the start to the place the force is positive; only at the place would it vanish."""
         u = _part()
         between = tidied(with_unknown(value, unknown, place + u * (begin - place)))
-        sure = int(sign_known(between) == 1 and found.mark == ">")
+        sure = int(sign_known(between) == 1 and found.mark == mark)
         return found.residual * 0 + sure, Integer(1)
 
     return establish(
         "conditions.leaves_contact",
         None,
-        lambda v: Relation(v, ">", 0),
+        lambda v: Relation(v, mark, 0),
         {"force": force},
         lines=Lines(law=Level.BRIEF, put_in=Level.STANDARD, result=False, arranged=explicit),
         routes={"on_the_way": on_the_way},
-        outcome="turns_back",
+        outcome="turns_there" if mark == ">=" else "turns_back",
         telling=Telling(
             formulas={"impossible": (Relation(rate(q) ** 2, "=", there), Relation(rate(q) ** 2, "=", at_angle))},
             named={"place": Relation(unknown, "=", place)},

@@ -381,6 +381,10 @@ def _excluded(linear: Linear) -> Relation | None:
                 continue
             below = linear.a * w**2 + linear.b * w if isinstance(f, exp) else -linear.a * w**2
             below = tidied(linear.c + below)
+            if not is_zero(below) and sign_known(below) == 0:
+                message = f"with the given numbers {below} vanishes: this motion is at resonance"
+                help_line = "write the frequency of the driving in letters, such as `sqrt(k/m)`"
+                raise Rejected(Complaint("resonance", message, help=help_line))
             condition = None if is_zero(below) else different_from_zero(below)
             if condition is not None:
                 found[condition] = None

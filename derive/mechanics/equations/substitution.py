@@ -12,8 +12,10 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSy
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
 from derive.algebra.ranges import strict_sign_within
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.equations.defined import check_defined
+from derive.mechanics.equations.energy_integral import ByEnergy
 from derive.mechanics.equations.unknowns import (
     ValueOf,
     coordinates_of,
@@ -24,12 +26,14 @@ from derive.mechanics.equations.unknowns import (
     unknown_of,
     with_unknown,
 )
+from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import AtOneMoment, Coordinate, OfCoordinate
 from derive.mechanics.systems.effective import Constant, SeenWith
 from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import coordinates_in
+from derive.steps.known_numbers import sign_known
+from derive.steps.record import assume, coordinates_in
 from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
@@ -59,7 +63,8 @@ def put_in(
     Check: the letters of the original replaced all at once by what they finally are; what is found once more.
     Outcomes: results, values (letters only), zero (with these values), identity (an equation that then holds by
     itself), again.
-    Errors: nothing there to replace; an equation that is not solved for a letter; a relation that cannot hold.
+    Errors: nothing there to replace; an equation that is not solved for a letter; a relation that cannot hold; a place
+    that the motion does not reach.
     Source: none needed: substitution.
     """
     rests, given = _sorted_out(others)
@@ -68,6 +73,7 @@ def put_in(
     for quantity in rests:
         value = _all_put(value, _replacements(quantity, of), quantity.key, of, told)
     there = _values(of, given, values, value)
+    _check_reached(of, rests, there)
     for pair in there:
         if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # an earlier value may have taken it away
             value = _all_put(value, [pair], str(pair[0]), of, told)
@@ -324,6 +330,26 @@ def _energy_by_terms(value: Expr) -> Expr | None:
 
 def _is_identity(result: Any) -> bool:
     return isinstance(result, Relation) and result.mark == "=" and is_zero(result.residual)
+
+
+def _check_reached(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> None:
+    """A place is reached only where the squared rate, by conservation of energy, is not negative; where that depends on
+    the letters the page states it."""
+    values = dict(there)
+    for each in {id(a): a for quantity in (of, *rests) for a in quantity.ancestors()}.values():
+        known = each.fact(ByEnergy)
+        if known is None or known.coordinate not in values:
+            continue
+        squared = tidied(explicit(each.value).xreplace(values))
+        sign = sign_known(squared)
+        if sign == -1:
+            place = f"{known.coordinate} = {values[known.coordinate]}"
+            fast = rate(known.coordinate)
+            message = f"`{of.key}`: the motion does not get to {place}, since {fast}**2 would be negative"
+            raise Rejected(Complaint("not-reached", message, help=f"it would be {squared}"))
+        if sign is None and not squared.free_symbols & {TIME, *coordinates_of(of, *rests)}:
+            condition = positive(squared)
+            assume(Relation(condition.left, ">=", condition.right))
 
 
 def _check_holds(of: Quantity, result: Any) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import islice
 from typing import Any
 
@@ -36,7 +37,7 @@ from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.record import assumed
 from derive.steps.step import is_zero
 
-TRIED, LITTLE = 8, 1e-12
+TRIED, MANY, LITTLE = 8, 60, 1e-12
 _CAN_BE = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
 
 
@@ -154,7 +155,7 @@ def _lost(later: bool) -> Predicate:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
         force = with_numbers(explicit(facts.inputs["force"]).subs(letter, start))
         seen = []
-        for point in islice(points(letters_of(force), seed_of(force)), 8):
+        for point in islice(_points_as_assumed(letters_of(force), seed_of(force)), 8):
             try:
                 seen.append(value_at(force, point))
             except (Undefined, NoNumber):
@@ -165,19 +166,34 @@ def _lost(later: bool) -> Predicate:
     return is_so
 
 
+def _points_as_assumed(letters: set[Any], seed: int) -> Iterator[Any]:
+    """Points at which everything holds that the page assumes of these letters."""
+    conditions = [with_numbers(each) for each in assumed() if letters_of(each.residual) <= letters]
+    for point in islice(points(letters, seed), MANY):
+        try:
+            if all(holds_at(each, point) for each in conditions):
+                yield point
+        except (Undefined, NoNumber):
+            continue
+
+
 def _turned_back(facts: Judged) -> bool:
-    """With numbers for the letters: the force vanishes at the place and the squared rate is negative there, while at
-    the start the force pushes and the squared rate is not negative."""
+    """With numbers for the letters: the force vanishes at the place and the squared rate is negative there, or zero,
+    while at the start the force pushes and the squared rate is not negative."""
+    just_there = facts.result.mark == ">="
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
     values = [with_numbers(explicit(each).subs(*end)) for end in ends for each in (force, squared)]
     seen = 0
-    for point in islice(points(set().union(*map(letters_of, values)), seed_of(*values)), 8):
+    for point in islice(_points_as_assumed(set().union(*map(letters_of, values)), seed_of(*values)), 8):
         try:
             pushing, moving, last, beyond = (value_at(each, point) for each in values)
         except (Undefined, NoNumber):
             continue
-        if not (pushing > 0 and moving >= 0 and abs(last) < Rational(1, 10**9) and beyond < 0):
+        gets_there = abs(beyond) < Rational(1, 10**9)
+        if not (pushing > 0 and moving >= 0 and abs(last) < Rational(1, 10**9)) or gets_there != just_there:
+            return False
+        if not (gets_there or beyond < 0):
             return False
         seen += 1
     return seen > 0
@@ -376,6 +392,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "lost_later": _lost(later=True),
         "never": sign_is(1, lambda facts: facts.inputs["force"]),
         "turns_back": _turned_back,
+        "turns_there": _turned_back,
     },
 }
 

@@ -66,6 +66,15 @@ def _check_particles(system: WithParts) -> None:
         raise ActsOnNothing.of(part, Complaint("which-body", message, help=WHERE_IT_ACTS[what]))
 
 
+def check_ground(system: WithParts, ground: object) -> None:
+    """A place of the surface on which a body rolls moves with a body, a particle or the ground."""
+    if isinstance(ground, Location) and places_that_move_alone(system.described.description, [ground.components]):
+        where = ", ".join(map(str, ground.components))
+        message = f"the place ({where}) of the ground moves with no body and no particle here"
+        help_line = "give a place that is fixed on the surface, or the axes in which the surface is at rest"
+        raise Rejected(Complaint("which-body", message, help=help_line))
+
+
 def _check_gradients(system: WithParts) -> None:
     """A force keeps a constraint along its gradient, which does not vanish where the constraint holds."""
     for lost in conditions_that_nothing_keeps(system.described.description):

@@ -41,7 +41,7 @@ from derive.mechanics import (
     stability,
     weight,
 )
-from derive.mechanics.systems.acted_on import ActsOnNothing
+from derive.mechanics.systems.acted_on import ActsOnNothing, check_ground
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
@@ -111,11 +111,15 @@ class Answers:
         weights = [weight(described.gravity)] if described.gravity is not None else []
         with told_at(described.place):
             try:
-                return System(*self.bodies.values(), *self.particles.values(), *made, *weights, *self.rolling)
+                system = System(*self.bodies.values(), *self.particles.values(), *made, *weights, *self.rolling)
             except ActsOnNothing as error:
                 place = next((p.place for p, part in zip(others, made, strict=True) if part is error.part), None)
                 with told_at(place):
                     raise
+        for part in (each for each in described.parts if each.maker == "rolling"):
+            with told_at(part.place):
+                check_ground(system, part.of[2])
+        return system
 
     @cached_property
     def particles(self) -> dict[str, Any]:
