@@ -17,11 +17,13 @@ from derive.algebra.swing import SwingTime, half_swing, quarter_swing
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import lecture_form, residual_of, with_unknown
+from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import sign_known
 from derive.steps.numeric import WholeSwing
-from derive.steps.record import free_letter, letter_of_limit
+from derive.steps.record import assume, free_letter, letter_of_limit
 from derive.steps.step import Fact, Form, Level, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["period_by_energy", "speed_from_energy"]
@@ -40,6 +42,19 @@ class ByEnergy(Fact):
     start: Expr
     start_rate: Expr
     acceleration: Expr
+
+
+def check_reached(of: Quantity, coordinate: Symbol, place: Expr, squared: Expr) -> None:
+    """A place is reached only where the squared rate, by conservation of energy, is not negative; where that depends on
+    the letters the page states it."""
+    sign = sign_known(squared)
+    if sign == -1:
+        fast = rate(coordinate)
+        message = f"`{of.key}`: the motion does not get to {coordinate} = {place}, since {fast}**2 would be negative"
+        raise Rejected(Complaint("not-reached", message, help=f"it would be {squared}"))
+    if sign is None:
+        condition = positive(squared)
+        assume(Relation(condition.left, ">=", condition.right))
 
 
 def speed_from_energy(

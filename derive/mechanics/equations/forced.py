@@ -14,7 +14,7 @@ from derive.mechanics.equations.unknowns import lecture_form
 from derive.mechanics.equations.zeros import different_from_zero, positive
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.known_numbers import sign_known
+from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assume
 from derive.steps.step import Level, Quantity
 
@@ -62,7 +62,7 @@ def steady_amplitude(
     def in_step(lag: Expr) -> tuple[Any, Any]:
         """Where the stiffness is the greater, the oscillation with the positive amplitude has the sign of the force."""
         size = stand_in("s", positive=True)
-        there = stiff if sign is not None else size
+        there = with_numbers(stiff) if sign is not None else size
         return cos(lag) * there, Abs(there)
 
     amplitude = establish(

@@ -21,6 +21,7 @@ from derive.algebra.expressions import Relation, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.approximate import equation_in_limit
+from derive.mechanics.equations.energy_integral import ByEnergy, check_reached
 from derive.mechanics.equations.leading import (
     beginnings,
     entry_by_entry,
@@ -57,8 +58,9 @@ def limiting_case(
     on each side: the rest, divided by the last power that is kept, goes to zero with what is small.
     Outcomes: finite, vanishes, diverges (the leading term alone); small, large, near (to an order); exact (nothing is
     left out).
-    Errors: the result does not contain the letter; the letter changes in the motion; there is no such expansion, as
-    where it oscillates, or it differs on the two sides, or begins beyond that order.
+    Errors: the result does not contain the letter; the letter changes in the motion and stays finite; the motion does
+    not get that far; there is no such expansion, as where it oscillates, or it differs on the two sides, or begins
+    beyond that order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     solved = _solved_for(of)
@@ -71,8 +73,9 @@ def limiting_case(
     goes, x = _what_goes(letter)
     if not isinstance(value, Expr | MatrixBase):
         raise Rejected(Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is no number"))
-    _check_letter(of, value, x)
     aim = explicit(to.value if isinstance(to, Quantity) else to)
+    _check_letter(of, value, x, is_end=aim in (oo, -oo))
+    _check_gets_far(of, x, aim)
     place = aim if aim in (oo, -oo) else tidied(aim * x / goes)
     series = beginnings(of, value, x, place, order)
     found = _added_up(series, value, x, place)
@@ -152,13 +155,23 @@ def _what_goes(letter: Any) -> tuple[Expr, Symbol]:
     return x, x
 
 
-def _check_letter(of: Quantity, value: Any, x: Symbol) -> None:
+def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
+    """The letter occurs and is constant; far away and after a long time a coordinate and the time have a limit too."""
     if x not in value.free_symbols:
         message = f"`limiting_case`: `{of.key}` does not contain {x.name}"
         raise Rejected(Complaint("nothing-to-put-in", message))
-    if changes(x, {**of.coordinates, **dict.fromkeys(named_coordinates(), "")}) is not None:
+    if not is_end and changes(x, {**of.coordinates, **dict.fromkeys(named_coordinates(), "")}) is not None:
         message = f"`limiting_case`: {x.name} changes in the motion, so that it is not small all the time"
         raise Rejected(Complaint("changes", message, help="give a letter that is constant"))
+
+
+def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
+    """Where conservation of energy gives the rate of the coordinate that becomes large, the motion gets that far."""
+    for each in of.ancestors() if aim in (oo, -oo) else ():
+        known = each.fact(ByEnergy)
+        if known is not None and known.coordinate == x:
+            value = explicit(each.value)
+            check_reached(of, x, aim, _added_up(beginnings(each, value, x, aim, None), value, x, aim))
 
 
 def _added_up(series: Sequence[Series], value: Any, x: Symbol, place: Expr) -> Any:

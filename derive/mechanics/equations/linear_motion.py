@@ -245,11 +245,11 @@ def _sort(linear: Linear, case: str | None, equation: Quantity | None) -> tuple[
         raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
     if known == "overdamped" and sign_known(c / a) == -1:
         return "runs_away", None
-    if known is not None:
-        return known, None
-    if case == "critically_damped":
+    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # open, or so by the given numbers
         message = f"{key} is critically damped only where {linear.discriminant} = 0"
         raise Rejected(Complaint("open-case", message, help="put that case in first, with `put_in`"))
+    if known is not None:
+        return known, None
     mark = "<" if case == "underdamped" else ">"
     return str(case), _compared(tidied(b**2), mark, tidied(4 * a * c))
 

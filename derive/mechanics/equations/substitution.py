@@ -15,7 +15,7 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.equations.defined import check_defined
-from derive.mechanics.equations.energy_integral import ByEnergy
+from derive.mechanics.equations.energy_integral import ByEnergy, check_reached
 from derive.mechanics.equations.unknowns import (
     ValueOf,
     coordinates_of,
@@ -26,14 +26,12 @@ from derive.mechanics.equations.unknowns import (
     unknown_of,
     with_unknown,
 )
-from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import AtOneMoment, Coordinate, OfCoordinate
 from derive.mechanics.systems.effective import Constant, SeenWith
 from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.known_numbers import sign_known
-from derive.steps.record import assume, coordinates_in
+from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
@@ -333,23 +331,14 @@ def _is_identity(result: Any) -> bool:
 
 
 def _check_reached(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> None:
-    """A place is reached only where the squared rate, by conservation of energy, is not negative; where that depends on
-    the letters the page states it."""
+    """A place that is put in is one that the motion reaches."""
     values = dict(there)
     for each in {id(a): a for quantity in (of, *rests) for a in quantity.ancestors()}.values():
         known = each.fact(ByEnergy)
-        if known is None or known.coordinate not in values:
-            continue
-        squared = tidied(explicit(each.value).xreplace(values))
-        sign = sign_known(squared)
-        if sign == -1:
-            place = f"{known.coordinate} = {values[known.coordinate]}"
-            fast = rate(known.coordinate)
-            message = f"`{of.key}`: the motion does not get to {place}, since {fast}**2 would be negative"
-            raise Rejected(Complaint("not-reached", message, help=f"it would be {squared}"))
-        if sign is None and not squared.free_symbols & {TIME, *coordinates_of(of, *rests)}:
-            condition = positive(squared)
-            assume(Relation(condition.left, ">=", condition.right))
+        if known is not None and known.coordinate in values:
+            squared = tidied(explicit(each.value).xreplace(values))
+            if not squared.free_symbols & {TIME, *coordinates_of(of, *rests)}:
+                check_reached(of, known.coordinate, values[known.coordinate], squared)
 
 
 def _check_holds(of: Quantity, result: Any) -> None:

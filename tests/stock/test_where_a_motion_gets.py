@@ -1,0 +1,148 @@
+"""A result at a place, far away or after a long time says of a motion only what it does."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from derive.building.solution import rendered
+from tests.stock.described import complaints, course_with, edited, solved
+
+STONE = """\
+title: A stone that is thrown upwards
+solve: system
+symbols: {m: mass, g: acceleration, u: speed, c: damping constant}
+given:
+  coordinates: {y: length}
+  particles: {stone: {mass: m, at: [0, y]}}
+  gravity: g
+  results:
+    speed: {speed: energy_function, for: y, start: 0, start_rate: u}
+    there: {put_in: speed, values: {y: u**2/(4*g)}}
+statement: A stone of mass <<m>> <<g>> <<u>> <<c>>.
+parts:
+  - ask: How fast is it?
+    answer: there
+"""
+LATE = "{limit: speed, for: t, to: infinity}"
+ESCAPES = """\
+title: A particle that goes away
+solve: system
+symbols: {m: mass, k: coupling constant, r_0: length, v: speed}
+given:
+  coordinates: {r: positive length}
+  particles: {p: {mass: m, at: [r, 0]}}
+  potential: -k/r
+  results:
+    speed: {speed: energy_function, for: r, start: r_0, start_rate: v}
+    far: {limit: speed, for: r, to: infinity}
+statement: A particle <<m>> <<k>> <<r_0>> <<v>>.
+parts:
+  - ask: How fast is it far away?
+    answer: far
+"""
+SWINGS = """\
+title: A mass at a spring
+solve: system
+symbols: {m: mass, k: spring constant, c: damping constant, F: positive force, w: angular speed, A: length}
+values: {m: 1 kg, k: 4 N/m, c: 4 kg/s, F: 1 N, w: 2 rad/s, A: 1 m}
+given:
+  coordinates: {x: length}
+  particles: {p: {mass: m, at: [x, 0]}}
+  springs: {constant: k, from: [0, 0], to: p}
+  forces: {components: [F*cos(w*t), 0], at: p}
+  results:
+    moves: {solution: motion_x, for: x, start: 0, start_rate: 0}
+statement: A mass <<m>> <<k>> <<c>> <<F>> <<w>> <<A>>.
+parts:
+  - ask: How does it move?
+    answer: moves
+"""
+FORCED, DAMPED = "forces: {components: [F*cos(w*t), 0], at: p}", "damping: {constant: c, at: p}"
+WHEEL = """\
+title: A wheel on a plank
+solve: system
+symbols: {m: mass, M: mass, R: length}
+given:
+  coordinates: {x: length, X: length, theta: angle}
+  bodies: {wheel: {shape: disc, mass: m, radius: R, centre: [x, R], turned: -theta}}
+  particles: {plank: {mass: M, at: [X, 0]}}
+  rolling: {body: wheel, at: [x, 0], ground: [X, 0], force: F}
+statement: A wheel <<m>> <<M>> <<R>>.
+parts:
+  - ask: How does it move?
+    answer: equations_of_motion
+"""
+
+
+def refused(folder: Path, text: str) -> tuple[str, int, str]:
+    (found,) = complaints(folder, text)
+    return found.code, found.place.line, found.message
+
+
+def test_a_place_that_the_motion_does_not_reach_is_refused(tmp_path: Path) -> None:
+    too_high = edited(STONE, ("u**2/(4*g)", "u**2/g"))
+    code, line, said = refused(tmp_path, too_high)
+    assert (code, line) == ("not-reached", 10)
+    assert "does not get to y = u**2/g, since y_dot**2 would be negative" in said
+
+
+def test_a_place_on_the_way_has_its_speed(tmp_path: Path) -> None:
+    assert str(solved(tmp_path, STONE)["there"].value) == "u**2/2"
+
+
+def test_a_motion_that_need_not_get_far_away_is_assumed_to(tmp_path: Path) -> None:
+    text = rendered(course_with(tmp_path, ESCAPES), "trial/one", only={"text"}).texts["text"]
+    assert "Assume that v² ≥ 2k/(m r_0)." in " ".join(text.split())
+
+
+def test_a_motion_that_never_gets_far_away_is_refused(tmp_path: Path) -> None:
+    slow = edited(ESCAPES, ("start_rate: v", "start_rate: sqrt(k/(m*r_0))"))
+    code, line, said = refused(tmp_path, slow)
+    assert (code, line) == ("not-reached", 10)
+    assert "does not get to r = oo" in said
+
+
+def test_the_speed_after_a_long_time_is_a_limit(tmp_path: Path) -> None:
+    oil = edited(
+        STONE,
+        ("speed: {speed: energy_function, for: y,", "moves: {solution: motion_y, for: y,"),
+        ("there: {put_in: speed, values: {y: u**2/(4*g)}}", f"speed: {{rate: moves}}\n    there: {LATE}"),
+        ("gravity: g\n", "gravity: g\n  damping: {constant: c, at: stone}\n"),
+    )
+    assert str(solved(tmp_path, oil)["there"].value) == "-g*m/c"
+
+
+def test_a_coordinate_is_not_small_all_the_time(tmp_path: Path) -> None:
+    code, line, _ = refused(tmp_path, edited(ESCAPES, ("to: infinity", "to: 0")))
+    assert (code, line) == ("changes", 10)
+
+
+def test_resonance_by_the_given_numbers_is_refused(tmp_path: Path) -> None:
+    code, line, said = refused(tmp_path, SWINGS)
+    assert (code, line) == ("resonance", 11)
+    assert "k - m*w**2 vanishes" in said
+
+
+def test_critical_damping_by_the_given_numbers_is_refused(tmp_path: Path) -> None:
+    code, line, said = refused(tmp_path, edited(SWINGS, (FORCED, DAMPED), ("start: 0", "start: A")))
+    assert (code, line) == ("open-case", 11)
+    assert "critically damped only where c**2 - 4*k*m = 0" in said
+
+
+def test_above_the_natural_frequency_by_the_given_numbers_it_is_in_antiphase(tmp_path: Path) -> None:
+    asked = ("moves: {solution: motion_x, for: x, start: 0, start_rate: 0}", "moves: {amplitude: motion_x, for: x}")
+    found = solved(tmp_path, edited(SWINGS, asked, ("w: 2 rad/s", "w: 3 rad/s")))
+    assert str(found["moves_lag"].value) == "pi"
+
+
+@pytest.mark.parametrize("ground", ["[x, 0]", "[2*X, 0]"])
+def test_a_place_of_the_ground_that_nothing_carries_is_refused(tmp_path: Path, ground: str) -> None:
+    code, line, said = refused(tmp_path, edited(WHEEL, ("ground: [X, 0]", f"ground: {ground}")))
+    assert (code, line) == ("which-body", 8)
+    assert "of the ground moves with no body and no particle here" in said
+
+
+def test_a_place_of_the_ground_on_the_plank_is_not(tmp_path: Path) -> None:
+    assert solved(tmp_path, WHEEL)
