@@ -146,3 +146,29 @@ def test_a_place_of_the_ground_that_nothing_carries_is_refused(tmp_path: Path, g
 
 def test_a_place_of_the_ground_on_the_plank_is_not(tmp_path: Path) -> None:
     assert solved(tmp_path, WHEEL)
+
+
+@pytest.mark.parametrize(("letter", "aim", "holds"), [("k", "infinity", False), ("K", "k", True), ("K", "0", False)])
+def test_a_limit_keeps_what_is_assumed(tmp_path: Path, letter: str, aim: str, holds: bool) -> None:
+    text = f"""\
+title: A mass between two springs
+solve: system
+symbols: {{m: mass, k: spring constant, K: spring constant}}
+given:
+  coordinates: {{x: length}}
+  particles: {{p: {{mass: m, at: [x, 0]}}}}
+  springs: [{{constant: k, from: [0, 0], to: p}}, {{constant: K, from: [0, 0], to: p}}]
+  assume: k < K < 4*k
+  results:
+    there: {{limit: frequency, for: {letter}, to: {aim}}}
+statement: A mass <<m>> <<k>> <<K>>.
+parts:
+  - ask: How fast does it swing?
+    answer: there
+"""
+    if holds:
+        assert str(solved(tmp_path, text)["there"].value) == "sqrt(2)*sqrt(k)/sqrt(m)"
+    else:
+        code, line, said = refused(tmp_path, text)
+        assert (code, line) == ("contradiction", 10)
+        assert "not everything holds that is assumed" in said

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import islice
 from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Rational, Symbol, oo
@@ -18,6 +19,7 @@ from derive.algebra.expansion import (
     tidied_terms,
 )
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.samples import letters_of, points, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.approximate import equation_in_limit
@@ -31,12 +33,14 @@ from derive.mechanics.equations.leading import (
 )
 from derive.mechanics.equations.unknowns import letter_of, meaning, unknown_of
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import changes, letter_of_limit, named_coordinates
+from derive.steps.known_numbers import with_numbers
+from derive.steps.record import assumed, changes, letter_of_limit, named_coordinates
 from derive.steps.step import Form, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
+MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # far beyond the samples of the other letters
 BORDERS = {"=": "", ">=": "min", "<=": "max"}  # what is to be said of the letter for its value on the border
 
 
@@ -76,6 +80,7 @@ def limiting_case(
     aim = explicit(to.value if isinstance(to, Quantity) else to)
     _check_letter(of, value, x, is_end=aim in (oo, -oo))
     _check_gets_far(of, x, aim)
+    _check_assumed(x, aim)
     place = aim if aim in (oo, -oo) else tidied(aim * x / goes)
     series = beginnings(of, value, x, place, order)
     found = _added_up(series, value, x, place)
@@ -172,6 +177,31 @@ def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
         if known is not None and known.coordinate == x:
             value = explicit(each.value)
             check_reached(of, x, aim, _added_up(beginnings(each, value, x, aim, None), value, x, aim))
+
+
+def _check_assumed(x: Symbol, aim: Expr) -> None:
+    """Close to the limit there are values of the other letters for which everything holds that the page assumes."""
+    signs = {">": 1, "<": -1}
+    kept = [with_numbers(each.residual * signs[each.mark[0]]) for each in assumed() if each.mark[0] in signs]
+    conditions = [each for each in kept if x in each.free_symbols]
+    letters = set().union(letters_of(aim) if aim not in (oo, -oo) else (), *map(letters_of, conditions)) - {x}
+    for point in islice(points(letters, 0), MANY) if conditions else ():
+        for near in _close_to(aim, point):
+            if all(value_at(each, {**point, x: near}) > 0 for each in conditions):
+                return
+    if conditions:
+        message = f"`limiting_case`: where {x.name} goes to {aim}, not everything holds that is assumed"
+        help_line = "leave that relation out of `assume:`, or give another limit"
+        raise Rejected(Complaint("contradiction", message, help=help_line))
+
+
+def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
+    """Large numbers, or numbers on both sides of the aim."""
+    if aim in (oo, -oo):
+        return (FAR if aim == oo else -FAR,)
+    there = explicit(aim).xreplace(dict(point))
+    little = 1 / FAR if there == 0 else there * NEAR
+    return (there + little, there - little)
 
 
 def _added_up(series: Sequence[Series], value: Any, x: Symbol, place: Expr) -> Any:
