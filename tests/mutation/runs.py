@@ -115,7 +115,8 @@ class OwnRun(Run):
 def forget() -> None:
     """Clear every cache of `derive` whose values a changed function may have made.
 
-    The algebra lies below all that is changed and calls none of it, so its caches hold what they would hold again.
+    The algebra lies below all that is changed and calls none of it, so its caches hold what they would hold again. The
+    folder of the preambles is not a value, and is removed at the end.
     """
     for clear in _caches():
         clear.cache_clear()
@@ -123,7 +124,7 @@ def forget() -> None:
 
 def _caches() -> Iterator[Any]:
     for name, module in list(sys.modules.items()):
-        if name.partition(".")[0] == "derive" and not name.startswith("derive.algebra"):
+        if name.partition(".")[0] == "derive" and not name.startswith(("derive.algebra", "derive.building.preamble")):
             for value in list(vars(module).values()):
                 of_class = vars(value).values() if isinstance(value, type) else ()
                 yield from (each for each in (value, *of_class) if hasattr(each, "cache_clear") and _is_own(each))

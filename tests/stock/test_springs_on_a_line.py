@@ -28,6 +28,11 @@ statement: A cart.
 parts:
   - {ask: Find what is asked., answer: [equations_of_motion, equilibria, stability]}
 """
+BOTH = """springs:
+    - {constant: k, from: [0, 0], to: [x, 0], length: l}
+    - {constant: K, from: [d, 0], to: [x, 0], length: l}
+  assume: d > 2*l
+  at: {x: (k*l + K*(d - l))/(k + K)}"""
 HANGING = (("at: [x, 0]}", "at: [0, -x]}"), ("from: [d, 0], to: [x, 0]", "from: [0, 0], to: [0, -x]"))
 
 
@@ -162,3 +167,28 @@ def test_hamiltons_equations_have_the_force_of_a_spring_along_a_line(tmp_path: P
     steps = solved(tmp_path, edited(WALL, ("equations_of_motion, equilibria, stability", "hamilton_equations")))
     p_dot = steps["canonical_p_x"].value.right
     assert equal(p_dot, k * (d - x) * (Abs(d - x) - l) / Abs(d - x))
+
+
+def test_a_force_beside_the_spring_leaves_both_equilibria_and_their_stability(tmp_path: Path) -> None:
+    """k(x - d)(1 - l/|x - d|) = F: to the right x - d = l + F/k, to the left x - d = F/k - l, if F < k l."""
+    pushed = edited(
+        WALL,
+        ("g: acceleration, A: length", "F: positive force, A: length"),
+        ("length: l}\nst", "length: l}\n  forces: {components: [F, 0], at: cart}\nst"),
+        ("[equations_of_motion, equilibria, stability]", "[equilibria, stability]"),
+    )
+    F = symbols("F", positive=True)
+    steps = solved(tmp_path, pushed)
+    assert {value.expand() for value in rests(steps)} == {d + l + F / k, d - l + F / k}
+    assert [steps[f"stability_{n}"].value for n in (1, 2)] == [k, k]
+
+
+def test_between_two_walls_the_place_that_an_assumption_settles_is_stable(tmp_path: Path) -> None:
+    between = edited(
+        WALL,
+        ("A: length", "K: spring constant"),
+        ("springs: {constant: k, from: [d, 0], to: [x, 0], length: l}", BOTH),
+        ("[equations_of_motion, equilibria, stability]", "stability"),
+    )
+    K = symbols("K", positive=True)
+    assert equal(solved(tmp_path, between)["stability"].value, K + k)

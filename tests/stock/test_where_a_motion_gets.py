@@ -125,6 +125,11 @@ def test_resonance_by_the_given_numbers_is_refused(tmp_path: Path) -> None:
     assert "k - m*w**2 vanishes" in said
 
 
+def test_the_amplitude_at_resonance_by_the_given_numbers_is_refused(tmp_path: Path) -> None:
+    asked = ("moves: {solution: motion_x, for: x, start: 0, start_rate: 0}", "moves: {amplitude: motion_x, for: x}")
+    assert refused(tmp_path, edited(SWINGS, asked))[:2] == ("resonance", 11)
+
+
 def test_critical_damping_by_the_given_numbers_is_refused(tmp_path: Path) -> None:
     code, line, said = refused(tmp_path, edited(SWINGS, (FORCED, DAMPED), ("start: 0", "start: A")))
     assert (code, line) == ("open-case", 11)

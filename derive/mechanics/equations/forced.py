@@ -11,7 +11,7 @@ from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
 from derive.mechanics.equations.unknowns import lecture_form
-from derive.mechanics.equations.zeros import different_from_zero, positive
+from derive.mechanics.equations.zeros import check_no_resonance, different_from_zero, positive
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
@@ -41,6 +41,8 @@ def steady_amplitude(
     w = diff(angle, TIME)
     stiff, loss = linear.c - linear.a * w**2, linear.b * w
     damped = "damped" if linear.b != 0 else "undamped"
+    if damped == "undamped":
+        check_no_resonance(stiff)
     sign = None if damped == "damped" else sign_known(stiff)
     excluded = None if damped == "damped" else different_from_zero(stiff)
     size = scalar(symbol)

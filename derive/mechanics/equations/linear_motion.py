@@ -41,7 +41,7 @@ from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, is_number, lecture_form, residual_of
-from derive.mechanics.equations.zeros import different_from_zero
+from derive.mechanics.equations.zeros import check_no_resonance, different_from_zero
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
@@ -381,10 +381,7 @@ def _excluded(linear: Linear) -> Relation | None:
                 continue
             below = linear.a * w**2 + linear.b * w if isinstance(f, exp) else -linear.a * w**2
             below = tidied(linear.c + below)
-            if not is_zero(below) and sign_known(below) == 0:
-                message = f"with the given numbers {below} vanishes: this motion is at resonance"
-                help_line = "write the frequency of the driving in letters, such as `sqrt(k/m)`"
-                raise Rejected(Complaint("resonance", message, help=help_line))
+            check_no_resonance(below)
             condition = None if is_zero(below) else different_from_zero(below)
             if condition is not None:
                 found[condition] = None

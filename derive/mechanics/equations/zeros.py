@@ -38,9 +38,11 @@ from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
 from derive.algebra.ranges import never_vanishes_within, settled, strict_sign_within
 from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume
+from derive.steps.step import is_zero
 
 HIGHEST = 6  # power of a coordinate
 LARGEST_PRODUCT = 60  # operations of a sum that may be a product
@@ -389,3 +391,11 @@ def border_of(condition: Relation) -> Relation | None:
             if s.is_positive and one.as_poly(s) is not None and (one / s).cancel().has(s) is False:
                 return Relation(s, "=", tidied(other * s / one))
     return None
+
+
+def check_no_resonance(stiffness: Expr) -> None:
+    """Refuse a driving for which c - a w^2 vanishes by the given numbers, where the result in letters has no value."""
+    if not is_zero(stiffness) and sign_known(stiffness) == 0:
+        message = f"with the given numbers {stiffness} vanishes: this motion is at resonance"
+        help_line = "write the frequency of the driving in letters, such as `sqrt(k/m)`"
+        raise Rejected(Complaint("resonance", message, help=help_line))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import islice
 from typing import Any
 
@@ -30,14 +29,14 @@ from derive.algebra.expressions import Relation, explicit
 from derive.algebra.ranges import range_of
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
-from derive.mechanics.outcomes.signs import MARK_OF, sign_is
+from derive.mechanics.outcomes.signs import MARK_OF, points_as_assumed, sign_is
 from derive.mechanics.outcomes.signs import is_so as holds_at
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.record import assumed
 from derive.steps.step import is_zero
 
-TRIED, MANY, LITTLE = 8, 60, 1e-12
+TRIED, LITTLE = 8, 1e-12
 _CAN_BE = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
 
 
@@ -155,7 +154,7 @@ def _lost(later: bool) -> Predicate:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
         force = with_numbers(explicit(facts.inputs["force"]).subs(letter, start))
         seen = []
-        for point in islice(_points_as_assumed(letters_of(force), seed_of(force)), 8):
+        for point in islice(points_as_assumed(letters_of(force), seed_of(force)), 8):
             try:
                 seen.append(value_at(force, point))
             except (Undefined, NoNumber):
@@ -166,17 +165,6 @@ def _lost(later: bool) -> Predicate:
     return is_so
 
 
-def _points_as_assumed(letters: set[Any], seed: int) -> Iterator[Any]:
-    """Points at which everything holds that the page assumes of these letters."""
-    conditions = [with_numbers(each) for each in assumed() if letters_of(each.residual) <= letters]
-    for point in islice(points(letters, seed), MANY):
-        try:
-            if all(holds_at(each, point) for each in conditions):
-                yield point
-        except (Undefined, NoNumber):
-            continue
-
-
 def _turned_back(facts: Judged) -> bool:
     """With numbers for the letters: the force vanishes at the place and the squared rate is negative there, or zero,
     while at the start the force pushes and the squared rate is not negative."""
@@ -185,7 +173,7 @@ def _turned_back(facts: Judged) -> bool:
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
     values = [with_numbers(explicit(each).subs(*end)) for end in ends for each in (force, squared)]
     seen = 0
-    for point in islice(_points_as_assumed(set().union(*map(letters_of, values)), seed_of(*values)), 8):
+    for point in islice(points_as_assumed(set().union(*map(letters_of, values)), seed_of(*values)), 8):
         try:
             pushing, moving, last, beyond = (value_at(each, point) for each in values)
         except (Undefined, NoNumber):

@@ -6,14 +6,16 @@ Such a letter or place is in no line of the step, and there is no other way to i
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import islice
 from typing import Any
 
-from sympy import Expr, I, Integer, MatrixBase, Symbol, cos, diff, oo, sin
+from sympy import Expr, I, Integer, MatrixBase, Rational, Symbol, cos, diff, oo, sign, sin
 
 from derive.algebra.equality import equal
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import TIME, At, Relation, explicit, rate
-from derive.mechanics.outcomes.signs import same_equation
+from derive.algebra.samples import letters_of, seed_of, value_at
+from derive.mechanics.outcomes.signs import points_as_assumed, same_equation
 from derive.mechanics.outcomes.told import (
     given_as_the_condition_has_it,
     is_a_root_just_where_told,
@@ -23,6 +25,8 @@ from derive.mechanics.outcomes.told import (
 from derive.steps.known_numbers import sign_known
 from derive.steps.outcomes import Judged, Naming, named_by
 from derive.steps.step import is_zero
+
+TRIED, LITTLE = 6, Rational(1, 10**9)
 
 
 def _as_told(predicate: Callable[[Judged, str], bool]) -> Naming:
@@ -102,10 +106,17 @@ def _level_there(role: str) -> Naming:
     """The slope of the energy vanishes at the place that is named."""
 
     def is_so(facts: Judged, place: Any) -> bool:
-        level = is_zero(diff(_value(facts, role), place.left).subs(place.left, explicit(place.right)))
-        return level and place.mark == "="
+        slope = diff(_value(facts, role), place.left).subs(place.left, explicit(place.right))
+        return place.mark == "=" and (_vanishes_as_assumed(slope) if slope.has(sign) else is_zero(slope))
 
     return is_so
+
+
+def _vanishes_as_assumed(slope: Expr) -> bool:
+    """With numbers for the letters: which side of a point of the spring the place is on may be assumed."""
+    drawn = islice(points_as_assumed(letters_of(slope), seed_of(slope)), TRIED)
+    seen = [abs(value_at(slope, point)) < LITTLE for point in drawn]
+    return bool(seen) and all(seen)
 
 
 def _extreme_there(facts: Judged, place: Any) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
 from typing import Any
 
@@ -15,9 +15,10 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed
 from derive.algebra.tidy import tidied
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate
+from derive.steps.record import assumed
 from derive.steps.step import is_zero
 
-TRIED = 12  # numbers of the ranges
+TRIED, MANY = 12, 60  # numbers of the ranges; points of which some do as is assumed
 MARK_OF = {  # what a comparison is called
     "equal_to": "=",
     "different_from": "!=",
@@ -35,6 +36,17 @@ def is_so(condition: Relation, point: Any) -> bool:
         return bool(apart == 0) == (condition.mark == "=")
     ahead = apart if condition.mark[0] == ">" else -apart
     return bool(ahead > 0 or ahead == 0 and condition.mark.endswith("="))
+
+
+def points_as_assumed(letters: set[Any], seed: int) -> Iterator[Any]:
+    """Points at which everything holds that the page assumes of these letters."""
+    conditions = [with_numbers(each) for each in assumed() if letters_of(each.residual) <= letters]
+    for point in islice(points(letters, seed), MANY):
+        try:
+            if all(is_so(each, point) for each in conditions):
+                yield point
+        except (Undefined, NoNumber):
+            continue
 
 
 def vanishes(facts: Judged) -> bool:
