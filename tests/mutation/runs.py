@@ -124,15 +124,15 @@ def forget() -> None:
 
 def _caches() -> Iterator[Any]:
     for name, module in list(sys.modules.items()):
-        if name.partition(".")[0] == "derive" and not name.startswith(("derive.algebra", "derive.building.preamble")):
+        if name.partition(".")[0] == "derive" and not name.startswith("derive.algebra"):
             for value in list(vars(module).values()):
                 of_class = vars(value).values() if isinstance(value, type) else ()
                 yield from (each for each in (value, *of_class) if hasattr(each, "cache_clear") and _is_own(each))
 
 
 def _is_own(function: Any) -> bool:
-    """Whether it is defined outside of the algebra; a module may have imported it from there."""
-    return not str(getattr(function, "__module__", "")).startswith("derive.algebra")
+    """Whether it is defined outside of these modules; another module may have imported it from there."""
+    return not str(getattr(function, "__module__", "")).startswith(("derive.algebra", "derive.building.preamble"))
 
 
 def _of_transcripts() -> dict[str, Run]:
