@@ -57,8 +57,8 @@ def test_one_process_answers_one_question_after_another(warm: Warm) -> None:
 @pytest.mark.parametrize(
     ("lines", "code", "said"),
     [
-        (ENDLESS, "time-limit", "`hw9/block` took over 3 s"),
-        (BUSY, "time-limit", "`hw9/block` took over 3 s"),
+        (ENDLESS, "time-limit", "`hw9/block` took over 2 s"),
+        (BUSY, "time-limit", "`hw9/block` took over 2 s"),
         (GREEDY, "memory-limit", "`hw9/block` took over 0.5 GiB of memory"),
         (DEEP, "script", "the script failed: RecursionError"),
         (DYING, "worker-died", "`hw9/block` ended without a word: exit code 1"),
@@ -69,7 +69,7 @@ def test_what_gives_no_answer_is_told_at_its_line_as_in_a_build_and_the_next_que
 ) -> None:
     monkeypatch.setenv("DERIVE_MEMORY", "0.5")
     assert asked(warm).main
-    warm.limit = 3
+    warm.limit = 2 if code == "time-limit" else 30
     begins_with(warm, lines)
     (complaint,) = asked(warm).complaints
     assert f"error[{code}]: {said}" in complaint
@@ -85,7 +85,7 @@ def test_a_script_that_reads_or_writes_whatever_is_open_disturbs_no_answer(warm:
     assert asked(warm).main
 
 
-@pytest.mark.parametrize("garbage", ["chatter", "{}\\n", "\\n", "[\\n", '{"number": 7, "main": "x"}\\n'])
+@pytest.mark.parametrize("garbage", ["chatter", "{}\\n", "[\\n", '{"number": 7, "main": "x"}\\n'])
 def test_what_a_script_writes_into_a_descriptor_is_no_answer(warm: Warm, garbage: str) -> None:
     write = "for each in range(3, 40):\n        try: os.write(each, b'" + garbage + "')\n        except OSError: pass"
     begins_with(warm, f"import os\n    {write}")
@@ -95,10 +95,10 @@ def test_what_a_script_writes_into_a_descriptor_is_no_answer(warm: Warm, garbage
 
 
 def test_half_an_answer_is_not_waited_for_without_end(warm: Warm) -> None:
-    warm.limit = 3
+    warm.limit = 2
     half = "for each in range(3, 40):\n        try: os.write(each, b'half')\n        except OSError: pass"
     begins_with(warm, f"import os\n    {half}\n    {ENDLESS}")
-    assert "took over 3 s" in asked(warm).complaints[0]
+    assert "took over 2 s" in asked(warm).complaints[0]
 
 
 def test_after_its_end_there_is_no_worker_and_no_answer(warm: Warm) -> None:
@@ -141,7 +141,7 @@ from pathlib import Path
 from derive.preview.asking import Warm
 warm = Warm(Path(sys.argv[1]), 60)
 threading.Thread(target=lambda: warm.page("hw9/block", None), daemon=True).start()
-time.sleep(3)
+time.sleep(1.5)
 print(warm._worker.process, flush=True)
 time.sleep(60)
 """
