@@ -88,6 +88,33 @@ def test_a_place_that_the_motion_does_not_reach_is_refused(tmp_path: Path) -> No
     assert "does not get to y = u**2/g, since y_dot**2 would be negative" in said
 
 
+HILL = """\
+title: A bead between two hollows
+solve: system
+symbols: {m: mass, g: acceleration, a: length, h: length, v: speed}
+given:
+  coordinates: {x: length}
+  particles: {bead: {mass: m, at: [x, 0]}}
+  potential: m*g*h*(1 - x**2/a**2)**2
+  results:
+    speed: {speed: energy_function, for: x, start: -a, start_rate: v}
+    there: {put_in: speed, values: {x: a}}
+statement: A bead <<m>> <<g>> <<a>> <<h>> <<v>>.
+parts:
+  - ask: How fast is it in the other hollow?
+    answer: there
+"""
+
+
+def test_a_place_behind_a_hill_is_refused_unless_the_motion_passes(tmp_path: Path) -> None:
+    """The speed in the other hollow would be v; over the hill it gets only for v^2 > 2 g h."""
+    code, line, said = refused(tmp_path, HILL)
+    assert (code, line) == ("not-reached", 10)
+    assert "on the way x_dot**2 can be negative" in said
+    fast = edited(HILL, ("  results:", "  assume: v**2 > 2*g*h\n  results:"))
+    assert str(solved(tmp_path, fast)["there"].value) == "v**2"
+
+
 def test_a_place_on_the_way_has_its_speed(tmp_path: Path) -> None:
     assert str(solved(tmp_path, STONE)["there"].value) == "u**2/2"
 

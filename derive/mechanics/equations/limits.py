@@ -176,7 +176,7 @@ def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
         known = each.fact(ByEnergy)
         if known is not None and known.coordinate == x:
             value = explicit(each.value)
-            check_reached(of, x, aim, _added_up(beginnings(each, value, x, aim, None), value, x, aim))
+            check_reached(of, each, aim, _added_up(beginnings(each, value, x, aim, None), value, x, aim))
 
 
 def _check_assumed(x: Symbol, aim: Expr) -> None:

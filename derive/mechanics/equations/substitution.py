@@ -338,7 +338,7 @@ def _check_reached(of: Quantity, rests: Sequence[Quantity], there: Sequence[Repl
         if known is not None and known.coordinate in values:
             squared = tidied(explicit(each.value).xreplace(values))
             if not squared.free_symbols & {TIME, *coordinates_of(of, *rests)}:
-                check_reached(of, known.coordinate, values[known.coordinate], squared)
+                check_reached(of, each, values[known.coordinate], squared)
 
 
 def _check_holds(of: Quantity, result: Any) -> None:
