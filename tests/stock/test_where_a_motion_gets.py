@@ -204,3 +204,16 @@ parts:
         code, line, said = refused(tmp_path, text)
         assert (code, line) == ("contradiction", 10)
         assert "not everything holds that is assumed" in said
+
+
+def test_a_place_that_is_a_result_is_judged_too(tmp_path: Path) -> None:
+    """The hollow on the other side is a root, and the bead gets there only over the hill."""
+    other = edited(
+        HILL,
+        ("values: {x: a}", "results: hollow"),
+        ("    there:", "    hollow: {roots: force, for: x, root: positive}\n    there:"),
+        ("  results:", "  results:\n    force: {value: x**2 - a**2}"),
+    )
+    code, _, said = refused(tmp_path, other)
+    assert code == "not-reached"
+    assert "on the way x_dot**2 can be negative" in said

@@ -3,87 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, oo, pi, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, pi, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expansion import Approach, NoExpansion
 from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Terms, TimeRate, explicit, rate, scalar
-from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.swing import SwingTime, half_swing, quarter_swing
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.turning_points import ByEnergy
 from derive.mechanics.equations.unknowns import lecture_form, residual_of, with_unknown
-from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.numeric import WholeSwing
-from derive.steps.record import assume, assumed, free_letter, letter_of_limit
-from derive.steps.step import Fact, Form, Level, Quantity, approximations_among, is_zero, value_behind
+from derive.steps.record import free_letter, letter_of_limit
+from derive.steps.step import Form, Level, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["period_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
-TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # of the way to a place
 NOISE = 1e-9  # what the numbers may differ by near the turning points, where most figures cancel
-
-
-@dataclass(frozen=True)
-class ByEnergy(Fact):
-    """Where a motion of one coordinate started, and its acceleration by the equation of motion."""
-
-    missing = "is no square of a rate that conservation of energy gives"
-    coordinate: Symbol
-    start: Expr
-    start_rate: Expr
-    acceleration: Expr
-
-
-def check_reached(of: Quantity, speed: Quantity, place: Expr, there: Expr) -> None:
-    """A place is reached only where the squared rate, by conservation of energy, is negative neither there nor on the
-    way from the start; where its sign at the place depends on the letters the page states it.
-
-    speed   the squared rate, and `there` its value at the place
-    """
-    q, sign = speed.needed(ByEnergy).coordinate, sign_known(there)
-    fast = rate(q)
-    if sign == -1:
-        message = f"`{of.key}`: the motion does not get to {q} = {place}, since {fast}**2 would be negative"
-        raise Rejected(Complaint("not-reached", message, help=f"it would be {there}"))
-    if _is_barred(speed, place, there):
-        message = f"`{of.key}`: the motion need not get to {q} = {place}: on the way {fast}**2 can be negative"
-        raise Rejected(Complaint("not-reached", message, help="state what lets it pass with `assume:`"))
-    if sign is None:
-        condition = positive(there)
-        assume(Relation(condition.left, ">=", condition.right))
-
-
-def _is_barred(speed: Quantity, place: Expr, there: Expr) -> bool:
-    """Whether, with numbers for the letters, the squared rate is negative between the start and a place."""
-    known = speed.needed(ByEnergy)
-    q, squared, start, there = known.coordinate, *map(with_numbers, (speed.value, known.start, there))
-    conditions = [with_numbers(each.residual) * SIGNS[each.mark[0]] for each in assumed() if each.mark[0] in SIGNS]
-    finite = with_numbers(place) if place not in (oo, -oo) else ZERO
-    letters = set().union(*map(letters_of, (squared, start, there, finite, *conditions))) - {q}
-    for point in islice(points(letters, seed_of(squared)), TRIED):
-        try:
-            if value_at(there, point) < 0 or any(value_at(each, point) < 0 for each in conditions):
-                continue
-            begin, end = value_at(start, point), value_at(finite, point)
-            for part in PARTS:
-                far = (1 if place == oo else -1) * (abs(begin) + 1) * part / (1 - part)
-                here = begin + (far if place in (oo, -oo) else (end - begin) * part)
-                if value_at(squared, {**point, q: here}) < 0:
-                    return True
-        except (Undefined, NoNumber):
-            continue
-    return False
 
 
 def speed_from_energy(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import islice
 
-from sympy import Dummy, Expr, Integer, Mul, Rational
+from sympy import Expr, Integer, Mul, Rational
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit, rate
@@ -19,8 +19,8 @@ from derive.mechanics.equations.conditions import (
     solved_for_unknown,
     unsolvable,
 )
-from derive.mechanics.equations.energy_integral import ByEnergy
 from derive.mechanics.equations.inequalities import of_the_size
+from derive.mechanics.equations.turning_points import ByEnergy, condition_to_reach, part_of_the_way
 from derive.mechanics.equations.unknowns import (
     left_over,
     letter_of,
@@ -56,8 +56,8 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
     Outcomes: lost; lost_later (at the start itself the force is zero, and positive from then on); never (the force is
     positive whatever the letter is); turns_back (it would vanish at a place that the motion does not reach);
     turns_there (it vanishes only where the motion turns back).
-    Errors: the force is not positive from the start on, or it is not linear in the letter; whether the motion gets
-    there is not known.
+    Errors: the force is not positive from the start on, or it is not linear in the letter; the motion need not get
+    there.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
@@ -83,18 +83,19 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
     alone, solved, _ = solved_for_unknown(force, pushing, "=", unknown)
     if alone != unknown:
         raise unsolvable(force, unknown)
-    squared = squared_rate_behind(force, unknown)
+    speed = _speed_behind(force, unknown)
+    squared = None if speed is None else explicit(speed.value)
     there = None if squared is None else tidied(with_unknown(squared, unknown, solved))
     if squared is not None and there is not None and sign_known(there) in (0, -1):
         return _turns_back(force, unknown, (begin, solved), squared, key)
-    reached = None if squared is None else _reached(force, unknown, squared, (begin, solved))
+    reached = None if speed is None else condition_to_reach(force, speed, unknown, solved)
     result = Relation(unknown, "=", solved)
     existing = existence(force, unknown, "=", solved)
 
     def on_both_sides(found: Relation) -> tuple[object, object]:
         """N at the place, and on the way there from the start, but for the factor that stays positive."""
         place = explicit(found.right)
-        u = _part()
+        u = part_of_the_way()
         on_the_way = tidied(with_unknown(pushing, unknown, place + u * (begin - place)))
         at_place = tidied(with_unknown(pushing, unknown, place))
         return Relation(found.left, found.mark, on_the_way + 7 * at_place), Relation(unknown, "=", u * at_start)
@@ -134,33 +135,10 @@ def _as_positive(condition: Relation) -> Relation:
     return positive(condition.residual if condition.mark in (">", ">=") else -condition.residual)
 
 
-def squared_rate_behind(force: Quantity, unknown: Expr) -> Expr | None:
+def _speed_behind(force: Quantity, unknown: Expr) -> Quantity | None:
     """The squared rate of the coordinate, f(q) by conservation of energy, that a force rests on."""
-    found = (
-        each for each in force.ancestors() if (known := each.fact(ByEnergy)) and known.coordinate == letter_of(unknown)
-    )
-    return next((explicit(each.value) for each in found), None)
-
-
-def _reached(force: Quantity, unknown: Expr, squared: Expr, ends: tuple[Expr, Expr]) -> Relation | None:
-    """The condition under which the motion gets from the start to the place; nothing where it always does.
-
-    The squared rate is positive all the way. One that is linear in the unknown is so if it is at the place, since at
-    the start it is a square.
-    """
-    begin, place = ends
-    mark = mark_for(unknown)
-    written = with_unknown(squared, unknown, mark)
-    there = tidied(with_unknown(squared, unknown, place))
-    polynomial = written.as_poly(mark)
-    is_linear = polynomial is not None and polynomial.degree() <= 1 and not left_over(written, unknown)
-    if not is_linear:
-        on_the_way = tidied(with_unknown(squared, unknown, place + _part() * (begin - place)))
-        if sign_known(on_the_way) != 1 or sign_known(there) not in (0, 1):
-            message = f"`leaves_contact`: whether the motion gets to {unknown} = {place} is not known"
-            help_line = "state what the letters are with `assume:`, or give them numbers"
-            raise Rejected(Complaint("not-reached", message, help=help_line))
-    return None if sign_known(there) == 1 else positive(there)
+    q = letter_of(unknown)
+    return next((a for a in force.ancestors() if (known := a.fact(ByEnergy)) and known.coordinate == q), None)
 
 
 def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
@@ -178,7 +156,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 
     def on_the_way(found: Relation) -> tuple[object, object]:
         """From the start to the place the force is positive; only at the place would it vanish."""
-        u = _part()
+        u = part_of_the_way()
         between = tidied(with_unknown(value, unknown, place + u * (begin - place)))
         sure = int(sign_known(between) == 1 and found.mark == mark)
         return found.residual * 0 + sure, Integer(1)
@@ -198,12 +176,6 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
         ),
         key=key,
     )
-
-
-def _part() -> Expr:
-    """Any number between 0 and 1."""
-    way = Dummy("s", positive=True)
-    return way / (1 + way)
 
 
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:

@@ -23,7 +23,6 @@ from derive.algebra.samples import letters_of, points, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.approximate import equation_in_limit
-from derive.mechanics.equations.energy_integral import ByEnergy, check_reached
 from derive.mechanics.equations.leading import (
     beginnings,
     entry_by_entry,
@@ -31,6 +30,7 @@ from derive.mechanics.equations.leading import (
     terms_by_arithmetic,
     to_that_order,
 )
+from derive.mechanics.equations.turning_points import ByEnergy, assume_reached
 from derive.mechanics.equations.unknowns import letter_of, meaning, unknown_of
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.known_numbers import with_numbers
@@ -176,7 +176,7 @@ def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
         known = each.fact(ByEnergy)
         if known is not None and known.coordinate == x:
             value = explicit(each.value)
-            check_reached(of, each, aim, _added_up(beginnings(each, value, x, aim, None), value, x, aim))
+            assume_reached(of, each, x, aim, _added_up(beginnings(each, value, x, aim, None), value, x, aim))
 
 
 def _check_assumed(x: Symbol, aim: Expr) -> None:

@@ -12,10 +12,9 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSy
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
 from derive.algebra.ranges import strict_sign_within
-from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.equations.defined import check_defined
-from derive.mechanics.equations.energy_integral import ByEnergy, check_reached
+from derive.mechanics.equations.turning_points import ByEnergy, assume_reached, condition_to_reach
 from derive.mechanics.equations.unknowns import (
     ValueOf,
     coordinates_of,
@@ -71,7 +70,7 @@ def put_in(
     for quantity in rests:
         value = _all_put(value, _replacements(quantity, of), quantity.key, of, told)
     there = _values(of, given, values, value)
-    _check_reached(of, rests, there)
+    _check_reached(of, rests, [*told, *there])
     for pair in there:
         if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # an earlier value may have taken it away
             value = _all_put(value, [pair], str(pair[0]), of, told)
@@ -330,15 +329,23 @@ def _is_identity(result: Any) -> bool:
     return isinstance(result, Relation) and result.mark == "=" and is_zero(result.residual)
 
 
-def _check_reached(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> None:
-    """A place that is put in is one that the motion reaches."""
-    values = dict(there)
-    for each in {id(a): a for quantity in (of, *rests) for a in quantity.ancestors()}.values():
-        known = each.fact(ByEnergy)
-        if known is not None and known.coordinate in values:
-            squared = tidied(explicit(each.value).xreplace(values))
-            if not squared.free_symbols & {TIME, *coordinates_of(of, *rests)}:
-                check_reached(of, each, values[known.coordinate], squared)
+def _check_reached(of: Quantity, rests: Sequence[Quantity], told: Sequence[Replacement]) -> None:
+    """A place that is put in is one that the motion reaches; one that was found from the motion has its condition."""
+    for speed in {id(a): a for quantity in (of, *rests) for a in quantity.ancestors() if a.fact(ByEnergy)}.values():
+        found = any(each.rests_on(speed) for each in rests)
+        for target, place in told:
+            if _is_place_of(target, place, speed, coordinates_of(of, *rests)):
+                (condition_to_reach if found else assume_reached)(of, speed, target, place)
+
+
+def _is_place_of(target: Expr, place: Expr, speed: Quantity, moving: Mapping[Symbol, str]) -> bool:
+    """Whether a constant is put in for the coordinate of a motion, or for a function of it that the rate contains."""
+    known = speed.fact(ByEnergy)
+    return (
+        known is not None
+        and target.free_symbols == {known.coordinate}
+        and not place.free_symbols & {TIME, *moving, *(rate(q) for q in moving)}
+    )
 
 
 def _check_holds(of: Quantity, result: Any) -> None:

@@ -14,7 +14,6 @@ from derive.algebra.expressions import Partial, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, SamplePoint, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.mechanics.bodies.facts import CountedFrom
-from derive.mechanics.equations.energy_integral import ByEnergy
 from derive.mechanics.equations.linearised import Linear
 from derive.mechanics.equations.modes import Mode
 from derive.mechanics.equations.oscillations import SquareOf
@@ -23,6 +22,7 @@ from derive.mechanics.equations.stability import DerivativeOf, LowestOrder, Shap
 from derive.mechanics.equations.stable_where import StableWhere
 from derive.mechanics.equations.steady import Steady
 from derive.mechanics.equations.substitution import WithMomenta
+from derive.mechanics.equations.turning_points import ByEnergy
 from derive.mechanics.equations.wobble import Disturbed
 from derive.mechanics.outcomes.signs import is_so, same_equation
 from derive.mechanics.systems.coordinates import OfCoordinate
