@@ -7,6 +7,7 @@ import json
 import os
 import random
 import sys
+import time
 from collections import Counter
 from dataclasses import asdict
 
@@ -26,17 +27,23 @@ def main() -> int:
     parser.add_argument("--only", help="a file with the ids of those to try, one a line, or an earlier `--out`")
     parser.add_argument("--change", help="only changes of this sort, such as law")
     parser.add_argument("--share", default="1/1", help="2/4: the second quarter, so that several can work at once")
-    parser.add_argument("--chunk", type=int, default=400, help="so many are tried on all runs before the next ones")
-    parser.add_argument("--out", help="a file to which each verdict is appended, as a line of JSON")
+    parser.add_argument("--minutes", type=float, help="stop after so long")
+    parser.add_argument("--chunk", type=int, default=2000, help="so many are tried on all runs before the next ones")
+    parser.add_argument(
+        "--out", help="a file to which each verdict is appended, as a line of JSON; what it has is not tried again"
+    )
     given = parser.parse_args()
     os.nice(5)
+    begun = time.monotonic()
     trials = Trials(given.run or list(RUNS), given.module or MODULES)
     trials.prepare(lambda told: print(told, file=sys.stderr, flush=True))
     chosen = trials.sample(given.sample, given.seed)
     if given.only:
-        with open(given.only, encoding="utf-8") as file:
-            wanted = {json.loads(line)["id"] if line.startswith("{") else line.strip() for line in file}
+        wanted = _ids_in(given.only)
         chosen = [mutant for mutant in chosen if mutant.id in wanted]
+    if given.out:
+        done = _ids_in(given.out)
+        chosen = [mutant for mutant in chosen if mutant.id not in done]
     if given.change:
         chosen = [mutant for mutant in chosen if mutant.change == given.change]
     which, shares = (int(n) for n in given.share.split("/"))
@@ -54,12 +61,22 @@ def main() -> int:
                 out.write(json.dumps(asdict(tried)) + "\n")
         if tried.verdict is Verdict.SURVIVED:
             print(f"survived ({tried.nature}) on {tried.run}: {tried.id}\n{tried.told}\n", flush=True)
-        if number % 25 == 0:
+        if number % 100 == 0:
             print(f"{number} of {len(chosen)}", file=sys.stderr, flush=True)
+        if given.minutes and time.monotonic() - begun > given.minutes * 60:
+            break
     print(f"{'module':28}" + "".join(f"{verdict:>10}" for verdict in Verdict))
     for module, found in sorted(counts.items()):
         print(f"{module:28}" + "".join(f"{found[verdict]:>10}" for verdict in Verdict))
     return 0
+
+
+def _ids_in(name: str) -> set[str]:
+    """The ids in a file, one a line or as `--out` writes them; none where there is no such file."""
+    if not os.path.exists(name):
+        return set()
+    with open(name, encoding="utf-8") as file:
+        return {json.loads(line)["id"] if line.startswith("{") else line.strip() for line in file}
 
 
 if __name__ == "__main__":

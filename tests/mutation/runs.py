@@ -193,10 +193,8 @@ RATES = Run(  # the top without its last part, in a third of the time
 )
 LIBRARY = tuple(sorted(path.stem for path in (ROOT / "problems" / "library").rglob("*.yaml") if path.stem != "set"))
 OWN = Path(__file__).parent / "problems"  # of verbs that no problem of the library asks for
-CHEAP = ("block", "cone", "euler")  # these first: what they refuse need not be tried on others
 _found = _of_transcripts()
 RUNS: dict[str, Run] = {
-    **{name: run for name, run in _found.items() if name.startswith(CHEAP)},
     **{run.name: run for run in (*BODIES, RATES)},
     **_found,
     **{f"library/{name}": LibraryRun(f"library/{name}") for name in LIBRARY},

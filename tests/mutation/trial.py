@@ -38,7 +38,7 @@ from derive.steps.step import Step
 from tests.mutation.mutants import MODULES, SOURCES, Mutant, mutants_of, path_of
 from tests.mutation.runs import RUNS, Run, Solved
 
-LIMIT = 60  # seconds of processor time that a mutant may take beyond its run
+LIMIT = 20  # seconds of processor time that a mutant may take beyond its run
 
 
 class Verdict(StrEnum):
@@ -51,6 +51,9 @@ class Verdict(StrEnum):
     UNSEEN = "unseen"  # steps that differ in what no page shows
     SURVIVED = "survived"  # another page
     UNUSED = "unused"  # no run comes there
+
+
+ENDS = {Verdict.REFUSED, Verdict.CRASHED, Verdict.TIME, Verdict.SURVIVED}  # after these no other run is tried
 
 
 @dataclass(frozen=True)
@@ -438,6 +441,7 @@ class Trials:
         for name in self.runs:
             note(f"solving {name}")
             self.recordings.append(recording(RUNS[name], self.modules))
+        self.recordings.sort(key=lambda each: len(each.solved.derivation.steps))  # a short run is tried first
 
     def changed(self) -> set[str]:
         """The functions in which something that is carried out can be changed: a sign, a number, a term, an order."""
@@ -458,25 +462,24 @@ class Trials:
 
     def verdicts(self, mutants: Iterable[Mutant], at_most: int = 3) -> Iterator[Tried]:
         """What became of each: on every run that uses it, up to so many, until one refuses it."""
-        waiting = {mutant.id: mutant for mutant in mutants}
         so_far: dict[str, Tried] = {}
-        times = dict.fromkeys(waiting, 0)
-        for recorded in self.recordings:
-            mine = [m for m in waiting.values() if times[m.id] < at_most and uses(recorded, m)]
-            for mutant in mine:
-                times[mutant.id] += 1
+        left: dict[str, int] = {}
+        planned: list[list[Mutant]] = [[] for _ in self.recordings]
+        for mutant in mutants:
+            using = [n for n, recorded in enumerate(self.recordings) if uses(recorded, mutant)][:at_most]
+            left[mutant.id] = len(using)
+            for n in using:
+                planned[n].append(mutant)
+            if not using:
+                yield Tried(mutant.id, mutant.module, "", Verdict.UNUSED)
+        for recorded, mine in zip(self.recordings, planned, strict=True):
+            mine = [mutant for mutant in mine if left[mutant.id]]
             for tried in tried_on(recorded, mine, self.trees) if mine else ():
+                left[tried.id] -= 1
                 known = so_far.get(tried.id)
-                if tried.verdict in {Verdict.REFUSED, Verdict.CRASHED, Verdict.TIME}:
-                    if known is None or known.verdict is not Verdict.SURVIVED:
-                        so_far[tried.id] = tried
-                        del waiting[tried.id]
-                        yield tried
-                elif tried.verdict is Verdict.SURVIVED:
+                if tried.verdict in ENDS:
+                    left[tried.id] = 0
+                if known is None or tried.verdict in ENDS or tried.verdict is Verdict.UNSEEN:
                     so_far[tried.id] = tried
-                    del waiting[tried.id]
-                    yield tried
-                elif known is None or tried.verdict is Verdict.UNSEEN:
-                    so_far[tried.id] = tried
-        for name, mutant in waiting.items():
-            yield so_far.get(name) or Tried(name, mutant.module, "", Verdict.UNUSED)
+                if not left[tried.id]:
+                    yield so_far[tried.id]
