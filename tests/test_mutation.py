@@ -135,6 +135,11 @@ PRINTED_SOMETHING_FALSE = [
     ("library/power_law", "mechanics.equations.steady:frequency_squared_about: role: {'potential': about.potential"),
     ("own/charge_in_trap", "mechanics.systems.forces:charge: dropped: ZERO + B -> ZERO"),
     ("own/damped_carts", "mechanics.equations.damped:_frequency: sign: Root(turned * square)"),
+    ("library/damped_oscillator", "mechanics.equations.linear_motion:_sort: dropped: b ** 2 -> b"),
+    ("library/turning_rod", "mechanics.equations.zeros:different_from_zero: condition"),
+    ("library/ball_with_hole", "mechanics.rotation.assembly:_share_of_mass: word: part.body.called"),
+    ("library/kepler", "mechanics.equations.sides:_sides_taken: and/or"),
+    ("block", "steps.numeric:_outcome: outcome: 'exact' -> 'integrated'"),
     ("own/solids", "mechanics.bodies.edged_bodies:Triangle.on_base: order: (base, ZERO) -> [ZERO, base]"),
 ]
 

@@ -262,6 +262,9 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
         verdict = equal(formula, otherwise)
         if not verdict:
             raise refused(key, f"what its sentence says of `{role}` is not so", formula, otherwise, verdict)
+        if isinstance(formula, Relation) and not explicit(formula).free_symbols:
+            message = f"`{key}`: its sentence gives {formula} as a condition, in which there is no letter"
+            raise Unverified(Complaint("unverified", message))
 
 
 def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from itertools import islice
 from typing import Any
 
@@ -29,7 +30,7 @@ from derive.algebra.expressions import Relation, explicit
 from derive.algebra.ranges import range_of
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
-from derive.mechanics.outcomes.signs import MARK_OF, points_as_assumed, sign_is
+from derive.mechanics.outcomes.signs import MARK_OF, points_as_assumed, same_equation, sign_is
 from derive.mechanics.outcomes.signs import is_so as holds_at
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
@@ -294,9 +295,23 @@ def _free_motion(wanted: str) -> Predicate:
         if is_zero(b):
             return wanted == "oscillates" and stiffness == 1
         fitting = {-1: "underdamped", 0: "critically_damped", 1: "overdamped"}
-        return wanted == fitting[sign] if sign is not None else facts.inputs["case"] and wanted in fitting.values()
+        if sign is not None:
+            return wanted == fitting[sign]
+        return any(
+            _is_its_condition(facts, s, (b / a) ** 2 - 4 * c / a) for s, word in fitting.items() if word == wanted
+        )
 
     return is_so
+
+
+def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
+    """By numbers for the letters: the condition that is told holds where the discriminant has this sign."""
+    condition, seen = explicit(facts.inputs["condition"]), set()
+    for point in points_as_assumed(letters_of(condition.residual) | letters_of(discriminant), 0):
+        with suppress(Undefined, NoNumber):
+            value = value_at(discriminant, point)
+            seen.add(wanted == 0 or holds_at(condition, point) == (value * wanted > 0))
+    return seen == {True} and (wanted != 0 or condition.mark == "=" and same_equation(condition.residual, discriminant))
 
 
 def _unless_it_grows(word: str, rate: Expr) -> str:

@@ -105,7 +105,7 @@ def _numbers_fulfil(wanted: bool) -> Predicate:
 
 
 def _of_numbers(wanted: str) -> Predicate:
-    return lambda facts: (wanted == "measured") == bool(facts.inputs["letters"])
+    return lambda facts: (wanted == "measured") == bool(facts.inputs["letters"]) and "integral" not in facts.inputs
 
 
 def _bends(sign: int) -> Predicate:
@@ -141,7 +141,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "numbers.value": {
         "exact": _of_numbers("exact"),
         "measured": _of_numbers("measured"),
-        "integrated": lambda facts: bool(facts.result.is_positive and not facts.result.free_symbols),
+        "integrated": lambda facts: "integral" in facts.inputs and bool(facts.result.is_positive),
         "minimum": _bends(1),
         "maximum": _bends(-1),
     },

@@ -23,6 +23,7 @@ from derive.mechanics.outcomes.on_constraints import signs_on_constraints
 from derive.mechanics.outcomes.searched import none_is_missing
 from derive.mechanics.outcomes.signs import always_sign, lasts, may_be_negative, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.record import assumed, assumed_in_words
 from derive.steps.step import is_zero
 
 SHIFTS = 24
@@ -294,6 +295,13 @@ def _is_what_the_lagrangian_has(facts: Judged) -> bool:
     return is_zero(whole.subs(dict.fromkeys(moving, 0)))
 
 
+def _sides_as_told(facts: Judged) -> bool:
+    """A side of a place is spoken of just where one is assumed, and springs where words assume it."""
+    sides = [each for each in assumed() if each.mark == ">" and explicit(each.residual).has(*facts.inputs["sought"])]
+    in_words = set(assumed_in_words()).issuperset(sides)
+    return facts.words["seen"] == ("any" if not sides else "stretched" if in_words else "one_side")
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "equilibria.potential_at_rest": {
         "generic": _is_what_the_lagrangian_has,
@@ -304,9 +312,9 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "zero": lambda f: vanishes(_residual(f)),
     },
     "equilibria.rest": {
-        "only": lambda facts: _anywhere(facts) and not _several(facts) and _all_are_told(facts),
-        "always": lambda facts: _anywhere(facts) and _several(facts) and _all_are_told(facts),
-        "where": lambda facts: _under_its_condition(facts) and _all_are_told(facts),
+        "only": _both(_anywhere, lambda facts: not _several(facts), _all_are_told, _sides_as_told),
+        "always": _both(_anywhere, _several, _all_are_told, _sides_as_told),
+        "where": _both(_under_its_condition, _all_are_told, _sides_as_told),
     },
     "minima.stability": {
         "stable": _both(_always(1), _kinetic_energy_is_positive),

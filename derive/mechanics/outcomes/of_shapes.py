@@ -69,14 +69,19 @@ def _on_its_axis(facts: Judged) -> bool:
     return facts.subject.axis == "z" and all(is_zero(place[0]) and is_zero(place[1]) for place in places)
 
 
+def _part_of_sign(sign: int) -> Predicate:
+    """The part has the name that is told; what is cut out counts as negative."""
+    return lambda facts: facts.inputs["sign"] == sign and facts.words["part"] == facts.inputs["part_of"].called
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "general.cell_of": {"curve": _with_variables(1), "surface": _with_variables(2), "solid": _with_variables(3)},
     "general.size_by_integration": {word: _of_filling(word) for word in ("length", "area", "volume")},
     "tensors.turned_tensor": TENSORS,
     "assembly.inertia_tensor": TENSORS,
     "assembly.share_of_mass": {
-        "part": lambda facts: bool(facts.inputs["sign"] == 1),
-        "hole": lambda facts: bool(facts.inputs["sign"] == -1),
+        "part": _part_of_sign(1),
+        "hole": _part_of_sign(-1),
     },
     "assembly.centre_of_mass": {"generic": _all_is_added, "cut_out": lambda facts: not _all_is_added(facts)},
     "assembly.part_tensor": {

@@ -246,7 +246,7 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
         routes={"integration": by_integration},
         outcome="hole" if part.sign < 0 else "part",
         lines=Lines(put_in=None),
-        telling=Telling(words={"part": part.body.called}, judged_by={"sign": Integer(part.sign)}),
+        telling=Telling(words={"part": part.body.called}, judged_by={"sign": Integer(part.sign), "part_of": part.body}),
     )
 
 
