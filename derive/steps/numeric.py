@@ -181,7 +181,10 @@ def _period_of(
         {},
         routes={"floats": by_gauss},
         outcome="integrated",
-        telling=Telling(words={"case": case} if case else {}, judged_by={"letters": time.args[1], "integral": time}),
+        telling=Telling(
+            words={"case": case} if case else {},
+            judged_by={"letters": time.args[1], "integral": whole.time, "numbers": time.args[2]},
+        ),
         scope=Scope(about=series.subject, case_of=series),
         key=key or f"{series.key}_value",
         kind=series.step.kind,

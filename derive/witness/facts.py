@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from sympy import Expr, Symbol
 
@@ -22,8 +22,12 @@ class Rest(Fact):
 
 @dataclass(frozen=True)
 class Around(Fact):
-    """That an equation is one to first order about a place: the values of the coordinates there."""
+    """That an equation is one to first order about a place: the values of the coordinates there.
+
+    displaced   letter of a displacement -> the coordinate that it is a displacement of
+    """
 
     missing = "is not an equation to first order about a place"
     values: Mapping[Symbol, Expr]
     exists: Relation | None = None
+    displaced: Mapping[Symbol, Symbol] = field(default_factory=dict)

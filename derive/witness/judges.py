@@ -38,6 +38,11 @@ JUDGES: Mapping[str, Judge] = {
     "modes.frequency": small.frequency,
     "oscillations.frequency": small.frequency,
     "gyroscopic.frequency": small.frequency,
+    "damped.rate": small.damped,
+    "damped.frequency": small.damped,
+    "superposition.motion": small.motion,
+    "energy_integral.period_by_energy": runs.period,
+    "numbers.value": runs.period,
 }
 
 

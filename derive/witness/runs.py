@@ -14,7 +14,8 @@ from sympy import Expr, Integer, Symbol, diff
 
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Relation, explicit, rate
-from derive.witness.claim import Claim, seen
+from derive.witness import small
+from derive.witness.claim import TRIALS, Claim, seen
 from derive.witness.dynamics import Singular
 from derive.witness.facts import Around
 from derive.witness.geometry import Reals, State
@@ -195,8 +196,9 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 def solution(claim: Claim) -> Verdict | None:
     """The coordinate as this function of the time, where the other coordinates do what the described system does."""
     (q,) = (claim.symbol,) if isinstance(claim.symbol, Symbol) else (None,)
-    is_about = any(each.fact(Around) is not None for each in claim.quantity.ancestors())
-    if q is None or q not in claim.blueprint.coordinates or is_about:  # to first order it is another motion
+    if any(each.fact(Around) is not None for each in claim.quantity.ancestors()):
+        return small.motion(claim)  # to first order it is another motion
+    if q is None or q not in claim.blueprint.coordinates:
         return None
     motion = claim.value
     start = [Given(q, motion.subs(TIME, 0)), Given(rate(q), diff(motion, TIME).subs(TIME, 0))]
@@ -218,3 +220,56 @@ def solution(claim: Claim) -> Verdict | None:
                 return claim.refuted("the described motion from this start is another one", trial, each)
         count += 1
     return seen(count, "motions")
+
+
+def period(claim: Claim) -> Verdict | None:
+    """The time of a swing from a release at the amplitude; a series comes closer to it the smaller the amplitude is."""
+    inputs = claim.judged.inputs
+    if claim.outcome == INTEGRATED:
+        integral, letters, numbers = (inputs[role] for role in ("integral", "letters", "numbers"))
+        q, amplitude = integral.args[1:3]
+        fixed = {letter: float(explicit(number)) for letter, number in zip(letters, numbers, strict=True)}
+        sizes: tuple[float, ...] = (fixed.pop(amplitude),)
+    elif isinstance(inputs.get("amplitude"), Symbol):
+        q, amplitude, fixed = inputs["coordinate"], inputs["amplitude"], {}
+        sizes = (LARGE,) if claim.outcome == "exact" else (LARGE, LARGE / 2)
+    else:
+        return None
+    count = 0
+    for number in range(1 if fixed else TRIALS):
+        errors = []
+        for size in sizes:
+            trial = Trial(claim.blueprint, number, claim.assumed, {**fixed, amplitude: size}, claim.letters_given)
+            stated = trial.value(claim.value)
+            if not stated > 0:
+                return claim.refuted(f"a period of {stated:.6g}", trial)
+            found = _swing(claim, trial, q, amplitude, 0.75 * stated)
+            if found is None:
+                return None
+            errors.append(abs(found / stated - 1))
+        if errors[-1] > max(TIMED, errors[0] * _shrinks(claim.value, amplitude) * (len(sizes) > 1)):
+            return claim.refuted(f"the described motion has the period {found:.6g} instead of {stated:.6g}", trial)
+        count += 1
+    return seen(count, "swings")
+
+
+INTEGRATED = "integrated"
+LARGE = 0.8  # an amplitude
+TIMED = 1e-7  # to which the period of a followed motion is known
+
+
+def _shrinks(series: Expr, amplitude: Symbol) -> float:
+    """By what the error becomes smaller at least at half the amplitude: by more than the highest power does."""
+    highest = series.as_poly(amplitude).degree()
+    return float(0.5 ** (highest + 0.5))
+
+
+def _swing(claim: Claim, trial: Trial, q: Symbol, amplitude: Symbol, length: float) -> float | None:
+    """Twice the time from the release to the other turning point."""
+    i = claim.blueprint.coordinates.index(q)
+    try:
+        start = trial.state(_without_repeats([*claim.states_given, Given(q, amplitude), Given(rate(q), Integer(0))]))
+    except Contradiction:
+        return None
+    run = followed(trial, start, length, lambda state: -float(state.v[i]))
+    return None if run is None or run.end is None else 2 * (run.end.t - start.t)

@@ -10,14 +10,14 @@ Dynamics*, section 6.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from sympy import Expr, Integer, Symbol
 
 from derive.algebra.equality import Verdict
-from derive.algebra.expressions import Relation, rate
+from derive.algebra.expressions import Relation, explicit, rate
 from derive.witness.claim import Claim, seen
 from derive.witness.dynamics import Singular
 from derive.witness.facts import Around, Rest
@@ -29,6 +29,9 @@ SMALL = 1e-3  # a displacement, for derivatives to fourth order
 SURE = 1e-3  # an eigenvalue below this part of the largest counts as zero
 FREQUENCY = 1e-5  # to which squares of frequencies agree
 STAYS = 1e-7  # an acceleration below this, with numbers of order one, is none
+DOUBLE = 1e-4  # to which exponents agree: two that nearly coincide are known less well
+SHORT, MOMENTS = 2.0, 6  # for which a small motion is followed, and at how many times it is looked at
+ZERO = Integer(0)
 DRAWS = 8  # sets of numbers among which both sides of a condition are sought
 DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
 WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
@@ -70,6 +73,10 @@ class Neighbourhood:
         return np.asarray(basis.T @ response.a[list(self.free)])
 
     def eigenvalues(self) -> NDArray[np.complex128]:
+        """Of the linear motion."""
+        return np.asarray(np.linalg.eigvals(self.matrix()), dtype=np.complex128)
+
+    def matrix(self) -> Reals:
         """Of the linear motion d(u, w)/dt = (w, a(u, w))."""
         basis = self.basis()
         n = basis.shape[1]
@@ -79,7 +86,7 @@ class Neighbourhood:
             unit = np.eye(2 * n)[k] * SMALL
             slopes = [self.acceleration(basis, s * unit[:n], s * unit[n:]) for s in DISPLACED]
             matrix[n:, k] = WEIGHTS @ np.array(slopes) / SMALL
-        return np.asarray(np.linalg.eigvals(matrix), dtype=np.complex128)
+        return matrix
 
 
 def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
@@ -205,9 +212,13 @@ def _opposite(relation: Relation) -> Relation:
     return Relation(relation.left, turned.get(relation.mark, relation.mark), relation.right)
 
 
+def _around(claim: Claim) -> Around | None:
+    return next((fact for each in claim.quantity.ancestors() if (fact := each.fact(Around)) is not None), None)
+
+
 def frequency(claim: Claim) -> Verdict | None:
     """A small displacement oscillates with this frequency, or grows at this rate."""
-    around = next((fact for each in claim.quantity.ancestors() if (fact := each.fact(Around)) is not None), None)
+    around = _around(claim)
     if around is None or claim.outcome == "neutral":
         return None
     grows = claim.outcome.startswith(("growing", "unstable"))
@@ -226,7 +237,85 @@ def frequency(claim: Claim) -> Verdict | None:
 
 
 def _squares_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
+    growth = _eigenvalues_of(near)
+    return None if growth is None else np.asarray(growth**2, dtype=np.complex128)
+
+
+def damped(claim: Claim) -> Verdict | None:
+    """A small displacement decays at this rate, or oscillates with this frequency while it decays."""
+    around = _around(claim)
+    if around is None:
+        return None
+    count = 0
+    for near in _neighbourhoods(claim, around.values, around.exists):
+        growth = _eigenvalues_of(near)
+        formulas = [near.trial.formulas([explicit(f)]) for f in (claim.value, claim.judged.inputs.get("beta", ZERO))]
+        stated, decay = (each.complex_at(near.state) for each in formulas)
+        if growth is None or not np.isfinite(stated):
+            continue
+        size = DOUBLE * max(float(np.max(np.abs(growth))), 1e-3)
+        if claim.outcome == PAIR:  # the mean of two exponents, which are real or conjugate to each other
+            found = (growth[:, None] + growth[None, :])[~np.eye(len(growth), dtype=bool)] / 2
+            wanted = -stated
+        else:
+            found, wanted = (
+                growth,
+                {DECAYS: -stated, GROWS: -stated, OVERDAMPED: stated - decay}.get(claim.outcome, 1j * stated - decay),
+            )
+        if np.min(np.abs(found - wanted), initial=np.inf) > size:
+            return claim.refuted("small motions of the described system decay in another way", near.trial, near.state)
+        count += 1
+    return seen(count, "equilibria")
+
+
+PAIR, DECAYS, GROWS, OVERDAMPED = "oscillator", "decay", "growth", "overdamped"
+
+
+def motion(claim: Claim) -> Verdict | None:
+    """A displacement as this function of the time, from the displacements and rates that are stated for the start."""
+    from scipy.linalg import expm
+
+    around, starts = _around(claim), _starts_of(claim)
+    if around is None or starts is None or claim.symbol not in around.displaced:
+        return None
+    count = 0
+    for near in _neighbourhoods(claim, around.values, around.exists):
+        letters = list(around.displaced)
+        order = [near.trial.blueprint.coordinates.index(around.displaced[letter]) for letter in letters]
+        if near.trial.blueprint.of.conditions or sorted(order) != list(near.free) or not _stays(near):
+            return None
+        matrix, n = near.matrix(), len(near.free)
+        begin = np.zeros(2 * n)
+        for letter, where in zip(letters, order, strict=True):
+            k = near.free.index(where)
+            begin[k], begin[n + k] = (near.trial.value(starts.get(s, ZERO)) for s in (letter, rate(letter)))
+        own = near.free.index(order[letters.index(claim.symbol)])
+        formula, times = near.trial.formulas([claim.value]), np.linspace(0.0, SHORT, MOMENTS)
+        found = np.array([(expm(matrix * t) @ begin)[own] for t in times])
+        stated = np.array([formula.at(replace(near.state, t=float(t)))[0] for t in times])
+        size = max(float(np.max(np.abs(found))), float(np.max(np.abs(begin))), 1e-3)
+        if not np.max(np.abs(stated - found)) <= FREQUENCY * 10 * size:
+            return claim.refuted("a small motion of the described system from this start is another one", near.trial)
+        count += 1
+    return seen(count, "motions")
+
+
+def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
+    """What the displacements and their rates are at the start; of one coordinate alone, by the motion itself."""
+    told = [each for role, each in claim.judged.inputs.items() if role.startswith("start")]
+    if not all(isinstance(each, Relation) for each in told):
+        return None
+    return {each.left: explicit(each.right) for each in told}
+
+
+def _stays(near: Neighbourhood) -> bool:
+    """Whether nothing drives it: at any time it would stay in the equilibrium."""
+    at_times = [near.trial.dynamics.response(replace(near.state, t=t)) for t in (0.0, 0.3)]
+    return all(np.max(np.abs(each.a[list(near.free)]), initial=0.0) < STAYS * 10 for each in at_times)
+
+
+def _eigenvalues_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
     try:
-        return np.asarray(near.eigenvalues() ** 2, dtype=np.complex128)
+        return near.eigenvalues()
     except (Singular, Contradiction, np.linalg.LinAlgError):
         return None

@@ -20,6 +20,7 @@ from derive.mechanics import (
     lagrangian,
     leaves_contact,
     multipliers,
+    period_by_energy,
     point,
     put_in,
     solution,
@@ -37,7 +38,7 @@ from tests.witness.systems import ON_A_STRING, PENDULUM, g, l, m
 
 THETA, R = coordinate("theta", "angle"), coordinate("r", positive=True)
 q, r = THETA.symbol, R.symbol
-v = symbols("v", positive=True)
+A, v = symbols("A v", positive=True)
 
 
 @pytest.fixture(autouse=True)
@@ -126,3 +127,30 @@ def test_a_solution_is_followed_from_its_own_start() -> None:
     of = system.described.description
     assert runs.solution(claim(fall, of))
     assert not runs.solution(claim(replace(fall, value=h - g * TIME**2 / 3), of))
+
+
+def swing(place: tuple[Expr, Expr], order: int = 2) -> tuple[Quantity, System]:
+    system = System(Particle(m, point(*place)), weight(g))
+    L = lagrangian(system)
+    (motion,) = equations_of_motion(L)
+    speed = speed_from_energy(energy_function(L), THETA, A, Integer(0), motion)
+    return period_by_energy(speed, order), system
+
+
+def test_a_period_in_powers_of_the_amplitude_is_that_of_the_motion_to_its_order() -> None:
+    found, system = swing((l * sin(q), -l * cos(q)), order=4)
+    inputs = {"coordinate": q, "amplitude": A}
+    of = system.described.description
+    assert runs.period(claim(found, of, **inputs))
+    right = found.value
+    for wrong in (right.subs(A, 0) * (1 + A**2 / 8), right * 2, right + A**4 / 100, -right):
+        assert not runs.period(claim(replace(found, value=wrong), of, **inputs))
+
+
+def test_a_period_that_does_not_depend_on_the_amplitude_does_not_in_the_motion() -> None:
+    """A bead on a cycloid, with the arc from its lowest point as a measure: 4 pi sqrt(l/g)."""
+    found, system = swing((l * (q + sin(q)), -l * (1 + cos(q))))
+    inputs = {"coordinate": q, "amplitude": A}
+    of = system.described.description
+    assert runs.period(claim(found, of, found.step.outcome, **inputs))
+    assert not runs.period(claim(found, PENDULUM, "exact", **inputs))

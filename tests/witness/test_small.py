@@ -8,16 +8,18 @@ from dataclasses import replace
 import pytest
 from sympy import Integer, cos, pi, sin, sqrt, symbols
 
-from derive.algebra.expressions import Relation
+from derive.algebra.expressions import Relation, rate
 from derive.mechanics import (
     Particle,
     System,
     Z,
     coordinate,
+    damping,
     equations_of_motion,
     equilibria,
     lagrangian,
     linearised,
+    motions_by_modes,
     normal_modes,
     point,
     potential,
@@ -37,7 +39,7 @@ from derive.witness.description import Description
 from derive.witness.dynamics import Blueprint
 from tests.witness.systems import PENDULUM, g, k, l, m
 
-R, w = symbols("R omega", positive=True)
+A, R, c, w = symbols("A R c omega", positive=True)
 THETA = coordinate("theta", "angle")
 q = THETA.symbol
 
@@ -124,3 +126,43 @@ def test_a_rate_of_growth_is_an_eigenvalue_too() -> None:
     assert growth.step.outcome == "unstable"
     assert small.frequency(claim(growth))
     assert not small.frequency(claim(growth, outcome="stable"))
+
+
+def damped_pair() -> tuple[System, tuple[Quantity, ...]]:
+    x, y = coordinate("x"), coordinate("y")
+    zero, one, two = point(0, 0), point(x.symbol, 0), point(y.symbol, 0)
+    springs = spring(k, zero, one), spring(k, one, two), spring(k, two, zero)
+    drag = damping(c, one), damping(c, two)
+    system = System(Particle(m, one), Particle(m, two), *springs, *drag)
+    return system, normal_modes(linearised(equations_of_motion(lagrangian(system))))
+
+
+def test_rates_of_decay_and_damped_frequencies_are_exponents_of_small_motions() -> None:
+    system, modes = damped_pair()
+    of = system.described.description
+    decays = [each for each in modes if each.step.rule == "damped.rate"]
+    swings = [each for each in modes if each.step.rule == "damped.frequency"]
+    assert decays and swings
+    for each in decays:
+        assert small.damped(claim(each, of))
+        assert not small.damped(claim(replace(each, value=each.value * 2), of))
+    for each in swings:
+        beta = {"beta": decays[0].value}
+        assert small.damped(claim(each, of, **beta))
+        assert not small.damped(claim(replace(each, value=sqrt(2 * k / m)), of, **beta))
+
+
+def test_a_sum_of_modes_is_the_motion_from_its_start_and_from_no_other() -> None:
+    x, y = coordinate("x"), coordinate("y")
+    zero, one, two = point(0, 0), point(x.symbol, 0), point(y.symbol, 0)
+    springs = spring(k, zero, one), spring(k, one, two), spring(k, two, zero)
+    system = System(Particle(m, one), Particle(m, two), *springs)
+    modes = normal_modes(linearised(equations_of_motion(lagrangian(system))))
+    first, second = motions_by_modes(modes, {x: A})
+    of = system.described.description
+    start = {"start_1": Relation(x.symbol, "=", A)}
+    assert small.motion(claim(first, of, **start))
+    assert small.motion(claim(second, of, **start))
+    assert not small.motion(claim(replace(first, value=second.value), of, **start))
+    moving = {**start, "start_2": Relation(rate(y.symbol), "=", A)}
+    assert not small.motion(claim(first, of, **moving))

@@ -142,7 +142,8 @@ def _one(
         for j, s in enumerate(letters)
     ]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
-    away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
+    displaced = {s.symbol: q.symbol for q, s in zip(moving, eta, strict=True)}
+    away = [(q, s) for s, q in displaced.items() if q != s]
     named = _letters_of(rests)
     counted = {
         f"counted_{n}": (
@@ -177,7 +178,7 @@ def _one(
         ),
         key=key,
         parents=[*equations, *rests],
-        facts=[linear, OfCoordinate(eta[i]), Around(dict(place), linear.exists)],
+        facts=[linear, OfCoordinate(eta[i]), Around(dict(place), linear.exists, displaced)],
         scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
     )
 
