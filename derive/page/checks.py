@@ -131,13 +131,10 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
 
 
 def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
-    """The second routes to the result of a step, or the checks of it, in words."""
-    return tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
-
-
-def is_witnessed(step: Step) -> bool:
-    """Whether the described motion was followed numerically, and agrees with the step."""
-    return any(e.compared is Compared.WITNESS for e in step.evidence)
+    """The second routes to the result of a step, then the motion if it was followed; or the checks of it."""
+    found = tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
+    followed = sort is Compared.ROUTE and any(e.compared is Compared.WITNESS for e in step.evidence)
+    return (*found, words.labels["motion"]) if followed else found
 
 
 def _rows(steps: Sequence[Step], words: Phrases) -> tuple[Row, ...]:
@@ -145,7 +142,6 @@ def _rows(steps: Sequence[Step], words: Phrases) -> tuple[Row, ...]:
     for step in steps:
         lines = sum(e.compared is Compared.LINES for e in step.evidence)
         routes, checks = (second_ways_of(step, sort, words) for sort in (Compared.ROUTE, Compared.CHECK))
-        routes += (words.labels["motion"],) if is_witnessed(step) else ()
         row = Row((step.key,), step.inputs, step.rule, step.grade, lines, routes, checks)
         if rows and rows[-1].is_like(row):
             rows[-1] = rows[-1].with_more(row)

@@ -121,11 +121,22 @@ def _identity(facts: Judged) -> bool:
     return isinstance(facts.result, Relation) and facts.result.mark == "=" and is_zero(facts.result.residual)
 
 
+def _is_divided_as_told(facts: Judged) -> bool:
+    """What must not vanish divides the difference, and the quotient still vanishes where the result says."""
+    excluded = facts.inputs.get("excluded")
+    if excluded is None:
+        return True
+    left, right = explicit(facts.result).sides
+    quotient = tidied(facts.inputs["difference"] / excluded.residual)
+    return excluded.mark == "!=" and quotient.has(*left.free_symbols) and is_zero(quotient.subs(left, right))
+
+
 def _compared(squared: bool) -> Predicate:
     def is_so(facts: Judged) -> bool:
         left, right = facts.result.sides
         unknown = facts.inputs["unknown"]
-        return bool(left == (unknown**2 if squared else unknown) and not explicit(right).has(left))
+        alone = left == (unknown**2 if squared else unknown) and not explicit(right).has(left)
+        return bool(alone) and _is_divided_as_told(facts)
 
     return is_so
 

@@ -11,7 +11,23 @@ from itertools import combinations_with_replacement
 from typing import Any
 
 from mpmath import mp
-from sympy import Abs, Dummy, Expr, Rational, im, lambdify, prime
+from sympy import (
+    Abs,
+    Dummy,
+    Expr,
+    Function,
+    Mul,
+    Poly,
+    Pow,
+    Rational,
+    default_sort_key,
+    factor_list,
+    gcd_list,
+    im,
+    lambdify,
+    prime,
+    together,
+)
 from sympy.matrices import MatrixBase
 
 from derive.algebra.derivatives import derivative
@@ -21,7 +37,8 @@ from derive.mechanics.equations.counting import is_countable
 from derive.mechanics.outcomes.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
 from derive.mechanics.outcomes.on_constraints import signs_on_constraints
 from derive.mechanics.outcomes.searched import none_is_missing
-from derive.mechanics.outcomes.signs import always_sign, lasts, may_be_negative, vanishes
+from derive.mechanics.outcomes.signs import always_sign, lasts, may_be_negative, same_equation, vanishes
+from derive.steps.known_numbers import sign_known
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.record import assumed, assumed_in_words
 from derive.steps.step import is_zero
@@ -295,11 +312,34 @@ def _is_what_the_lagrangian_has(facts: Judged) -> bool:
     return is_zero(whole.subs(dict.fromkeys(moving, 0)))
 
 
+def _higher_lasts(facts: Judged) -> bool:
+    """The first derivative that does not vanish does not."""
+    return "higher" not in facts.inputs or not is_zero(facts.inputs["higher"])
+
+
 def _sides_as_told(facts: Judged) -> bool:
     """A side of a place is spoken of just where one is assumed, and springs where words assume it."""
     sides = [each for each in assumed() if each.mark == ">" and explicit(each.residual).has(*facts.inputs["sought"])]
     in_words = set(assumed_in_words()).issuperset(sides)
     return facts.words["seen"] == ("any" if not sides else "stretched" if in_words else "one_side")
+
+
+def _level_as_told(facts: Judged) -> bool:
+    """Where the force vanishes whatever the coordinate is, no place is distinguished: just these letters are excluded.
+
+    All coefficients of the force, as a polynomial in what holds the coordinate, have a factor in common.
+    """
+    told, sought = facts.inputs.get("excluded"), facts.inputs["sought"]
+    if len(sought) > 1:
+        return told is None
+    (q,) = sought
+    force = together(explicit(facts.inputs["condition_0"]).residual).as_numer_denom()[0]
+    marks = {f: Dummy() for f in sorted(force.atoms(Function, Pow), key=default_sort_key, reverse=True) if f.has(q)}
+    common = gcd_list(Poly(force.xreplace(marks).xreplace({q: marks.get(q, q)}), q, *marks.values()).coeffs())
+    open_ = Mul(*(f for f, _ in factor_list(common)[1] if sign_known(f) is None and not f.is_nonzero))
+    if not open_.free_symbols:
+        return told is None
+    return told is not None and told.mark == "!=" and same_equation(told.residual, open_)
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
@@ -312,19 +352,19 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "zero": lambda f: vanishes(_residual(f)),
     },
     "equilibria.rest": {
-        "only": _both(_anywhere, lambda facts: not _several(facts), _all_are_told, _sides_as_told),
-        "always": _both(_anywhere, _several, _all_are_told, _sides_as_told),
-        "where": _both(_under_its_condition, _all_are_told, _sides_as_told),
+        "only": _both(_anywhere, lambda facts: not _several(facts), _all_are_told, _sides_as_told, _level_as_told),
+        "always": _both(_anywhere, _several, _all_are_told, _sides_as_told, _level_as_told),
+        "where": _both(_under_its_condition, _all_are_told, _sides_as_told, _level_as_told),
     },
     "minima.stability": {
         "stable": _both(_always(1), _kinetic_energy_is_positive),
         "unstable": _both(_always(-1), _runs_away),
-        "stable_by_higher_order": _higher("stable"),
-        "unstable_by_higher_order": _both(_higher("unstable"), _nothing_turns_it),
+        "stable_by_higher_order": _both(_higher("stable"), _higher_lasts),
+        "unstable_by_higher_order": _both(_higher("unstable"), _nothing_turns_it, _higher_lasts),
         "flat": _both(_undecided, _nothing_turns_it),
         "depends": _both(_depends(None), _runs_away),
-        "depends_stable_on_border": _both(_depends("stable"), _runs_away),
-        "depends_unstable_on_border": _both(_depends("unstable"), _runs_away),
+        "depends_stable_on_border": _both(_depends("stable"), _runs_away, _higher_lasts),
+        "depends_unstable_on_border": _both(_depends("unstable"), _runs_away, _higher_lasts),
     },
     "minima.stable_where": {
         "with_border": _bordered("stable"),

@@ -231,7 +231,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "unstable": _always(False),
         "depends": lambda facts: _depends(facts) and len(facts.inputs["conditions"]) == 1,
         "first": lambda facts: _depends(facts) and _is_among_conditions(facts, 0),
-        "further": lambda facts: _depends(facts) and not any(_is_among_conditions(facts, n) for n in (0, -1)),
+        "further": lambda facts: _depends(facts) and facts.result in facts.inputs["conditions"][1:-1],
         "last": lambda facts: _depends(facts) and _is_among_conditions(facts, -1),
     },
     "damped.characteristic": {

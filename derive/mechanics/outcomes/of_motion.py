@@ -64,6 +64,12 @@ def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: fa
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
 
+def _rate_of_square(sign: int | None, turned: int) -> Predicate:
+    """An oscillation has the root of the square as its rate, a motion that grows the root of minus the square."""
+    judged = _of_square(sign)
+    return lambda facts: judged(facts) and is_zero(explicit(facts.result) ** 2 - turned * facts.inputs["squared"])
+
+
 def _bent(sign: int | None) -> Predicate:
     """The second derivative at the place, by differentiation of the value that was put there."""
 
@@ -104,11 +110,11 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "lagrangian.equation_of_motion": {"generic": _not_cyclic, "cyclic": _cyclic},
     "oscillations.frequency_squared": _SIGNS,
     "oscillations.frequency": {
-        "stable": _of_square(1),
-        "unstable": _of_square(-1),
-        "neutral": _of_square(0),
-        "conditional": _of_square(None),
-        "growing": _of_square(None),
+        "stable": _rate_of_square(1, 1),
+        "unstable": _rate_of_square(-1, -1),
+        "neutral": _rate_of_square(0, 1),
+        "conditional": _rate_of_square(None, 1),
+        "growing": _rate_of_square(None, -1),
     },
     "potentials.slope": {"slope": _order_of(1), "curvature": _order_of(2), "higher": _order_of(2, more=True)},
     "potentials.extreme_value": {

@@ -197,7 +197,7 @@ def _put_in(facts: Judged, value: Any) -> bool:
     that says the same."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
-    if value.mark != "=":
+    if value.mark != "=" or value.left.could_extract_minus_sign():
         return False
     plain = all(isinstance(letter, Symbol) for letter in told)
     if others or not plain or any(explicit(at).has(*told) for at in told.values()):

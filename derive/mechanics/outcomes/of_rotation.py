@@ -99,6 +99,11 @@ def _times_its_factor(facts: Judged) -> bool:
     return is_zero(explicit(facts.result.left) - multiplied)
 
 
+def _given_as(sort: str) -> Predicate:
+    """By the verb that the script calls."""
+    return lambda facts: lasts(facts) and facts.inputs["verb"].name.startswith(sort)
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "rotation.spin": {"right_handed": _turns("right"), "left_handed": _turns("left")},
     "rotation.angular_momentum": {
@@ -146,7 +151,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "conservation.sum": {word: _sum_left(word) for word in ("plain", "cancel", "remain")},
     "conservation.rate_under": {"conserved": vanishes, "changes": lasts},
-    "steady.constant_angular_velocity": {"generic": lasts, "momentary": lasts},
+    "steady.constant_angular_velocity": {"generic": _given_as("constant"), "momentary": _given_as("momentary")},
     "cones.tangent_between": {"generic": lasts, "parallel": vanishes},
     "cones.vector_component": {"generic": lasts, "zero": vanishes},
     "equations.squared_magnitude": {"generic": lasts, "zero": vanishes},

@@ -70,7 +70,8 @@ def _for_a_vector(facts: Judged, outcome: str) -> bool:
 
 def _equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
     equation, unknown = facts.inputs["equation"], facts.inputs["unknown"]
-    return isinstance(equation, Relation) and isinstance(unknown, Symbol) and unknown in _letters_of(equation)
+    excluded = unknown in _letters_of(facts.inputs.get("excluded", Integer(0)))
+    return isinstance(equation, Relation) and unknown in _letters_of(equation) and not excluded
 
 
 def _counted_from_its_point(facts: Judged, outcome: str) -> bool:
@@ -122,10 +123,12 @@ def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
 
 def starts_as_told(facts: Judged, outcome: str) -> bool:
     """The motion has the value and the rate at the start that the sentence says."""
-    told = [facts.inputs[role] for role in ("start", "start_rate") if role in facts.inputs]
+    if not _of_an_equation(facts, outcome):
+        return False
+    told, q = [facts.inputs[role] for role in ("start", "start_rate") if role in facts.inputs], facts.inputs["q"]
     at = [diff(facts.result, TIME, n).subs(TIME, 0) for n in range(len(told))]
-    right = all(is_zero(value - each.right) for value, each in zip(at, told, strict=True))
-    return right and _of_an_equation(facts, outcome)
+    named = [(q, "="), (rate(q), "=")][: len(told)] == [(each.left, each.mark) for each in told]
+    return named and all(is_zero(value - each.right) for value, each in zip(at, told, strict=True))
 
 
 def _starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
@@ -242,7 +245,7 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
             number = value_at(value, point)
             if given is not None and not is_so(given, point):
                 continue
-            is_root = bool(number.is_real) and (facts.inputs["positive"] == 0 or told is None or number > 0)
+            is_root = bool(number.is_real) and (facts.inputs["positive"] == 0 or number > 0)
             if is_root != (told is None or is_so(told, point)):
                 return False
         except (Undefined, NoNumber):

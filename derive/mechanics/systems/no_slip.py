@@ -115,6 +115,9 @@ def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | Non
     if len(ranks) > 1:
         message = "the conditions of rolling are not those of a particle that is at rest where the body touches"
         raise Unverified(Complaint("unverified", message))
+    if not _are_as_long(conditions, at_rest):
+        message = "the conditions of rolling are not components of the velocity of slipping"
+        raise Unverified(Complaint("unverified", message))
 
 
 @dataclass(frozen=True)
@@ -304,6 +307,13 @@ def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
     letters = sorted(rows.free_symbols, key=str)
     there = {letter: Rational(3 * i + 7, 2 * i + 11) for i, letter in enumerate(letters)}
     return int(rows.xreplace(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
+
+
+def _are_as_long(components: list[Expr], vector: list[Expr]) -> bool:
+    """Whether the squares of both add up to the same, with a number for every letter."""
+    apart = Add(*(c**2 for c in components), *(-(c**2) for c in vector))
+    there = {s: Rational(5 * i + 3, 3 * i + 8) for i, s in enumerate(sorted(apart.free_symbols, key=str))}
+    return bool(abs(apart.xreplace(there).evalf(30)) < Rational(1, 10**15))
 
 
 def _all_rates(body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None) -> dict[Symbol, Expr]:
