@@ -51,6 +51,7 @@ from derive.algebra.node import (
     dimension_of_first,
     product_of_dimensions,
 )
+from derive.algebra.node import as_expr as as_expr
 from derive.algebra.node import explicit as explicit
 from derive.algebra.poisson import PoissonBracket as PoissonBracket
 from derive.algebra.relation import Relation as Relation

@@ -105,6 +105,11 @@ class VectorNode(MatrixNode, abstract=True):
     shape = (Integer(3), Integer(1))
 
 
+def as_expr(value: Any) -> Any:
+    """The same as an expression: a plain integer as one of SymPy's, a coordinate as its letter."""
+    return Integer(0) + value
+
+
 def explicit(expr: Value) -> Value:
     """The expression with every node carried out, and matrices as explicit matrices."""
     if isinstance(expr, MatrixBase):

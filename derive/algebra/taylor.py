@@ -32,7 +32,7 @@ from sympy import (
     zoo,
 )
 
-from derive.algebra.expressions import stand_in
+from derive.algebra.expressions import as_expr, stand_in
 from derive.algebra.normal_form import vanishes
 
 __all__ = ["NoSeries", "arithmetic_along", "coefficient_along", "series_along", "slope", "taylor"]
@@ -54,7 +54,7 @@ def taylor(expr: Expr, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> 
 
 def slope(expr: Expr | int, letter: Symbol) -> Expr:
     """How it changes with one letter, all others kept: the coefficient of s where the letter goes by q + s."""
-    expr = ZERO + expr  # a plain number too
+    expr = as_expr(expr)  # a plain number too
     if letter not in expr.free_symbols:
         return ZERO
     try:

@@ -12,7 +12,7 @@ from typing import Any
 
 from sympy import Integer, Symbol, pi
 
-from derive.algebra.expressions import scalar
+from derive.algebra.expressions import as_expr, scalar
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import ASIDE
 from derive.figures.marks import Mark
@@ -213,7 +213,7 @@ def way(
     symbol = letter.symbol if isinstance(letter, Coordinate) else letter
     if not isinstance(symbol, Symbol) or symbol not in formula.free_symbols:
         raise Rejected(Complaint("wrong-argument", f"a way needs a letter of its place, but {symbol} is none"))
-    lower, upper = (Integer(0) + end for end in between)
+    lower, upper = (as_expr(end) for end in between)
     pen = "wire" if solid else "trace"
     return WayMark(formula, symbol, lower, upper, pen, label=name_of(None, label), keys=keys)
 

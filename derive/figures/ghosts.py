@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, Integer
+from sympy import Expr
 
+from derive.algebra.expressions import as_expr
 from derive.errors import Complaint, Rejected
 from derive.figures.marks import InWords, Mark, Surface
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
@@ -48,7 +49,7 @@ def dashed_at(system: System, values: Mapping[Any, Any]) -> list[Mark]:
 
     values   the coordinate and its value there: `{theta: 0}`
     """
-    known: dict[Any, Expr] = {name_of(None, letter): Integer(0) + value for letter, value in values.items()}
+    known: dict[Any, Expr] = {name_of(None, letter): as_expr(value) for letter, value in values.items()}
     if len(known) != 1 or not known.keys() <= {*system.coordinates}:
         raise Rejected(Complaint("wrong-argument", "`dashed_at` needs one coordinate of the system and its value"))
     ((letter, value),) = known.items()

@@ -11,9 +11,9 @@ from collections.abc import Mapping, Sequence
 from itertools import cycle
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Symbol, pi
+from sympy import Expr, ImmutableDenseMatrix, MatrixBase, Rational, Symbol, pi
 
-from derive.algebra.expressions import AXES, explicit, scalar
+from derive.algebra.expressions import AXES, as_expr, explicit, scalar
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, PointMark, Turn
 from derive.figures.bodies import ORIGIN, axes_at, outline
@@ -56,7 +56,7 @@ def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[An
     run = current_run.get()
     named = run.coordinates if run is not None else {}
     moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
-    chosen = {**_drawn_at(moving), **{name_of(None, letter): Integer(0) + v for letter, v in (values or {}).items()}}
+    chosen = {**_drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
     found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()))
     noted(found)
     return found
@@ -87,7 +87,7 @@ def plot(
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
         message = f"`{quantity.key}` does not depend on {against}, so there is no curve"
         raise Rejected(Complaint("wrong-argument", message))
-    lower, upper = (Integer(0) + end for end in between)
+    lower, upper = (as_expr(end) for end in between)
     kind = quantity.step.kind or "number"
     found = Plot(key, quantity.symbol, expr, against, lower, upper, kind, of, (quantity.key,))
     noted(found)

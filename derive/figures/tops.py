@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, pi, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Rational, Symbol, pi, sqrt
 
-from derive.algebra.expressions import scalar
+from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis, LengthMark, Line, PointMark, Turn
 from derive.figures.bodies import in_units, is_line, widest_of
@@ -156,4 +156,4 @@ def _radius(body: RoundBody, foot: Position, along: Position, aside: Position) -
 def _lengths(body: RoundBody, low: Expr) -> list[Expr]:
     """From the point that is held to both ends of a part, of a flat one to its middle."""
     lower, upper = body.ends
-    return [tidied(Integer(0) + low + end) for end in dict.fromkeys((lower, upper))]
+    return [tidied(as_expr(low) + end) for end in dict.fromkeys((lower, upper))]

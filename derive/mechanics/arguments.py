@@ -16,7 +16,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from sympy import Basic, Expr, Integer, MatrixBase, Symbol
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import as_expr, explicit
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.record import current_run
 from derive.steps.step import Quantity
@@ -99,7 +99,7 @@ def _values(given: Any) -> Iterator[Any]:
     elif isinstance(given, MatrixBase):
         yield from map(explicit, given)
     elif isinstance(given, Expr) or isinstance(given, int) and not isinstance(given, bool):
-        yield explicit(Integer(0) + given)
+        yield explicit(as_expr(given))
 
 
 @functools.cache

@@ -12,7 +12,6 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
     "other places, which the page says: a script's formulas are what the problem is about": (
         "mechanics.systems.places:Location.__add__: dropped: a + b -> b",
         "mechanics.systems.places:Location.__add__: plus/minus: a + b -> a - b",
-        "mechanics.systems.places:point: plus/minus: Integer(0) + value_behind(c) -> Integer(0) - value_behind(c)",
     ),
     "another letter for the same thing, throughout: nothing says which letter a thing must have": (
         "mechanics.bodies.mapping:cylindrical: order: ('z', 'theta', 'r') -> ['theta', 'z', 'r']",
@@ -271,7 +270,6 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
         "mechanics.equations.characteristic:_presentable: sign: column * ilcm(1, *(entry.q for entry in column)) -> -(column * ilcm(1, *(entry.q for entry in column)))",
         "mechanics.equations.zeros:_with_sine: comparison: sign_by_factors(value) != -1 -> sign_by_factors(value) == -1",
         "mechanics.equations.damped:_shape: law: lambda _: Amplitudes(*column) -> lambda *given: 2 * (lambda _: Amplitudes(*column))(*given)",
-        "mechanics.systems.constraint:constraint: order: (explicit(ZERO + condition), explicit(ZERO + equals)) -> [explicit(ZERO + equals), explicit(ZERO + condition)]",
     ),
 }
 KNOWN = {mutant: reason for reason, mutants in SURVIVORS.items() for mutant in mutants}

@@ -196,7 +196,11 @@ class Triangle(Cornered):
 
     @classmethod
     def equilateral(cls, side: Expr, mass: Expr) -> Self:
-        return cls.on_base(side, side * sqrt(3) / 2, mass)
+        made = cls.on_base(side, side * sqrt(3) / 2, mass)
+        a, b, c = made.corners
+        if any(tidied(edge.dot(edge) - side**2) != 0 for edge in (b - a, c - b, a - c)):
+            raise Unverified(Complaint("unverified", f"the sides of {made.name} are not all equal"))
+        return made
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:

@@ -20,6 +20,7 @@ from derive.algebra.expressions import (
     Factors,
     Norm,
     Ratio,
+    as_expr,
     explicit,
     scalar,
     vector,
@@ -77,7 +78,7 @@ class GeneralBody(Body):
         density: Expr | None = None,
     ):
         _check_map(type(self).__name__, self.count, position, limits, mass, density)
-        given = Integer(1) if density is None else Integer(0) + density
+        given = Integer(1) if density is None else as_expr(density)
         self._position, self._limits = checked_limits((*position, 0, 0)[:3], limits, set())
         fresh = {u: scalar(u.name) for u in limits}
         outside, self._profile = given.xreplace(fresh).as_independent(*fresh.values(), as_Add=False)

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 from sympy import Abs, Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, factor, pi, sin, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import Cross, Dot, column, explicit, scalar
+from derive.algebra.expressions import Cross, Dot, as_expr, column, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Bounds, Point, Region, coordinates
@@ -66,8 +66,8 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
     place, limits = [], []
     for x, extent in zip(variables, extents, strict=True):
         if isinstance(extent, tuple):
-            limits.append((x, *(Integer(0) + (end(first) if callable(end) else end) for end in extent)))
-        place.append(x if isinstance(extent, tuple) else Integer(0) + (extent(first) if callable(extent) else extent))
+            limits.append((x, *(as_expr(end(first) if callable(end) else end) for end in extent)))
+        place.append(x if isinstance(extent, tuple) else as_expr(extent(first) if callable(extent) else extent))
     return place, tuple(limits)
 
 
@@ -175,7 +175,7 @@ def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) ->
     fresh = {u: scalar(u.name) for u in limits}
     found: list[tuple[Symbol, Expr, Expr]] = []
     for i, (u, ends) in enumerate(limits.items()):
-        lower, upper = (Integer(0) + end for end in ends)
+        lower, upper = (as_expr(end) for end in ends)
         later = set(list(limits)[i:]) & (lower.free_symbols | upper.free_symbols)
         if later:
             name = min(str(v) for v in later)
@@ -185,5 +185,5 @@ def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) ->
             message = f"`{u}` goes from {lower} to {upper}, which leaves nothing between"
             raise Rejected(Complaint("limits", message, help="the lower limit stands first"))
         found.append((fresh[u], lower.xreplace(fresh), upper.xreplace(fresh)))
-    place = ImmutableDenseMatrix(3, 1, [(Integer(0) + x).xreplace(fresh) for x in position])
+    place = ImmutableDenseMatrix(3, 1, [as_expr(x).xreplace(fresh) for x in position])
     return place, tuple(found)

@@ -6,10 +6,10 @@ import re
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, cos, eye, sin
+from sympy import Expr, ImmutableDenseMatrix, cos, eye, sin
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import Cross, Dot, column, explicit
+from derive.algebra.expressions import Cross, Dot, as_expr, column, explicit
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.step import is_zero
 
@@ -88,7 +88,7 @@ def place_of(*place: Any) -> ImmutableMatrix:
     if len(place) not in (2, 3):
         message = f"a place has two components or three, not {len(place)}"
         raise Rejected(Complaint("wrong-argument", message, help="write .at(x, y, z)"))
-    return column(*(Integer(0) + x for x in (*place, 0)[:3]))
+    return column(*(as_expr(x) for x in (*place, 0)[:3]))
 
 
 def turn_about(axis: Any, angle: Any) -> ImmutableMatrix:

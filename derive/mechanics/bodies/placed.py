@@ -15,7 +15,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, cos, sin
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import TIME, column, explicit
+from derive.algebra.expressions import TIME, as_expr, column, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
@@ -136,7 +136,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
             raise Rejected(Complaint("wrong-argument", message, help="give its three principal moments"))
         return PlacedBody(body, turned, point, at)
     try:
-        angle = explicit(Integer(0) + turned)
+        angle = explicit(as_expr(turned))
     except TypeError:
         raise Rejected(Complaint("wrong-argument", "a body is turned as axes are, or by an angle")) from None
     number = _across(body, across)

@@ -18,7 +18,7 @@ from sympy.matrices import MatrixBase
 from derive.algebra.collect import by_accelerations, spread
 from derive.algebra.derivatives import derivative
 from derive.algebra.expansion import FirstOrder
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar, stand_in
+from derive.algebra.expressions import TIME, Relation, Terms, as_expr, explicit, rate, scalar, stand_in
 from derive.algebra.squares import with_squares
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
@@ -267,7 +267,7 @@ def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:
     """Values by the coordinates' letters, of a state of rest or as a script writes them."""
     if isinstance(at, Quantity):
         return dict(at.needed(Rest).values)
-    return {q.symbol if isinstance(q, Coordinate) else q: Integer(0) + value for q, value in at.items()}
+    return {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in at.items()}
 
 
 def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: Any) -> dict[Symbol, Expr]:

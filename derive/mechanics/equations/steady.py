@@ -14,7 +14,7 @@ from sympy import Add, Dummy, Expr, Integer, Mul, Symbol, cos, diff, factor, sin
 from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import TIME, At, Partial, Ratio, Relation, Slope, bound, explicit, rate, scalar
+from derive.algebra.expressions import TIME, At, Partial, Ratio, Relation, Slope, as_expr, bound, explicit, rate, scalar
 from derive.algebra.length import length
 from derive.algebra.ranges import never_vanishes_within, strict_sign_within
 from derive.algebra.taylor import slope
@@ -153,7 +153,7 @@ def _given(
             wrong = "not cyclic" if role == "rate" else "cyclic, or no coordinate of it"
             message = f"`steady_motion`: a {role} is given for {letter}, which is {wrong}"
             raise Rejected(Complaint("wrong-argument", message))
-        number = value.value if isinstance(value, Quantity) else ZERO + value
+        number = value.value if isinstance(value, Quantity) else as_expr(value)
         held = {s for s in number.free_symbols if any(s == q.rate for q in turning)}  # constant in this very motion
         held |= ({number} if isinstance(number, Symbol) else set()) - moving  # what the rate, or the place, is called
         require_constant("steady_motion", role, number.xreplace({s: Dummy("held", real=True) for s in held}))

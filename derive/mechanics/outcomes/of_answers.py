@@ -19,6 +19,8 @@ from sympy import (
     atan,
     cos,
     diff,
+    factor_list,
+    gcd_list,
     oo,
     sign,
     sin,
@@ -95,6 +97,19 @@ def _only_there(facts: Judged, point: Any) -> bool:
 
 def _of_several(first: bool) -> Predicate:
     return lambda facts: facts.inputs["count"] > 1 and (facts.inputs["place"] == 0) == first
+
+
+def _where_the_coefficients_last(predicate: Predicate) -> Predicate:
+    """Where all coefficients vanish, any number is a root: the sentence excludes that, or its condition does."""
+
+    def is_so(facts: Judged) -> bool:
+        told = [facts.inputs[role].left for role in ("excluded", "condition") if role in facts.inputs]
+        factors = {f for each in told for f, _ in factor_list(each)[1]}
+        common = factor_list(gcd_list(_polynomial(facts).coeffs()))[1]
+        open_ = [f for f, _ in common if sign_known(f) is None and not f.is_nonzero]
+        return bool(predicate(facts)) and all(f in factors or -f in factors for f in open_)
+
+    return is_so
 
 
 def _absent(facts: Judged) -> bool:
@@ -351,11 +366,14 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "following": _one_of(False, False),
     },
     "roots.roots": {
-        "single": _single,
-        "double": _double,
-        "only": _only,
-        "several": _of_several(True),
-        "following": _of_several(False),
+        word: _where_the_coefficients_last(predicate)
+        for word, predicate in (
+            ("single", _single),
+            ("double", _double),
+            ("only", _only),
+            ("several", _of_several(True)),
+            ("following", _of_several(False)),
+        )
     },
     "roots.roots_absent": {"none": _absent, "none_positive": _absent, "none_reached": _beyond_one},
     "substitution.put_in": {

@@ -6,11 +6,12 @@ from collections.abc import Callable
 
 from sympy import Expr, diff
 
-from derive.algebra.expressions import Partial, Slope, explicit
+from derive.algebra.expressions import Partial, Relation, Slope, explicit
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import always_sign, lasts, sign_where_it_exists, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
+from derive.steps.record import assumed
 from derive.steps.step import is_zero
 
 
@@ -90,6 +91,11 @@ def _free_bodies(facts: Judged) -> int:
     return sum(not placed.is_held for placed in facts.subject.body.bodies)
 
 
+def _on_the_sides_that_are_assumed(facts: Judged) -> bool:
+    """Of a distance |u| the page takes u only where it assumes u > 0."""
+    return lasts(facts) and all(Relation(u, ">", 0) in assumed() for u in facts.inputs["branches"])
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "coordinates.rate_of": {"generic": lasts, "zero": vanishes},
     "systems.squared_speed": {
@@ -97,7 +103,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "centre": lambda facts: not facts.subject.body.particles and _free_bodies(facts) <= 1,
         "of_several": lambda facts: len(facts.subject.body.masses) > 1,
     },
-    "systems.potential_energy": {"generic": lasts, "zero": vanishes},
+    "systems.potential_energy": {"generic": _on_the_sides_that_are_assumed, "zero": vanishes},
     "systems.magnetic_term": {
         "alone": lambda facts: facts.inputs["fields"] == 1,
         "several": lambda facts: facts.inputs["fields"] > 1,

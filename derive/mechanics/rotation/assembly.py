@@ -21,6 +21,7 @@ from derive.algebra.expressions import (
     Outer,
     Ratio,
     Terms,
+    as_expr,
     column,
     component_names,
     explicit,
@@ -176,7 +177,7 @@ class Composite(Body):
 
 def PointMasses(*masses: tuple[Expr, Sequence[Any]]) -> Composite:
     """Particles held together without mass between them: `PointMasses((m, (a, 0, 0)), (2*m, (0, a, a)))`."""
-    return Composite(*(_placed(PointMass(Integer(0) + mass)).at(*place) for mass, place in masses))
+    return Composite(*(_placed(PointMass(as_expr(mass))).at(*place) for mass, place in masses))
 
 
 def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:

@@ -21,6 +21,7 @@ from derive.algebra.expressions import (
     Root,
     Terms,
     applied,
+    as_expr,
     column,
     explicit,
     scalar,
@@ -122,7 +123,7 @@ def moment_about(
     """
     require_kind("moment_about", "inertia", inertia, MOMENT)
     body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
-    along = direction.value if isinstance(direction, Quantity) else column(*(Integer(0) + x for x in direction))
+    along = direction.value if isinstance(direction, Quantity) else column(*(as_expr(x) for x in direction))
     if is_zero(along):
         raise Rejected(Complaint("zero-vector", "an axis along a vector that vanishes has no direction"))
     unit = ImmutableDenseMatrix((along / tidied(Norm(along))).applyfunc(tidied))

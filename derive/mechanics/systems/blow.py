@@ -8,7 +8,7 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff, sqrt
 
-from derive.algebra.expressions import At, Factors, Partial, Relation, TimeRate, explicit, rate
+from derive.algebra.expressions import At, Factors, Partial, Relation, TimeRate, as_expr, explicit, rate
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -69,14 +69,14 @@ def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
     if not isinstance(at, Location) or len(components) != len(at.components):
         message = "`impulse` needs a place, and as many components as that has"
         raise Rejected(Complaint("wrong-argument", message))
-    return Impulse(tuple(ZERO + c for c in components), at.components, of, tuple(components))
+    return Impulse(tuple(as_expr(c) for c in components), at.components, of, tuple(components))
 
 
 def angular_impulse(amount: Any, on: Any) -> Impulse:
     """A given angular impulse, the integral of a torque over the short time of a blow, on an angle, N m s."""
-    if not coordinates_in(ZERO + on):
+    if not coordinates_in(as_expr(on)):
         raise Rejected(Complaint("wrong-argument", f"`angular_impulse` turns something, but {on} does not move"))
-    return Impulse((ZERO + amount,), (ZERO + on,), given=(amount,))
+    return Impulse((as_expr(amount),), (as_expr(on),), given=(amount,))
 
 
 def collision(
@@ -99,11 +99,11 @@ def collision(
     size = len(end.components)
     if start is not None and len(start.components) != size:
         raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, the other three"))
-    normal = tuple(ZERO + c for c in along)
+    normal = tuple(as_expr(c) for c in along)
     if normal and (len(normal) != size or all(c == 0 for c in normal)):
         message = f"`collision` needs {size} components as its normal, not all zero"
         raise Rejected(Complaint("wrong-argument", message))
-    part = ZERO + restitution
+    part = as_expr(restitution)
     if not normal and part != 0:
         message = "a collision after which two places part again needs its normal"
         raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
@@ -174,8 +174,8 @@ class Blow:
     ):
         self.system = system
         self.moving = list(system.coordinates)
-        self.at = {self._coordinate(q): ZERO + value for q, value in (at or {}).items()}
-        given = {self._coordinate(q): ZERO + value for q, value in (before or {}).items()}
+        self.at = {self._coordinate(q): as_expr(value) for q, value in (at or {}).items()}
+        given = {self._coordinate(q): as_expr(value) for q, value in (before or {}).items()}
         for value in (*self.at.values(), *given.values()):
             require_constant("Blow", "state", value)
         self.before = {rate(q): given.get(q, ZERO) for q in self.moving}
@@ -281,7 +281,7 @@ class Blow:
         found = explicit(value).subs(list(places.items()), simultaneous=True)
         if rates:
             found = found.subs([(rate(q), speeds.get(q, 0)) for q in self.system.coordinates], simultaneous=True)
-        return ZERO + found
+        return as_expr(found)
 
     def _meetings(self, act: Collision) -> list[Meeting]:
         size = len(act.end.components)

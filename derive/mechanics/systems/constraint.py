@@ -7,9 +7,9 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, Symbol, diff
 
-from derive.algebra.expressions import Relation, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import Relation, TimeRate, as_expr, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, is_zero
 
@@ -85,7 +85,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     force       the letter of the multiplier: a force where f is a length
     """
     try:
-        left, right = explicit(ZERO + condition), explicit(ZERO + equals)
+        left, right = explicit(as_expr(condition)), explicit(as_expr(equals))
     except TypeError:
         raise Rejected(Complaint("wrong-argument", "`constraint` needs a formula of the coordinates")) from None
     moving = list(coordinates_in(left - right))
@@ -98,4 +98,9 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     if higher or any(not is_zero(diff(residual, a, b)) for a in rates for b in rates):
         message = "`constraint` needs a formula of the coordinates, or one linear in their rates"
         raise Rejected(Complaint("wrong-argument", message))
-    return Constraint(left, right, scalar(force), bool(rates))
+    made = Constraint(left, right, scalar(force), bool(rates))
+    if not is_zero(
+        made.residual - explicit(as_expr(condition) - equals)
+    ):  # the sign of the force is that of the condition
+        raise Unverified(Complaint("unverified", f"the constraint is kept as {made.residual} = 0"))
+    return made

@@ -18,6 +18,7 @@ from derive.algebra.expressions import (
     Terms,
     TimeRate,
     applied,
+    as_expr,
     bound,
     explicit,
     rate,
@@ -87,7 +88,7 @@ def movers(system: System, lagrangian: str = "") -> list[Mover]:
 def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     """Square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
     moving = list(system.coordinates)
-    entries = [ZERO + c for place in system.places for c in place.components]
+    entries = [as_expr(c) for place in system.places for c in place.components]
     given = {s.name.partition("_")[0] for entry in entries for s in entry.free_symbols}
     indices = [other.letter for other in movers(system)]
     free = (letter for letter in SPEEDS if letter not in given and free_letter(letter, *indices) == letter)
@@ -322,7 +323,10 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
         ),
         facts=[replace(matter, points=(), fields=()), *acting_on(system), system.described],
         parents=lengths,
-        telling=Telling(words={"seen": "stretched" if kept else "any"}),
+        telling=Telling(
+            words={"seen": "stretched" if kept else "any"},
+            judged_by={"branches": tuple(each.branch for each in system.between if each.branch is not None)},
+        ),
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
 

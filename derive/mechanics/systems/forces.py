@@ -13,7 +13,7 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
-from derive.algebra.expressions import TIME, TimeRate, explicit, rate
+from derive.algebra.expressions import TIME, TimeRate, as_expr, explicit, rate
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Load, MagneticForce
@@ -130,7 +130,7 @@ def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
         message = f"`{verb}` needs {count} components as its `{role}`, as many as its place has"
         raise Rejected(Complaint("wrong-argument", message))
     try:
-        return tuple(ZERO + value for value in values)
+        return tuple(as_expr(value) for value in values)
     except TypeError:
         raise Rejected(Complaint("wrong-argument", f"`{verb}` needs expressions as its `{role}`")) from None
 
@@ -157,10 +157,10 @@ def force(components: Any, at: Location, of: Any = None, by: Any = None) -> Give
 
 def couple(torque: Any, on: Any) -> GivenForce:
     """A given torque that turns by an angle, N m; a coordinate, or an angle made of coordinates."""
-    along = ZERO + on
+    along = as_expr(on)
     if not coordinates_in(along):
         raise Rejected(Complaint("wrong-argument", f"`couple` turns something, but {along} does not move"))
-    return GivenForce((ZERO + torque,), (along,))
+    return GivenForce((as_expr(torque),), (along,))
 
 
 def damping(constant: Any, at: Any, of: Any = None) -> Damper:
@@ -173,15 +173,15 @@ def damping(constant: Any, at: Any, of: Any = None) -> Damper:
         found = Damper(constant, at.components, of)
         found.load(())  # which refuses what nothing can act on
         return found
-    if not isinstance(at, Coordinate | Expr) or not coordinates_in(ZERO + at):
+    if not isinstance(at, Coordinate | Expr) or not coordinates_in(as_expr(at)):
         message = "`damping` acts against the velocity of a place or against the rate of a coordinate"
         raise Rejected(Complaint("wrong-argument", message))
-    return Damper(constant, (ZERO + at,))
+    return Damper(constant, (as_expr(at),))
 
 
 def potential(energy: Any) -> StoredEnergy:
     """A potential energy of the coordinates, J, and of the time where it is driven."""
-    given: Expr = explicit(ZERO + energy)
+    given: Expr = explicit(as_expr(energy))
     moving = coordinates_in(given)
     fast = [q for q in moving if given.has(rate(q), rate(q, 2))]
     if fast:
@@ -204,10 +204,10 @@ def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
     if B is None:
         magnetic: Vector = (ZERO,) * (3 if count == 3 else 1)
     elif count == 2:
-        magnetic = (ZERO + B,) if not isinstance(B, tuple | list | Location) else _vector("charge", "B", B, 1)
+        magnetic = (as_expr(B),) if not isinstance(B, tuple | list | Location) else _vector("charge", "B", B, 1)
     else:
         magnetic = _vector("charge", "B", B, 3)
-    require_constant("charge", "charge", ZERO + amount)
+    require_constant("charge", "charge", as_expr(amount))
     for role, field in (("electric field", electric), ("magnetic field", magnetic)):
         for component in field:
             if coordinates_in(component):
@@ -216,7 +216,7 @@ def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
                 raise Rejected(Complaint("changes", message, help=help_line))
     for component in magnetic:
         require_constant("charge", "magnetic field", component)
-    return Charge(ZERO + amount, place, electric, magnetic)
+    return Charge(as_expr(amount), place, electric, magnetic)
 
 
 def is_nothing(vector: Vector) -> bool:

@@ -11,7 +11,7 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_rates
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import Relation, TimeRate, column, explicit, rate, scalar, stand_in
+from derive.algebra.expressions import Relation, TimeRate, as_expr, column, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
@@ -201,7 +201,7 @@ def _order(body: PlacedBody, at: Location) -> list[Symbol]:
     if isinstance(body.turned, Axes):
         turning = [q for _, angle in reversed(body.turned.turns) for q in coordinates_in(angle)]
     else:
-        turning = list(coordinates_in(ZERO + body.turned))
+        turning = list(coordinates_in(as_expr(body.turned)))
     everything = coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components]))
     return list(dict.fromkeys([*turning, *everything]))
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, cos, eye, sin
+from sympy import Expr, ImmutableDenseMatrix, cos, eye, sin
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import TIME
+from derive.algebra.expressions import TIME, as_expr
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.step import Quantity, value_behind
 
@@ -72,7 +72,7 @@ def point(*components: Any) -> Location:
         raise Rejected(Complaint("wrong-argument", f"`point` needs two components or three, not {len(components)}"))
     found = tuple((i, c) for i, c in enumerate(components) if isinstance(c, Quantity))
     try:
-        return Location(tuple(Integer(0) + value_behind(c) for c in components), found)
+        return Location(tuple(as_expr(value_behind(c)) for c in components), found)
     except TypeError:
         raise Rejected(Complaint("wrong-argument", "`point` needs expressions, one for each component")) from None
 

@@ -13,7 +13,7 @@ from sympy.polys.matrices.exceptions import DMError
 
 from derive.algebra.collect import by_accelerations
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, explicit, rate, scalar, stand_in
+from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, as_expr, explicit, rate, scalar, stand_in
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
@@ -285,7 +285,7 @@ def constraint_force(
     if not kept or any(each.problem.lagrangian.step != kept[0].problem.lagrangian.step for each in kept):
         raise Rejected(Complaint("different-subjects", "`constraint_force` needs the forces of one system"))
     problem: _Problem = kept[0].problem
-    way = {q.symbol if isinstance(q, Coordinate) else q: ZERO + value for q, value in along.items()}
+    way = {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in along.items()}
     strange = [q for q in way if q not in problem.moving]
     if strange:
         message = f"`constraint_force`: this system has no coordinate {strange[0]}"

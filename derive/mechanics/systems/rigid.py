@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Mul, cos, eye, factor, sin
+from sympy import Add, Expr, ImmutableDenseMatrix, MatAdd, Mul, cos, eye, factor, sin
 from sympy.matrices import ImmutableMatrix
 from sympy.simplify.fu import TR5, TR6
 
-from derive.algebra.expressions import TimeRate, column, explicit, scaled, vector
+from derive.algebra.expressions import TimeRate, as_expr, column, explicit, scaled, vector
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -132,7 +132,7 @@ def _is_symmetric(inertia: ImmutableMatrix, axis: int) -> bool:
 def turning_rate_of(placed: PlacedBody) -> Expr:
     """Of a body in a plane, without its sign."""
     angle: Any = placed.turned
-    found: Expr = tidied(TimeRate(angle, *coordinates_in(Integer(0) + angle)))
+    found: Expr = tidied(TimeRate(angle, *coordinates_in(as_expr(angle))))
     return -found if found.could_extract_minus_sign() else found
 
 
