@@ -192,6 +192,9 @@ class Triangle(Cornered):
         made = cls(((ZERO, ZERO), (base, ZERO), (base / 2 if foot is None else foot + ZERO, height)), mass)
         if tidied(made._signed_area - base * height / 2) != 0:
             raise Unverified(Complaint("unverified", f"{made.name} on a base has another area than half of b h"))
+        left, right = (top.dot(top) for top in (made.corners[2] - corner for corner in made.corners[:2]))
+        if foot is None and tidied(left - right) != 0:
+            raise Unverified(Complaint("unverified", f"the top of {made.name} is not over the middle of its base"))
         return made
 
     @classmethod

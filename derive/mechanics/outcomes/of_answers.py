@@ -187,9 +187,26 @@ def _lost(later: bool) -> Predicate:
             except (Undefined, NoNumber):
                 continue
         there = [value == 0 if later else value > 0 for value in seen if value.is_real]
-        return _vanishing_force(facts) and bool(there) and all(there)
+        return _vanishing_force(facts) and bool(there) and all(there) and _gets_there_as_told(facts)
 
     return is_so
+
+
+def _gets_there_as_told(facts: Judged) -> bool:
+    """By numbers for the letters: the squared rate is positive at the place just where its condition holds."""
+    told = facts.inputs.get("reached")
+    if "squared" not in facts.inputs:
+        return told is None
+    there = explicit(facts.inputs["squared"]).subs(*_letter_at(*facts.result.sides))
+    if told is not None and not explicit(told.residual).free_symbols <= there.free_symbols:
+        return False
+    value = with_numbers(there)
+    for point in islice(points_as_assumed(letters_of(value), seed_of(value)), TRIED):
+        with suppress(Undefined, NoNumber):
+            number = value_at(value, point)
+            if number.is_real and bool(number > 0) != (told is None or holds_at(with_numbers(told), point)):
+                return False
+    return True
 
 
 def _turned_back(facts: Judged) -> bool:

@@ -11,7 +11,7 @@ from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import always_sign, lasts, sign_where_it_exists, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
-from derive.steps.record import assumed
+from derive.steps.record import assumed, assumed_in_words
 from derive.steps.step import is_zero
 
 
@@ -93,7 +93,9 @@ def _free_bodies(facts: Judged) -> int:
 
 def _on_the_sides_that_are_assumed(facts: Judged) -> bool:
     """Of a distance |u| the page takes u only where it assumes u > 0."""
-    return lasts(facts) and all(Relation(u, ">", 0) in assumed() for u in facts.inputs["branches"])
+    sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
+    of_springs = any(side in assumed_in_words() for side in sides)
+    return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {

@@ -8,7 +8,7 @@ from sympy import Integer, Matrix, Symbol, cos, diff, sin
 
 from derive.algebra.expressions import AXES, explicit, rate
 from derive.algebra.tidy import tidied
-from derive.mechanics.outcomes.told import rates_of_its_equations
+from derive.mechanics.outcomes.told_of_motion import rates_of_its_equations
 from derive.steps.known_numbers import sign_known
 from derive.steps.outcomes import Judged, Naming, named_by
 from derive.steps.step import is_zero

@@ -19,9 +19,9 @@ from derive.mechanics.outcomes.signs import points_as_assumed, same_equation
 from derive.mechanics.outcomes.told import (
     given_as_the_condition_has_it,
     is_a_root_just_where_told,
-    starts_as_told,
     sum_of_the_equations_times_their_factors,
 )
+from derive.mechanics.outcomes.told_of_motion import starts_as_told
 from derive.steps.known_numbers import sign_known
 from derive.steps.outcomes import Judged, Naming, named_by
 from derive.steps.step import is_zero

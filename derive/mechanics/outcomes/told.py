@@ -11,10 +11,10 @@ from dataclasses import replace
 from itertools import islice
 from typing import Any
 
-from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, oo, pi, sin, tan
+from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, oo, pi, sin
 
 from derive.algebra.expansion import Approach
-from derive.algebra.expressions import AXES, PLUS_MINUS, TIME, Relation, explicit, rate
+from derive.algebra.expressions import AXES, PLUS_MINUS, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.mechanics.outcomes.signs import MARK_OF, is_so
 from derive.steps.known_numbers import sign_known, with_numbers
@@ -121,51 +121,6 @@ def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
     )
 
 
-def starts_as_told(facts: Judged, outcome: str) -> bool:
-    """The motion has the value and the rate at the start that the sentence says."""
-    if not _of_an_equation(facts, outcome):
-        return False
-    told, q = [facts.inputs[role] for role in ("start", "start_rate") if role in facts.inputs], facts.inputs["q"]
-    at = [diff(facts.result, TIME, n).subs(TIME, 0) for n in range(len(told))]
-    named = [(q, "="), (rate(q), "=")][: len(told)] == [(each.left, each.mark) for each in told]
-    return named and all(is_zero(value - each.right) for value, each in zip(at, told, strict=True))
-
-
-def _starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
-    """At the start the coordinate and its rate have the values that the sentence says, or zero where it says none."""
-    q = facts.inputs["coordinate"]
-    told = {each.left: each.right for role, each in facts.inputs.items() if role.startswith("start_")}
-    at_start = {q: facts.result.subs(TIME, 0), rate(q): diff(facts.result, TIME).subs(TIME, 0)}
-    others_zero = facts.words["seen"] == "others_zero"
-    return all(
-        is_zero(value - told[s]) if s in told else others_zero and is_zero(value) for s, value in at_start.items()
-    )
-
-
-def _taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
-    """With what the letter that is taken out is said to be, the condition holds."""
-    told, where = facts.inputs.get("taken_out"), facts.quantities["where"].value
-    if told is None or not isinstance(where, Relation):
-        return True
-    return is_zero(explicit(where).residual.subs(told.left, told.right))
-
-
-def _of_an_equation(facts: Judged, outcome: str) -> bool:
-    """What moves is a letter, and what it obeys an equation, or what its rate or acceleration was found to be."""
-    q, found = facts.inputs["q"], facts.quantities.get("equation")
-    solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
-    return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)
-
-
-def _swings_of_its_equation(facts: Judged, outcome: str) -> bool:
-    return _not_negative(facts, outcome) and _of_an_equation(facts, outcome)
-
-
-def _not_negative(facts: Judged, outcome: str) -> bool:
-    """A period, a frequency or an amplitude; where its sign depends on the letters its condition is told."""
-    return sign_known(facts.result) != -1
-
-
 def _axis_as_named(facts: Judged, outcome: str) -> bool:
     return outcome != "diagonal" or facts.words["axis"] == outcome
 
@@ -227,7 +182,8 @@ def _word_of_its_mark(facts: Judged, outcome: str) -> bool:
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
     if facts.inputs.get("for_real"):  # roots are real where their discriminant is positive, or not negative
         right_word &= mark in (">", ">=") and facts.quantities["quantity"].step.rule == "roots.discriminant"
-    return right_word and is_zero(difference - facts.inputs["difference"])
+    radicand = facts.words.get("seen") == "radicand" and facts.quantities["quantity"].step.rule != "roots.discriminant"
+    return right_word and not radicand and is_zero(difference - facts.inputs["difference"])
 
 
 def is_a_root_just_where_told(facts: Judged) -> bool:
@@ -300,31 +256,6 @@ def _a_second_rate(facts: Judged, outcome: str) -> bool:
     return bool(facts.symbol.name.endswith("_ddot"))
 
 
-def _positive_where_real(facts: Judged, outcome: str) -> bool:
-    """A frequency is not negative where it is real: in numbers."""
-    value = explicit(facts.result)
-    for point in islice(points(letters_of(value), seed_of(value)), POINTS):
-        try:
-            number = value_at(value, point)
-            if number.is_real and number < 0:
-                return False
-        except (Undefined, NoNumber):
-            continue
-    return True
-
-
-def _somewhere_positive(facts: Judged, outcome: str) -> bool:
-    """Which of two frequencies is greater may depend on the letters, but not the wrong one is so for all of them."""
-    value = explicit(facts.result)
-    numbers = []
-    for point in islice(points(letters_of(value), seed_of(value)), POINTS):
-        try:
-            numbers.append(value_at(value, point))
-        except (Undefined, NoNumber):
-            continue
-    return _not_negative(facts, outcome) and any(bool(number.is_real) and number >= 0 for number in numbers)
-
-
 def _says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
     """A factor below the line that might vanish is told not to; the first of several solutions says so for all."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
@@ -357,23 +288,11 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
     return near and told.left == facts.result.left and is_so == (facts.words["seen"] == "fulfilled")
 
 
-def _lag_as_written(facts: Judged, outcome: str) -> bool:
-    """With a loss its tangent is told, without one the angle itself."""
-    return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
-
-
 def sum_of_the_equations_times_their_factors(facts: Judged, outcome: str) -> bool:
     """Each equation that is named, times the factor that is named with it, adds up to the result."""
     named = [role for role in facts.quantities if role.startswith("equation_")]
     products = (facts.inputs[f"factor_{role[9:]}"] * explicit(facts.quantities[role].value).residual for role in named)
     return is_zero(explicit(facts.result).residual - sum(products, Integer(0)))
-
-
-def rates_of_its_equations(facts: Judged, outcome: str) -> bool:
-    """Each of the equations that are named is that of its component: the third says that the last is constant."""
-    letters = (facts.inputs["around"], facts.inputs["beside"], facts.inputs["along"])
-    named = [facts.quantities[role].value for role in ("first", "second", "third")]
-    return all(rate(w) in _letters_of(equation) for w, equation in zip(letters, named, strict=True))
 
 
 def _functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
@@ -397,7 +316,6 @@ def _both(one: Told, other: Told) -> Told:
 
 _TABLE: dict[str, Told] = {
     "forced.equation_of_motion": _functions_of_its_constraints,
-    "superposition.motion": _starts_as_all_are_told,
     "roots.roots": _as_asked,
     "roots.roots_absent": _as_asked_for,
     "extrema.place": _there_where_told,
@@ -420,8 +338,6 @@ _TABLE: dict[str, Told] = {
     "roots.one_of_two": _a_root_of_its_sign,
     "conditions.where": _word_of_its_mark,
     "cones.vector_component": _component_of_its_letter,
-    "damped.frequency": _positive_where_real,
-    "modes.frequency": _positive_where_real,
     "effective.value_kept": _of_its_coordinate,
     "bodies.axis_vector": _axis_as_named,
     "bodies.centre_component": _from_its_point_along_the_axis,
@@ -434,15 +350,7 @@ _TABLE: dict[str, Told] = {
     "assembly.own_moment": _names_the_axis_of_the_whole,
     "principal.principal_moments": _vanish_again,
     "lagrangian.lagrangian": _difference,
-    "modes.period": _not_negative,
-    "tensors.radius_of_gyration": _not_negative,
-    "modes.beats": _somewhere_positive,
-    "linear_motion.solution": starts_as_told,
-    "steady.frequency_squared": _taken_out_by_its_condition,
-    "linear_motion.steady_amplitude": _swings_of_its_equation,
-    "linear_motion.lag": _lag_as_written,
     "conservation.sum": sum_of_the_equations_times_their_factors,
-    "wobble.body_cone_rate": rates_of_its_equations,
 }
 
 for _rule, _told in _TABLE.items():
