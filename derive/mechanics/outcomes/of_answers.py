@@ -174,7 +174,13 @@ def _always(wanted: bool) -> Predicate:
 
 
 def _as_let(equation: bool, reason: bool) -> Predicate:
-    return lambda facts: isinstance(facts.result, Relation) == equation and ("because" in facts.words) == reason
+    """An equation has no letter, and a value has one."""
+
+    def is_so(facts: Judged) -> bool:
+        letter = facts.symbol is None if equation else facts.symbol is not None
+        return letter and isinstance(facts.result, Relation) == equation and ("because" in facts.words) == reason
+
+    return is_so
 
 
 def _near(*places: Any) -> Predicate:
