@@ -129,19 +129,11 @@ PRINTED_SOMETHING_FALSE = {  # on which run, and how the ids begin
         "mechanics.equations.quadratics:real_where: mark: '>' -> '<'",
         "mechanics.equations.quadratics:_coefficients: comparison: x not in f.free_symbols",
     ],
-    "library/atwood_double": ["mechanics.equations.conditions:_excluded: dropped: difference / result.residual"],
     "library/ball_with_hole": ["mechanics.rotation.assembly:_share_of_mass: word: part.body.called"],
-    "library/beats": ["mechanics.equations.modes:beats: sign: Terms(other, -one) -> -Terms(other, -one)"],
     "library/clock_pendulum": ["mechanics.bodies.parts:PlacedPart.turned: sign: turn * self.turn"],
     "library/cue_ball": ["mechanics.equations.roots:_step: role: {'equation': equation, 'unknown': unknown}"],
     "library/damped_oscillator": ["mechanics.equations.linear_motion:_sort: dropped: b ** 2 -> b"],
     "library/drift": ["mechanics.systems.forces:Charge.stored: sign: -self.charge -> self.charge"],
-    "library/ellipsoid": [
-        "mechanics.equations.substitution:put_in: side: Relation(target, '=', at) -> Relation(-target"
-    ],
-    "library/inverted_springs": [
-        "mechanics.equations.minima:_of_one: comparison: border is not None -> border is None (2)"
-    ],
     "library/kepler": ["mechanics.equations.sides:_sides_taken: and/or"],
     "library/power_law": [
         "mechanics.equations.steady:frequency_squared_about: role: {'potential': about.potential",
@@ -150,17 +142,12 @@ PRINTED_SOMETHING_FALSE = {  # on which run, and how the ids begin
     "library/spherical_pendulum": ["mechanics.equations.roots:_excluded: condition: f not in"],
     "library/thrown_plate": ["mechanics.rotation.steady:_given: outcome: 'momentary' -> 'generic'"],
     "library/turning_parabola": ["mechanics.equations.equilibria:_level_where: index: 0 -> 1 (2)"],
-    "library/turning_rod": [
-        "mechanics.equations.zeros:different_from_zero: condition",
-        "mechanics.equations.linear_motion:_start: mark: '=' -> '>' (2)",
-    ],
     "library/yoyo": ["mechanics.systems.no_slip:_slips: dropped: own / each.factor"],
     "own/damped_carts": ["mechanics.equations.damped:_frequency: sign: Root(turned * square)"],
     "own/solids": [
         "mechanics.bodies.edged_bodies:Triangle.on_base: order: (base, ZERO) -> [ZERO, base]",
         "mechanics.bodies.edged_bodies:Triangle.equilateral: dropped: side * sqrt(3) / 2 -> side",
     ],
-    "own/turning_table": ["mechanics.equations.turning_stability:_place_among: outcome: 'depends' -> 'further'"],
 }
 
 

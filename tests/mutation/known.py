@@ -1,4 +1,4 @@
-"""The mutants that print another page, of which somebody has read that it is true; their kinds are in docs/soundness.md.
+"""The mutants that print another page, which somebody has read and found true; their kinds are in docs/soundness.md.
 
 A survivor of the nature "form" needs no entry: the same values in the same words, only in other lines, each checked.
 """
