@@ -180,6 +180,7 @@ def _step(
                 "gen": polynomial.gen,
                 "positive": Integer(strict_sign_within(unknown) == 1),
                 "place": Integer(i),
+                "roots": tuple(each.value for each in kept),
                 "count": Integer(len(kept)),
             },
         ),

@@ -8,6 +8,7 @@ from derive.mechanics.outcomes import of_answers as of_answers
 from derive.mechanics.outcomes import of_approximations as of_approximations
 from derive.mechanics.outcomes import of_bodies as of_bodies
 from derive.mechanics.outcomes import of_conditions as of_conditions
+from derive.mechanics.outcomes import of_contact as of_contact
 from derive.mechanics.outcomes import of_equilibria as of_equilibria
 from derive.mechanics.outcomes import of_facts as of_facts
 from derive.mechanics.outcomes import of_gyroscopic as of_gyroscopic

@@ -13,6 +13,7 @@ from itertools import islice
 from sympy import Abs, Dummy, Expr, I, ImmutableDenseMatrix, Integer, Poly, Rational, prime
 
 from derive.algebra.amplitudes import determinant_of
+from derive.algebra.expressions import explicit, rate
 from derive.algebra.ranges import rational_in_range
 from derive.mechanics.outcomes.signs import always_sign, lasts, turned, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
@@ -130,6 +131,9 @@ def _linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
+        letters = facts.inputs["displacements"]
+        if len(letters) == 1 and explicit(facts.result).left.has(rate(*letters)) != found[1]:
+            return False  # of one coordinate the equation itself shows the drag
         return found[0] == displaced and found[2] == driven and lossy in (None, found[1])
 
     return is_so

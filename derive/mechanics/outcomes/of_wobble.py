@@ -41,9 +41,15 @@ def _excess_is(sign: int | None) -> Predicate:
     return lambda facts: _sign(facts.inputs["excess"]) == sign and not vanishes(facts)
 
 
-def _root_is(grows: bool) -> Predicate:
-    """Whether the square of the rate is negative; the root of one that is not known to be is written all the same."""
-    return lambda facts: (_sign(facts.inputs["squared"]) == -1) == grows
+def _root_is(grows: bool, *squares: str) -> Predicate:
+    """Whether the square of the rate is negative, and which word it had; the root of one that is not known to be is
+    written all the same."""
+
+    def is_so(facts: Judged) -> bool:
+        word = facts.quantities["squared"].step.outcome
+        return (_sign(facts.inputs["squared"]) == -1) == grows and word in squares
+
+    return is_so
 
 
 outcomes_of(
@@ -52,6 +58,11 @@ outcomes_of(
 )
 outcomes_of(
     "wobble.wobble_rate",
-    {**{word: _root_is(False) for word in ("stable", "symmetric", "conditional")}, "unstable": _root_is(True)},
+    {
+        "stable": _root_is(False, "greatest", "least"),
+        "symmetric": _root_is(False, "symmetric"),
+        "conditional": _root_is(False, "conditional"),
+        "unstable": _root_is(True, "unstable"),
+    },
 )
 outcomes_of("wobble.body_cone_rate", {"oblate": _excess_is(1), "prolate": _excess_is(-1), "generic": _excess_is(None)})

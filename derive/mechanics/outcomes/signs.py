@@ -121,7 +121,7 @@ def _signs_where(value: Expr, exists: Relation | None) -> set[int]:
     letters = sorted(value.free_symbols | condition.free_symbols, key=str)
     found = set()
     for shift in range(24):
-        numbers = fulfilling({s: _number(s, i, shift) for i, s in enumerate(letters)})
+        numbers = turned({s: _number(s, i, shift) for i, s in enumerate(letters)}, shift)
         if condition.xreplace(numbers).evalf(30) > 0:
             found.add(1 if value.xreplace(numbers).evalf(30) > 0 else -1)
     return found

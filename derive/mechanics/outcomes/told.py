@@ -285,7 +285,8 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
     apart = float(explicit(condition.left) - explicit(facts.result.right))
     is_so = {">": apart > 0, ">=": apart >= 0, "<": apart < 0, "<=": apart <= 0}[condition.mark]
     near = abs(float(explicit(told.right)) / float(explicit(condition.left)) - 1) < 0.05
-    return near and told.left == facts.result.left and is_so == (facts.words["seen"] == "fulfilled")
+    named = (told.left, told.mark) == (facts.result.left, "=")
+    return near and named and is_so == (facts.words["seen"] == "fulfilled")
 
 
 def sum_of_the_equations_times_their_factors(facts: Judged, outcome: str) -> bool:

@@ -11,8 +11,8 @@ from typing import Any
 
 from sympy import Add, Expr, Integer
 
-from derive.algebra.expressions import AXES, Factors, Ratio, Terms, scalar
-from derive.errors import Complaint, Rejected
+from derive.algebra.expressions import AXES, Factors, Ratio, Terms, explicit, scalar
+from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.equations.euler_equations import RigidBody
@@ -62,9 +62,15 @@ def in_letters(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredB
     called = {"x": "transverse_moment", "z": "axial_moment"} if is_symmetric else {k: f"moment_about_{k}" for k in AXES}
     found = [moment_of_inertia(body, axis, about, f"{symbol}_{axis}", key) for axis, key in called.items()]
     moments = [_letter(moment) for moment in found]
+    principal = (moments[0], moments[0] if is_symmetric else moments[1], moments[-1])
+    values = {quantity.symbol: explicit(quantity.value) for quantity in found}
+    for k, letter in enumerate(principal):
+        if not is_zero(letter.xreplace(values) - sum((m * (r.dot(r) - r[k] ** 2) for m, r in seen), Integer(0))):
+            message = f"`in_letters`: {letter} is not the moment of {body.name} about its {AXES[k]} axis"
+            raise Unverified(Complaint("unverified", message))
     return LetteredBody(
         _letter(mass) if mass is not None else body.mass,
-        (moments[0], moments[0] if is_symmetric else moments[1], moments[-1]),
+        principal,
         (Integer(0), Integer(0), _letter(distance)),
         "fixed_point",
         values=tuple(each for each in (mass, distance, *found) if each is not None and each.value != 0),
