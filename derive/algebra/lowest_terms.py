@@ -222,7 +222,7 @@ def _quotient(top: Terms, divisor: Terms) -> Terms | None:
     """One sum over another where nothing is left; an image modulo a prime tells in most cases that something is."""
     places = _places([*top, *divisor])
     first = next(iter(_places(divisor)), None)
-    if first is None or len(divisor) < 2 or not all(any(m >> place & ONES for m in top) for place in _places(divisor)):
+    if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):
         return None
     numbers = _numbers(places)
     images = [_image(_valued(terms, numbers), first, numbers[first]) for terms in (top, divisor)]
@@ -247,7 +247,7 @@ def _have_no_letter_in_common(top: Terms, bottom: Terms, places: list[int]) -> b
     """
     numbers = _numbers(places)
     above, below = (_valued(terms, numbers) for terms in (top, bottom))
-    shared = (place for place in places if any(m >> place & ONES for m in top) and any(m >> place & ONES for m in bottom))
+    shared = set(_places(top)) & set(_places(bottom))
     return all(_is_coprime(*(_image(each, place, numbers[place]) for each in (above, below))) for place in shared)
 
 
