@@ -136,7 +136,7 @@ PRINTED_SOMETHING_FALSE = {  # on which run, and how the ids begin
     "library/atwood_double": ["mechanics.equations.conditions:_excluded: dropped: difference / result.residual"],
     "library/ball_with_hole": ["mechanics.rotation.assembly:_share_of_mass: word: part.body.called"],
     "library/beats": ["mechanics.equations.modes:beats: sign: Terms(other, -one) -> -Terms(other, -one)"],
-    "library/clock_pendulum": ["mechanics.bodies.parts:PlacedPart.turned: sign: turn_about(axis, angle) * self.turn"],
+    "library/clock_pendulum": ["mechanics.bodies.parts:PlacedPart.turned: sign: turn * self.turn"],
     "library/cue_ball": ["mechanics.equations.roots:_step: role: {'equation': equation, 'unknown': unknown}"],
     "library/damped_oscillator": ["mechanics.equations.linear_motion:_sort: dropped: b ** 2 -> b"],
     "library/drift": ["mechanics.systems.forces:Charge.stored: sign: -self.charge -> self.charge"],

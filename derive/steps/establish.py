@@ -189,6 +189,7 @@ def establish(
     evidence += rests
     evidence += evidence_of_routes(key, rule, result, routes or {})
     _check_told(key, telling.formulas)
+    _check_words(key, words)
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
     subject = scope.around(together, result)
@@ -265,6 +266,13 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
         if isinstance(formula, Relation) and not explicit(formula).free_symbols:
             message = f"`{key}`: its sentence gives {formula} as a condition, in which there is no letter"
             raise Unverified(Complaint("unverified", message))
+
+
+def _check_words(key: str, words: Mapping[str, str]) -> None:
+    """A term that a sentence has is not empty: what is not there is left out."""
+    empty = next((term for term, word in words.items() if not word), None)
+    if empty is not None:
+        raise Unverified(Complaint("unverified", f"`{key}`: its sentence has nothing to say for `{empty}`"))
 
 
 def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:

@@ -48,7 +48,11 @@ class PlacedPart:
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
         """The same part turned right-handed by an angle about "x", "y" or "z", through the point that is held."""
-        return replace(self, turn=ImmutableDenseMatrix(turn_about(axis, angle) * self.turn))
+        turn = turn_about(axis, angle)
+        made = replace(self, turn=ImmutableDenseMatrix(turn * self.turn))
+        if any(not is_zero(way) for way in turn.T * made.turn - self.turn):
+            raise Unverified(Complaint("unverified", f"turned back about {axis}, the part is not as it was"))
+        return made
 
     def named(self, called: str) -> PlacedPart:
         return replace(self, body=self.body.named(called))

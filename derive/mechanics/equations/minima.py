@@ -105,15 +105,13 @@ def stability(
     return _of_one(place, letter, named)
 
 
-def _state(place: Place) -> tuple[Any, Any]:
+def _state(place: Place) -> Relation:
     """Where it is, as the sentence says it: by the name of the state of rest, where that is one result."""
     if len(place.coordinates) == 1:
         (q,) = place.coordinates
         named = place.values[q] if place.rest is None else place.rest.symbol
-        known = Relation(q, "=", named if isinstance(named, Expr) else place.values[q])
-        return known, known
-    known = Relation(Amplitudes(*place.coordinates), "=", Amplitudes(*(place.values[q] for q in place.coordinates)))
-    return known, known
+        return Relation(q, "=", named if isinstance(named, Expr) else place.values[q])
+    return Relation(Amplitudes(*place.coordinates), "=", Amplitudes(*(place.values[q] for q in place.coordinates)))
 
 
 def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
@@ -169,8 +167,8 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
     _check_nothing_else_holds_it(place, outcome)
-    told: dict[str, tuple[Any, Any]] = {"state": _state(place)}
-    named: dict[str, Any] = {**steady_in(potential, [q])}
+    told: dict[str, tuple[Any, Any]] = {}
+    named: dict[str, Any] = {"state": _state(place), **steady_in(potential, [q])}
     is_short = int(derivative(place.energy, q, 2).count_ops()) <= SHORT
     level = [slope(potential, by=q)] if place.rest is None and is_short else []
     if level:
@@ -294,15 +292,15 @@ def _of_several(place: Place, key: str) -> Quantity:
     values = [tidied(explicit(minor)) for minor in minors]
     letters = ImmutableDenseMatrix([scalar(f"D_{n}") for n in range(1, len(moving) + 1)])
     outcome = _of_minors(matrix, values)
-    told: dict[str, tuple[Any, Any]] = {"state": _state(place)}
-    named: dict[str, Any] = {}
+    told: dict[str, tuple[Any, Any]] = {}
+    named: dict[str, Any] = {"state": _state(place)}
     way = _way_down(matrix) if outcome == "depends" else None
     if outcome == "unstable" and not any(sign_by_factors(value) == -1 for value in values):
         way = _plain_way_down(matrix, [place.potential.coordinates[q] for q in moving])
     if way is not None:
         outcome = "unstable_along"
         told |= _falling(place, matrix, way)
-        named = {"moving": Amplitudes(*place.coordinates), "direction": Amplitudes(*way)}
+        named |= {"moving": Amplitudes(*place.coordinates), "direction": Amplitudes(*way)}
     _check_nothing_else_holds_it(place, outcome)
     if place.exists is not None:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))

@@ -104,7 +104,8 @@ def _where_the_coefficients_last(predicate: Predicate) -> Predicate:
     """Where all coefficients vanish, any number is a root: the sentence excludes that, or its condition does."""
 
     def is_so(facts: Judged) -> bool:
-        told = [facts.inputs[role].left for role in ("excluded", "condition") if role in facts.inputs]
+        known = [facts.inputs[role] for role in ("excluded", "condition") if role in facts.inputs]
+        told = [each.left for each in known if each.mark in ("!=", ">")]
         factors = {f for each in told for f, _ in factor_list(each)[1]}
         common = factor_list(gcd_list(_polynomial(facts).coeffs()))[1]
         open_ = [f for f, _ in common if sign_known(f) is None and not f.is_nonzero]
@@ -173,7 +174,13 @@ def _always(wanted: bool) -> Predicate:
 
 
 def _as_let(equation: bool, reason: bool) -> Predicate:
-    return lambda facts: isinstance(facts.result, Relation) == equation and ("because" in facts.words) == reason
+    """An equation has no letter, and a value has one."""
+
+    def is_so(facts: Judged) -> bool:
+        letter = facts.symbol is None if equation else facts.symbol is not None
+        return letter and isinstance(facts.result, Relation) == equation and ("because" in facts.words) == reason
+
+    return is_so
 
 
 def _near(*places: Any) -> Predicate:

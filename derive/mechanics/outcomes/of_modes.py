@@ -111,7 +111,7 @@ def _of_pair(same: bool) -> Predicate:
 
 def _alone(facts: Judged) -> bool:
     moving = [entry for entry in facts.result if not is_zero(entry)]
-    return len(facts.result) == 2 and len(moving) == 1
+    return len(facts.result) == 2 and len(moving) == 1 and _oscillates(facts)
 
 
 def _oscillates(facts: Judged) -> bool:

@@ -369,6 +369,18 @@ def _right_of_a_bound(facts: Judged, bound: Any) -> bool:
     return isinstance(of, Relation) and of.mark != "=" and is_zero(explicit(of.right) - bound)
 
 
+def _at_its_place(facts: Judged, state: Any) -> bool:
+    """Each coordinate has the value at which the energy is judged, or the name of the state of rest."""
+    moving, place = facts.inputs["coordinates"], facts.inputs["place"]
+    if state.mark != "=":
+        return False
+    if len(moving) > 1:
+        pairs = zip(state.right.args, place, strict=True)
+        return state.left.args == tuple(moving) and all(is_zero(one - other) for one, other in pairs)
+    rest = getattr(facts.quantities.get("at"), "symbol", None)
+    return state.left == moving[0] and (state.right == rest or is_zero(state.right - place[0]))
+
+
 _TABLE: dict[str, dict[str, Naming]] = {
     "lagrangian.equation_of_motion": {"coordinate": _equation_of},
     "lagrangian.generalized_force": {"coordinate": _differentiated_by},
@@ -377,14 +389,14 @@ _TABLE: dict[str, dict[str, Naming]] = {
     "impulses.meeting_condition": {"impulse": _impulse_of_its_condition},
     "equilibria.condition": {"steady": _only_coordinate},
     "equilibria.rest": {"steady": _only_coordinate},
-    "minima.stability": {"steady": _only_coordinate, "place": _level_there("potential_here")},
+    "minima.stability": {"steady": _only_coordinate, "place": _level_there("potential_here"), "state": _at_its_place},
     "minima.stability_on_constraints": {
         "state": _on_the_constraints,
         "moving": _on_the_constraints,
         "constraint": _on_the_constraints,
         "way": _along_the_constraints,
     },
-    "minima.stability_of_several": {"moving": _falls_along, "direction": _falls_along},
+    "minima.stability_of_several": {"state": _at_its_place, "moving": _falls_along, "direction": _falls_along},
     "potentials.extreme_value": {"place": _extreme_there},
     "potentials.leading_order": {"case": _flat_in_that_case},
     "solving.solved_for": {"unknown": _solved_for},

@@ -100,8 +100,13 @@ def _times_its_factor(facts: Judged) -> bool:
 
 
 def _given_as(sort: str) -> Predicate:
-    """By the verb that the script calls."""
-    return lambda facts: lasts(facts) and facts.inputs["verb"].name.startswith(sort)
+    """By the verb that the script calls, and by the components that it gives."""
+
+    def is_so(facts: Judged) -> bool:
+        given = all(is_zero(one - other) for one, other in zip(facts.result, facts.inputs["given"], strict=True))
+        return lasts(facts) and given and facts.inputs["verb"].name.startswith(sort)
+
+    return is_so
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {

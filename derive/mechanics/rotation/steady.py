@@ -63,6 +63,6 @@ def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key
         kind="angular speed",
         outcome="momentary" if is_momentary else "generic",
         facts=[Through(through), *([Momentary(through)] if is_momentary else [])],
-        telling=Telling(judged_by={"verb": Str(verb)}),
+        telling=Telling(judged_by={"verb": Str(verb), "given": tuple(components)}),
         scope=Scope(about=Subject(rotation=omega)),
     )
