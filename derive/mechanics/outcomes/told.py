@@ -16,6 +16,7 @@ from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, f
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import AXES, PLUS_MINUS, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.outcomes.signs import MARK_OF, is_so
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, told_by
@@ -131,6 +132,8 @@ def _rate_of_the_component(facts: Judged, outcome: str) -> bool:
 
 def _inward_or_outward(facts: Judged, outcome: str) -> bool:
     """The tensor exceeds that about the centre of mass, or is less than the other: it depends on where one starts."""
+    if facts.words["start"] != facts.quantities["centre"].needed(CountedFrom).start.name:
+        return False
     if "entry" not in facts.quantities:  # a product that vanishes at the centre of mass
         return outcome == "outward"
     point = facts.quantities["entry"].subject.point
