@@ -35,7 +35,7 @@ help:
 	@echo 'make check    derive every problem, verify each line, compare with the reference'
 	@echo 'make test     lint, types and the whole test suite'
 	@echo 'make schemas  the JSON schemas of problem and reference files, for editors'
-	@echo 'make mutants  change the code and the results in every place that can be changed: what is not refused (hours)'
+	@echo 'make mutants  change the code and the results in every place that can be changed: what is not refused (two hours)'
 	@echo 'make bench    how long a build takes, as ratios to the least it could take'
 	@echo 'make clean    empty build/; .venv stays'
 	@echo 'DERIVE_ENGINE=latexmk (or pdflatex, lualatex, tectonic) chooses another TeX; .venv/bin/derive doctor shows them'
@@ -77,7 +77,7 @@ schemas: .venv/.runtime
 mutants: .venv/.tests
 	@$(PYTHON) -P -m tests.differential
 	@$(PYTHON) -P -m tests.perturbation
-	@$(PYTHON) -P -m tests.mutation
+	@$(PYTHON) -P -m tests.mutation --share 1/2 & $(PYTHON) -P -m tests.mutation --share 2/2; wait
 
 clean:
 	@rm -rf build/*/

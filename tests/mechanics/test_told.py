@@ -105,8 +105,8 @@ def test_two_moments_cannot_have_one_name() -> None:
         ),
         (
             "bodies.centre_component",
-            Judged(R, **FROM_CENTRE),
-            Judged(R, **(FROM_CENTRE | {"words": {"start": "corner"}})),
+            Judged(R, {"along": Str("z")}, **FROM_CENTRE),
+            Judged(R, {"along": Str("z")}, **(FROM_CENTRE | {"words": {"start": "corner"}})),
         ),
         (
             "bodies.section_radius",
@@ -139,10 +139,11 @@ def test_nothing_is_less_than_itself(mark: str) -> None:
 
 
 def test_the_component_along_the_axis_is_that_along_z() -> None:
-    wrong = Judged(R, **(FROM_CENTRE | {"symbol": scalar("r_y")}))
-    assert told_rightly("bodies.centre_component", "on_axis", Judged(R, **FROM_CENTRE))
-    assert told_rightly("bodies.centre_component", "generic", wrong)
-    assert not told_rightly("bodies.centre_component", "on_axis", wrong)
+    beside = Judged(R, {"along": Str("y")}, **(FROM_CENTRE | {"symbol": scalar("r_y")}))
+    assert told_rightly("bodies.centre_component", "on_axis", Judged(R, {"along": Str("z")}, **FROM_CENTRE))
+    assert told_rightly("bodies.centre_component", "generic", beside)
+    assert not told_rightly("bodies.centre_component", "on_axis", beside)
+    assert not told_rightly("bodies.centre_component", "generic", Judged(R, {"along": Str("y")}, **FROM_CENTRE))
 
 
 @pytest.mark.parametrize(

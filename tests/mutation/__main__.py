@@ -11,6 +11,7 @@ import time
 from collections import Counter
 from dataclasses import asdict
 
+from tests.mutation.known import KNOWN
 from tests.mutation.mutants import MODULES
 from tests.mutation.runs import RUNS
 from tests.mutation.trial import Trials, Verdict
@@ -59,7 +60,7 @@ def main() -> int:
         if given.out:
             with open(given.out, "a", encoding="utf-8") as out:
                 out.write(json.dumps(asdict(tried)) + "\n")
-        if tried.verdict is Verdict.SURVIVED:
+        if tried.verdict is Verdict.SURVIVED and tried.nature != "form" and tried.id not in KNOWN:
             print(f"survived ({tried.nature}) on {tried.run}: {tried.id}\n{tried.told}\n", flush=True)
         if number % 100 == 0:
             print(f"{number} of {len(chosen)}", file=sys.stderr, flush=True)

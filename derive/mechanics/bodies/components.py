@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer
+from sympy.core.symbol import Str
 
 from derive.algebra.expressions import AXES, Factors, Ratio, component_names
 from derive.algebra.tidy import tidied
@@ -96,7 +97,7 @@ def centre_component(
         kind="length",
         parents=[body.density, *body.radii(start, region)],
         facts=[Integrated.over(region)],
-        telling=Telling(words={"start": start.name}),
+        telling=Telling(words={"start": start.name}, judged_by={"along": Str(axis)}),
         key=key or f"centre_of_mass_{axis}",
         scope=Scope(about=Subject(body=body, point=start)),
     )

@@ -101,7 +101,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
         lines=Lines(put_in=None, motion=still),
         routes=matter.named({"work": work}),
         outcome="pushed" if pushes else "generic",
-        telling=Telling(judged_by={"moving": tuple(still)}),
+        telling=Telling(judged_by={"coordinates": tuple(moving)}),
         key=key,
         kind="energy",
         facts=[matter],

@@ -20,7 +20,7 @@ from derive.mechanics.equations.conditions import (
     unsolvable,
 )
 from derive.mechanics.equations.inequalities import of_the_size
-from derive.mechanics.equations.turning_points import ByEnergy, condition_to_reach, part_of_the_way
+from derive.mechanics.equations.turning_points import ByEnergy, condition_to_reach, part_of_the_way, squared_by_energy
 from derive.mechanics.equations.unknowns import (
     left_over,
     letter_of,
@@ -84,7 +84,7 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
     if alone != unknown:
         raise unsolvable(force, unknown)
     speed = _speed_behind(force, unknown)
-    squared = None if speed is None else explicit(speed.value)
+    squared = None if speed is None else squared_by_energy(speed)
     there = None if squared is None else tidied(with_unknown(squared, unknown, solved))
     if squared is not None and there is not None and sign_known(there) in (0, -1):
         return _turns_back(force, unknown, (begin, solved), squared, key)

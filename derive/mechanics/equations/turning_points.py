@@ -31,6 +31,12 @@ class ByEnergy(Fact):
     acceleration: Expr
 
 
+def squared_by_energy(speed: Quantity) -> Expr:
+    """The squared rate that conservation of energy gives, f(q); the error of the fact for anything else."""
+    assert speed.symbol == rate(speed.needed(ByEnergy).coordinate) ** 2
+    return explicit(speed.value)
+
+
 def condition_to_reach(
     of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None
 ) -> Relation | None:

@@ -288,13 +288,18 @@ def _free_motion(wanted: str) -> Predicate:
 
 
 def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
-    """By numbers for the letters: the condition that is told holds where the discriminant has this sign."""
-    condition, seen = explicit(facts.inputs["condition"]), set()
+    """The border of the condition is where the discriminant vanishes; with numbers for the letters it is on the side
+    of the border on which the discriminant has this sign."""
+    condition = explicit(facts.inputs["condition"])
+    if not same_equation(condition.residual, discriminant) or (condition.mark == "=") != (wanted == 0):
+        return False
+    if wanted == 0:
+        return True
+    seen = set()
     for point in points_as_assumed(letters_of(condition.residual) | letters_of(discriminant), 0):
         with suppress(Undefined, NoNumber):
-            value = value_at(discriminant, point)
-            seen.add(wanted == 0 or holds_at(condition, point) == (value * wanted > 0))
-    return seen == {True} and (wanted != 0 or condition.mark == "=" and same_equation(condition.residual, discriminant))
+            seen.add(holds_at(condition, point) == (value_at(discriminant, point) * wanted > 0))
+    return condition.mark in (">", "<") and seen == {True}
 
 
 def _unless_it_grows(word: str, rate: Expr) -> str:

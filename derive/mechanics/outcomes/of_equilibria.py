@@ -31,7 +31,7 @@ from sympy import (
 from sympy.matrices import MatrixBase
 
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.ranges import fulfilling, has_meaning, rational_in_range
 from derive.mechanics.equations.counting import is_countable
 from derive.mechanics.outcomes.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
@@ -305,9 +305,14 @@ def _bordered(border: str | None) -> Predicate:
     return is_so
 
 
+def _is_at_rest(facts: Judged) -> bool:
+    """No rate is left in it."""
+    return not explicit(facts.result).has(*map(rate, facts.inputs["coordinates"]))
+
+
 def _is_what_the_lagrangian_has(facts: Judged) -> bool:
     """Whether nothing of it comes from elsewhere: V + L is of the rates alone, and vanishes with them."""
-    moving = facts.inputs["moving"]
+    moving = [rate(q, n) for q in facts.inputs["coordinates"] for n in (1, 2)]
     whole = explicit(facts.result + facts.inputs["lagrangian"])
     return is_zero(whole.subs(dict.fromkeys(moving, 0)))
 
@@ -344,8 +349,8 @@ def _level_as_told(facts: Judged) -> bool:
 
 _TABLE: dict[str, dict[str, Predicate]] = {
     "equilibria.potential_at_rest": {
-        "generic": _is_what_the_lagrangian_has,
-        "pushed": lambda facts: not _is_what_the_lagrangian_has(facts),
+        "generic": _both(_is_at_rest, _is_what_the_lagrangian_has),
+        "pushed": _both(_is_at_rest, lambda facts: not _is_what_the_lagrangian_has(facts)),
     },
     "equilibria.condition": {
         "generic": lambda facts: lasts(_residual(facts)),

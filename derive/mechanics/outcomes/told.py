@@ -6,6 +6,7 @@ line. Here it is said what either must fulfil, with the result as the judge. `es
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import islice
@@ -81,7 +82,8 @@ def _counted_from_its_point(facts: Judged, outcome: str) -> bool:
 
 
 def _from_its_point_along_the_axis(facts: Judged, outcome: str) -> bool:
-    along = outcome != "on_axis" or str(facts.symbol.name).endswith("z")
+    axis = facts.inputs["along"].name
+    along = axis in re.split(r"[_,]", facts.symbol.name) and (outcome != "on_axis" or axis == "z")
     return _counted_from_its_point(facts, outcome) and along
 
 

@@ -104,7 +104,8 @@ class MovingBodyKeys(BodyKeys):
         middle = tuple(each([partial(letters.constant, node, "middle", "length") for node in self.middle]))
         with told_at(self.places[""]):
             known: dict[str, Any] = {"centre": middle} if middle else {}
-            body = RigidBody(mass, moments if len(moments) == 3 else moments[0], **known)
+            about = "fixed_point" if middle else "centre_of_mass"
+            body = RigidBody(mass, moments if len(moments) == 3 else moments[0], about=about, **known)
             return body.named(called) if called else body
 
     def _point(self, letters: InLetters, body: DescribedBody | RigidBody) -> Any:
