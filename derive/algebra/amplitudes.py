@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer
+from sympy import Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Pow
 from sympy.matrices import MatrixBase
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import sring
@@ -58,9 +58,15 @@ class Determinant(ScalarNode):
 
 
 def determinant_of(matrix: MatrixBase) -> Expr:
-    """Worked out in the ring of the letters of its entries, where nothing is divided; multiplied out."""
-    domain = DomainMatrix.from_Matrix(matrix)
-    return domain.domain.to_sympy(domain.charpoly()[-1] * (-1) ** matrix.shape[0])
+    """Worked out in the ring of the letters of its entries, where nothing is divided; multiplied out.
+
+    Functions and roots are letters too: SymPy has no ring for them, and would cancel after each step.
+    """
+    parts = matrix.atoms(Function, Pow)
+    named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
+    domain = DomainMatrix.from_Matrix(matrix.xreplace(named))
+    value = domain.domain.to_sympy(domain.charpoly()[-1] * (-1) ** matrix.shape[0])
+    return value.xreplace({letter: part for part, letter in named.items()})
 
 
 def expanded_by_rows(matrix: MatrixBase) -> Expr:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from sympy import ZZ, Expr, Rational, S, cos, lex, sin
 from sympy.core.exprtools import decompose_power
+from sympy.polys.galoistools import gf_degree, gf_gcd, gf_rem, gf_strip
 from sympy.polys.polyerrors import HeuristicGCDFailed
 from sympy.polys.rings import PolyElement, PolyRing
 
@@ -19,6 +20,8 @@ from derive.algebra.coefficients import ONES, PHASE, Expanded, is_linear_in_some
 from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.factors_in_front import Product, as_product, product_of, times, written
 from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
+
+PRIME = 2**31 - 1  # modulo which images are taken
 
 __all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "shared_factor", "squares_turned"]
 
@@ -108,7 +111,11 @@ class _Fractions(Expanded):
     def fraction(self, product: Product) -> _Fraction:
         letters = {base: power for base, power in product.powers.items() if power < 0 and not base.is_Add}
         above = self._multiplied_out({base: power for base, power in product.powers.items() if power > 0})
-        below = self._multiplied_out({b: -n for b, n in product.powers.items() if n < 0 and b.is_Add})
+        sums = {base: -power for base, power in product.powers.items() if power < 0 and base.is_Add}
+        for base in sums:
+            while sums[base] and (quotient := _quotient(above.terms, self.form(base).terms)) is not None:
+                above, sums[base] = above._replace(terms=quotient), sums[base] - 1
+        below = self._multiplied_out({base: power for base, power in sums.items() if power})
         return _Fraction(above.terms, below.terms, Product(product.number * below.below / above.below, letters))
 
     def _multiplied_out(self, powers: Mapping[Expr, int]) -> Form:
@@ -199,6 +206,9 @@ def _negative(terms: Terms) -> Terms:
 
 def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
     places = _places([*top, *bottom])
+    if _have_no_letter_in_common(top, bottom, places):
+        common = gcd(*top.values(), *bottom.values())
+        return tuple({m: c // common for m, c in terms.items()} for terms in (top, bottom))  # type: ignore[return-value]
     ring = _polynomials(len(places))
     try:
         _, *left = _polynomial(ring, top, places).cofactors(_polynomial(ring, bottom, places))
@@ -206,6 +216,68 @@ def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
         raise Outside from failure
     above, below = (_terms(each, places) for each in left)
     return above, below
+
+
+def _quotient(top: Terms, divisor: Terms) -> Terms | None:
+    """One sum over another where nothing is left; an image modulo a prime tells in most cases that something is."""
+    places = _places([*top, *divisor])
+    first = next(iter(_places(divisor)), None)
+    if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):
+        return None
+    numbers = _numbers(places)
+    images = [_image(_valued(terms, numbers), first, numbers[first]) for terms in (top, divisor)]
+    if not images[1][0] or gf_rem(gf_strip(images[0]), images[1], PRIME, ZZ):
+        return None
+    ring = _polynomials(len(places))
+    found, left = _polynomial(ring, top, places).div(_polynomial(ring, divisor, places))
+    return None if left else _terms(found, places)
+
+
+def _numbers(places: Sequence[int]) -> dict[int, int]:
+    """A number for each letter, modulo the prime."""
+    return {place: pow(3, 5 + 2 * n, PRIME) for n, place in enumerate(places)}
+
+
+def _have_no_letter_in_common(top: Terms, bottom: Terms, places: list[int]) -> bool:
+    """Whether no factor of both holds a letter: seen, if at all, from their images modulo a prime.
+
+    A factor of both of degree d in x leaves one of degree d in the images, where numbers stand for the other letters,
+    unless the leading coefficient of one image vanishes.
+    Source: von zur Gathen, Gerhard, *Modern Computer Algebra*, section 6.5.
+    """
+    numbers = _numbers(places)
+    above, below = (_valued(terms, numbers) for terms in (top, bottom))
+    shared = set(_places(top)) & set(_places(bottom))
+    return all(_is_coprime(*(_image(each, place, numbers[place]) for each in (above, below))) for place in shared)
+
+
+def _valued(terms: Terms, numbers: Mapping[int, int]) -> Terms:
+    """Each monomial with its coefficient and the numbers of its letters, modulo the prime."""
+    found: Terms = {}
+    for monomial, coefficient in terms.items():
+        value = coefficient % PRIME
+        for place, number in numbers.items():
+            power = (monomial >> place) & ONES
+            if power:
+                value = value * pow(number, power, PRIME) % PRIME
+        found[monomial] = value
+    return found
+
+
+def _image(valued: Terms, place: int, number: int) -> list[int]:
+    """The coefficients of the powers of one letter, the highest first."""
+    inverse = pow(number, -1, PRIME)
+    degree = max((monomial >> place) & ONES for monomial in valued)
+    found = [0] * (degree + 1)
+    for monomial, value in valued.items():
+        power = (monomial >> place) & ONES
+        found[degree - power] += value * pow(inverse, power, PRIME)
+    return [coefficient % PRIME for coefficient in found]
+
+
+def _is_coprime(one: list[int], other: list[int]) -> bool:
+    """Whether the two images, neither of which has lost its highest power, have no root in common in any field."""
+    return bool(one[0] and other[0] and gf_degree(gf_gcd(one, other, PRIME, ZZ)) == 0)
 
 
 def _places(monomials: Iterable[int]) -> list[int]:

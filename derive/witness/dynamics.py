@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from sympy import Expr, Symbol
@@ -64,6 +65,7 @@ class Blueprint:
         self.conditions = Tape([c.residual for c in description.conditions], [*q, *self.rates, TIME])
         given = [description.lagrangian] if description.lagrangian is not None else []
         self.lagrangian = Tape(given, [*q, *self.rates, TIME])
+        self.known: dict[object, Any] = {}  # what was found with certain numbers, for the next step that asks
 
     @cached_property
     def letters(self) -> set[Symbol]:

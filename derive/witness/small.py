@@ -315,7 +315,14 @@ def _stays(near: Neighbourhood) -> bool:
 
 
 def _eigenvalues_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
-    try:
-        return near.eigenvalues()
-    except (Singular, Contradiction, np.linalg.LinAlgError):
-        return None
+    """The same for all frequencies of one equilibrium."""
+    numbers, known = near.trial.numbers, near.trial.blueprint.known
+    here = near.state.q.tobytes(), near.state.v.tobytes(), tuple(near.momenta.items())
+    key = (numbers.trial, numbers.salt, tuple(numbers.fixed.items()), near.free, *here)
+    if key not in known:
+        try:
+            known[key] = near.eigenvalues()
+        except (Singular, Contradiction, np.linalg.LinAlgError):
+            known[key] = None
+    found: NDArray[np.complex128] | None = known[key]
+    return found

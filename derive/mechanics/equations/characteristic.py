@@ -21,7 +21,6 @@ from sympy import (
     Pow,
     Rational,
     Symbol,
-    chebyshevt,
     cos,
     expand,
     factor,
@@ -209,13 +208,19 @@ def _sum_with_root(plain: Expr, before: Expr, root: Expr) -> Expr:
 
 
 def _of_chain(part: Poly) -> list[Expr] | None:
-    """4 sin^2(a pi/2b) for all roots: then the polynomial divides T_b(1 - lambda/2) -+ 1, with Chebyshev's T_b."""
+    """4 sin^2(a pi/2b) for all roots: then the polynomial divides T_b(1 - lambda/2) -+ 1, with Chebyshev's T_b.
+
+    T_(b + 1) = 2 x T_b - T_(b - 1) is worked out modulo the polynomial, so that no power is higher than its own.
+    """
     if not part.get_domain().is_ZZ and not part.get_domain().is_QQ:
         return None
-    for b in range(part.degree() + 1, FINEST):
-        whole = chebyshevt(b, 1 - _LAMBDA / 2)
-        for parity, sign in ((0, 1), (1, -1)):
-            if not Poly(whole - sign, _LAMBDA).rem(part).is_zero:
+    part = part.to_field()
+    one, twice = (Poly(value, _LAMBDA, domain="QQ") for value in (1, 2 - _LAMBDA))
+    before, here = one, (twice * Rational(1, 2)).rem(part)
+    for b in range(1, FINEST):
+        before, here, now = here, (twice * here - before).rem(part), here
+        for parity, sign in ((0, 1), (1, -1)) if b > part.degree() else ():
+            if now != sign * one:
                 continue
             angles = [a * pi / (2 * b) for a in range(b + 1) if a % 2 == parity]
             values = [4 * sin(angle) ** 2 for angle in angles]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from sympy import (
@@ -191,7 +192,7 @@ def _frequency(
 
     def trace(found: Expr) -> tuple[Expr, Expr]:
         others = Add(*(r.value * r.multiplicity for i, r in enumerate(pencil.roots) if i != n))
-        return turned * found**2 * root.multiplicity + others, _trace(together)
+        return turned * found**2 * root.multiplicity + others, _trace(together.mass, together.stiffness)
 
     outcome = _OF_SIGN[root.sign] + ("_repeated" if root.multiplicity > 1 else "")
     drift = _drift(linear, together, root)
@@ -221,11 +222,11 @@ def _judged_by(together: Linear) -> dict[str, Any]:
     return {"stiffness": together.stiffness, "mass": together.mass, **exists}
 
 
-def _trace(together: Linear) -> Expr:
+@lru_cache(maxsize=8)  # all frequencies of a system ask for it
+def _trace(mass: MatrixBase, stiffness: MatrixBase) -> Expr:
     """Of M^-1 K, as the sum of K_ij times the cofactor of M_ij, over det M."""
-    size = together.mass.shape[0]
-    mass = together.mass
-    cofactors = (together.stiffness[i, j] * mass.cofactor(i, j) for i in range(size) for j in range(size))
+    size = range(mass.shape[0])
+    cofactors = (stiffness[i, j] * mass.cofactor(i, j) for i in size for j in size if stiffness[i, j] != 0)
     return tidied(Add(*cofactors) / mass.det())
 
 
