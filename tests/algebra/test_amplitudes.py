@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import ImmutableDenseMatrix, Matrix, cos, sin, symbols
+from sympy import ImmutableDenseMatrix, Matrix, cos, sin, sqrt, symbols
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of, expanded_by_rows
 from derive.algebra.encoding import decoded, encoded
@@ -61,3 +61,9 @@ def test_amplitudes_with_an_unknown_letter_are_noticed() -> None:
 def test_they_go_to_lists_and_back_and_to_plain_text(node: Amplitudes | Determinant) -> None:
     assert decoded(encoded(node)) == node
     assert Matrix and "Matrix" in sympy_text(node)
+
+
+def test_roots_and_functions_are_letters_of_a_determinant() -> None:
+    matrix = ImmutableDenseMatrix([[sqrt(3) * k, k * sin(x)], [k * sin(x), sqrt(3) * m]])
+    assert determinant_of(matrix) == 3 * k * m - k**2 * sin(x) ** 2
+    assert determinant_of(ImmutableDenseMatrix([[sqrt(3), 1], [3, sqrt(3)]])) == 0

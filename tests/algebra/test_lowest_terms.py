@@ -78,7 +78,7 @@ def test_what_is_too_large_is_left_to_others(monkeypatch: pytest.MonkeyPatch) ->
 
     monkeypatch.setattr(PolyElement, "cofactors", failing)
     with pytest.raises(Outside):
-        in_lowest_terms((x**2 - Integer(1)) / (x + 2))
+        in_lowest_terms((x**2 - Integer(1)) / (x**2 + 3 * x + 2))
 
 
 @pytest.mark.parametrize(
@@ -181,3 +181,22 @@ def test_signs_do_not_depend_on_what_was_asked_before(value: Expr, monkeypatch: 
             in_lowest_terms(letter)
         found.append((in_lowest_terms(value), factored(value), squares_turned(value)))
     assert found[0] == found[1]
+
+
+def test_a_common_factor_of_many_letters_is_found_without_the_gcd_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A sum of masses below the line is divided out; what has no factor in common is seen to have none."""
+
+    def never(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(PolyElement, "cofactors", never)
+    masses, lengths = symbols("m_0:12", positive=True), symbols("z_0:12", positive=True)
+    M = sum(masses[1:], masses[0])
+    moment = sum((m * z for m, z in zip(masses, lengths, strict=True)), Integer(0))
+    assert in_lowest_terms((M * moment).expand() / M**2) == moment / M
+    assert in_lowest_terms(moment.expand() / M) == moment / M
+
+
+def test_images_modulo_a_prime_do_not_hide_a_factor() -> None:
+    assert in_lowest_terms((x**2 - y**2) / (x**2 + 2 * x * y + y**2)) == (x - y) / (x + y)
+    assert in_lowest_terms((2 * x + 4 * y) / (6 * x**2 + 12 * x * y)) == 1 / (3 * x)
