@@ -316,9 +316,9 @@ def _stays(near: Neighbourhood) -> bool:
 
 def _eigenvalues_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
     """The same for all frequencies of one equilibrium."""
-    numbers, known = near.trial.numbers, near.trial.blueprint.known
+    known, letters = near.trial.blueprint.known, sorted(near.trial.blueprint.letters, key=str)
     here = near.state.q.tobytes(), near.state.v.tobytes(), tuple(near.momenta.items())
-    key = (numbers.trial, numbers.salt, tuple(numbers.fixed.items()), near.free, *here)
+    key = (tuple(near.trial.numbers[letter] for letter in letters), near.free, *here)
     if key not in known:
         try:
             known[key] = near.eigenvalues()
