@@ -29,6 +29,7 @@ def pytest_collection() -> Generator[None, object, object]:
     found = yield
     gc.freeze()
     gc.enable()
+    gc.set_threshold(100_000)  # as the command has it; what a test leaves behind is small
     return found
 
 

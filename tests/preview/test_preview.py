@@ -82,6 +82,8 @@ def endless(course: Path, before: str = "") -> None:
 def test_while_it_is_busy_it_ends_at_once_with_its_worker_and_without_a_word(
     preview: Preview, course: Path, signum: int
 ) -> None:
+    if signal.getsignal(signum) == signal.SIG_IGN:
+        pytest.skip("nohup has whatever it starts ignore a hangup, and the preview keeps to that")
     endless(course)
     with preview.asked():
         time.sleep(2)
