@@ -148,7 +148,7 @@ def on_a_terminal(course: Course, environment: dict[str, str], *arguments: str) 
 
 def until(condition: object) -> None:
     assert callable(condition)
-    for _ in range(1500):
+    for _ in range(4500):
         if condition():
             return
         time.sleep(0.02)
