@@ -29,7 +29,6 @@ def pytest_collection() -> Generator[None, object, object]:
     found = yield
     gc.freeze()
     gc.enable()
-    gc.set_threshold(100_000)  # as the command has it; what a test leaves behind is small
     return found
 
 

@@ -28,20 +28,13 @@ def course(tmp_path: Path) -> Path:
     return course_in(tmp_path)
 
 
-def heeding_a_hangup() -> None:
-    """Also where the tests themselves were started by nohup."""
-    signal.signal(signal.SIGHUP, signal.SIG_DFL)
-
-
 class Preview:
     """The command while it runs, and where it serves."""
 
     def __init__(self, root: Path):
         command = [sys.executable, "-P", "-m", "derive", "--root", str(root), "preview", "hw9/block", "--port", "0"]
         pipe = subprocess.PIPE
-        self.process = subprocess.Popen(
-            command, stdout=pipe, stderr=pipe, text=True, cwd=ROOT, env=os.environ, preexec_fn=heeding_a_hangup
-        )
+        self.process = subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, cwd=ROOT, env=os.environ)
         assert self.process.stdout
         self.address = self.process.stdout.readline().split()[0]
         self.port = int(self.address.split(":")[2].partition("/")[0])
