@@ -219,7 +219,7 @@ def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
 
 
 def _quotient(top: Terms, divisor: Terms) -> Terms | None:
-    """One sum over another where nothing is left; an image modulo a prime tells in most cases that something is."""
+    """The quotient of two sums; None if the division leaves a remainder, which most often shows modulo a prime."""
     places = _places([*top, *divisor])
     first = next(iter(_places(divisor)), None)
     if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):

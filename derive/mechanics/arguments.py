@@ -96,8 +96,6 @@ def _values(given: Any) -> Iterator[Any]:
         yield given.symbol
     elif is_dataclass(given):
         yield from _values(tuple(getattr(given, each.name) for each in fields(given)))
-    elif isinstance(given, MatrixBase):
-        yield from map(explicit, given)
     elif isinstance(given, Expr) or isinstance(given, int) and not isinstance(given, bool):
         yield explicit(as_expr(given))
 

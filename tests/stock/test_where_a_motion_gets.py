@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.building.solution import rendered
+from tests.courses import ROOT
 from tests.stock.described import complaints, course_with, edited, solved
 
 STONE = """\
@@ -217,3 +218,11 @@ def test_a_place_that_is_a_result_is_judged_too(tmp_path: Path) -> None:
     code, _, said = refused(tmp_path, other)
     assert code == "not-reached"
     assert "on the way x_dot**2 can be negative" in said
+
+
+def test_a_contact_is_not_followed_from_another_start_than_the_motion(tmp_path: Path) -> None:
+    """Off a sphere: the speed is that of a start on top, so the contact is not judged from elsewhere."""
+    sphere = (ROOT / "problems" / "library" / "constraints" / "off_a_sphere.yaml").read_text(encoding="utf-8")
+    (found,) = complaints(tmp_path, edited(sphere, ("cos(theta), start: 1}", "cos(theta), start: 9/10}")))
+    assert found.code == "contradiction"
+    assert "from cos(theta) = 1, not from 9/10" in found.message

@@ -33,7 +33,7 @@ from derive.mechanics.equations.unknowns import (
 from derive.mechanics.equations.zeros import positive
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
-from derive.steps.step import Form, Level, Quantity
+from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["leaves_contact"]
 
@@ -84,6 +84,8 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
     if alone != unknown:
         raise unsolvable(force, unknown)
     speed = _speed_behind(force, unknown)
+    if speed is not None:
+        _check_starts_there(force, speed, unknown, begin)
     squared = None if speed is None else squared_by_energy(speed)
     there = None if squared is None else tidied(with_unknown(squared, unknown, solved))
     if squared is not None and there is not None and sign_known(there) in (0, -1):
@@ -139,6 +141,15 @@ def _speed_behind(force: Quantity, unknown: Expr) -> Quantity | None:
     """The squared rate of the coordinate, f(q) by conservation of energy, that a force rests on."""
     q = letter_of(unknown)
     return next((a for a in force.ancestors() if (known := a.fact(ByEnergy)) and known.coordinate == q), None)
+
+
+def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: Expr) -> None:
+    """The contact begins where the motion does from which the force was found."""
+    known = speed.needed(ByEnergy)
+    begun = unknown.xreplace({known.coordinate: known.start})
+    if not is_zero(tidied(begun - start)):
+        message = f"`leaves_contact`: `{force.key}` is that of a motion from {unknown} = {begun}, not from {start}"
+        raise Rejected(Complaint("contradiction", message, help=f"give the start of that motion, `start: {begun}`"))
 
 
 def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:

@@ -63,8 +63,8 @@ def limiting_case(
     Outcomes: finite, vanishes, diverges (the leading term alone); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and stays finite; the motion does
-    not get that far; there is no such expansion, as where it oscillates, or it differs on the two sides, or begins
-    beyond that order.
+    not get that far; the result has no such expansion (it oscillates there), has another on each side, or has no term
+    up to that order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     solved = _solved_for(of)

@@ -24,7 +24,7 @@ TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<":
 class ByEnergy(Fact):
     """Where a motion of one coordinate started, and its acceleration by the equation of motion."""
 
-    missing = "is no square of a rate that conservation of energy gives"
+    missing = "is not the square of a rate by conservation of energy"
     coordinate: Symbol
     start: Expr
     start_rate: Expr
