@@ -461,7 +461,7 @@ def test_energies_that_are_not_kept_are_refused() -> None:
     thrown = speed_from_energy(oscillator, x, x0, v0, motion=free)
     with pytest.raises(Rejected, match="at a letter"):
         period_by_energy(thrown)
-    with pytest.raises(Rejected, match="no square of a rate"):
+    with pytest.raises(Rejected, match="not the square of a rate"):
         period_by_energy(oscillator)
 
 
