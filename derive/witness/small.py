@@ -301,7 +301,7 @@ def motion(claim: Claim) -> Verdict | None:
 
 
 def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
-    """What the displacements and their rates are at the start; of one coordinate alone, by the motion itself."""
+    """The displacements and rates at the start, as the sentence tells them; what it does not tell is zero."""
     told = [each for role, each in claim.judged.inputs.items() if role.startswith("start")]
     if not all(isinstance(each, Relation) for each in told):
         return None
