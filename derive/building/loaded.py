@@ -10,12 +10,11 @@ from derive.errors import DeriveError
 
 __all__ = ["load"]
 
+PRINTING = ("derive.building.set_document", "derive.building.solution", "derive.render.printing.contract")
 DERIVING = (
-    "derive.building.solution",
     "derive.course.latex",
     "derive.given",
     "derive.mechanics",
-    "derive.render.printing.contract",
     "derive.stock.body",
     "derive.stock.rotation",
     "derive.stock.system",
@@ -25,9 +24,9 @@ DERIVING = (
 DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 
 
-def load(root: Path, draws: bool) -> None:
-    """The modules that derive a problem and print it, its phrases and templates; and the modules that draw."""
-    for name in (*DERIVING, *(DRAWING if draws else ())):
+def load(root: Path, derives: bool, draws: bool) -> None:
+    """The modules that print a problem, its phrases and templates; those that derive it; and those that draw."""
+    for name in (*PRINTING, *(DERIVING if derives else ()), *(DRAWING if draws else ())):
         import_module(name)
     from derive.page.template import template_folder
     from derive.page.wording import phrases

@@ -267,13 +267,13 @@ class _Build:
     def _derive(self, names: Sequence[str]) -> None:
         if not names:
             return
-        if self.prepares:  # TeX takes in what documents begin with while this process loads what derives them
-            self._put(Job("what documents begin with", self._prepared, self.options.limit, rank=FIRST), lambda _: None)
-            self.crew.start()
-            self.prepares = False
-        if len(names) > 1 or self.edits:
-            load(self.root, draws=self.anew or self.edits is not None)
+        if self.prepares and self.anew:  # TeX takes it in while this process loads what derives problems
+            self._prepare()
+        load(self.root, derives=len(names) > 1 or bool(self.edits), draws=self.anew or bool(self.edits))
         from derive.building.solution import rendered
+
+        if self.prepares:
+            self._prepare()
 
         for name in names:
             problem = f"{self.set_id}/{name}"
@@ -284,6 +284,12 @@ class _Build:
             )
             self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
         self.crew.start()
+
+    def _prepare(self) -> None:
+        """A worker has TeX take in what all documents begin with."""
+        self._put(Job("what documents begin with", self._prepared, self.options.limit, rank=FIRST), lambda _: None)
+        self.crew.start()
+        self.prepares = False
 
     def _prepared(self) -> None:
         from derive.page.template import template_folder
@@ -339,8 +345,7 @@ class _Build:
         texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in built_formats().values()}
         texts |= self._page(name, lambda: problem_page(self.root, derived, self.heading))
         if self._record(dict(derived.files)):
-            rank = FIRST if self.edits else LAST
-            self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files, rank)
+            self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files, FIRST)
 
     def _whole(self) -> None:
         """The documents of the set, as soon as its last problem is derived."""

@@ -65,7 +65,7 @@ class _Watch:
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
         self.folders = [root / "problems", *(each / "templates" for each in (root, FOLDER, FOLDER.parent))]
         self.loaded, self.engine = folder_digest(FOLDER, "*.py"), seen_in([FOLDER])
-        load(root, draws=True)
+        load(root, derives=True, draws=True)
         self.files: Seen = {}
 
     def build(self) -> None:

@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 from derive.building.loaded import load
 from derive.render.formats import formats
-load(Path("."), draws=True), formats()
+load(Path("."), derives=True, draws=True), formats()
 before = set(sys.modules)
 from derive.building.solution import rendered
 assert rendered(Path("."), "hw9/block", draws=True).files

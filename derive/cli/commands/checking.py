@@ -36,7 +36,7 @@ def check(arguments: argparse.Namespace) -> int:
         check_asked(root, set_id, [name] if stroke else ())
     ids = _selected(asked, ids_in_order(root), set_names(root))
     if len(ids) > 1:
-        load(root, draws=False)
+        load(root, derives=True, draws=False)
     wanted = TYPESET if arguments.report else ()
     jobs = {
         job_of(root, problem, partial(rendered, root, problem, only=wanted), arguments.time_limit): problem
