@@ -6,12 +6,14 @@
     ├── BuildFailed             TeX, the disk, a time limit: the outside world
     └── Misused                 the command line itself was wrong (exit code 2)
 
-A `Complaint` carries data; `shown()` is the only place where it becomes text.
+A `Complaint` carries data; `shown()` is the only place where it becomes text. `OutOfTime` is no error of the work that
+it ends, so that nothing takes it for a refusal and goes on.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NoReturn
 
@@ -93,6 +95,35 @@ class Misused(DeriveError):
     """The command line asks for something that does not exist or make sense."""
 
     exit_code = 2
+
+
+class OutOfTime(BaseException):
+    """The limit of time, raised in the middle of the work, and what the work was doing when it came.
+
+    waited    it did nothing but wait
+    doing     what it was doing, from the inside out
+    answers   the names of the answers that it was deriving, from the inside out
+    finished  the keys of the steps that are established
+    kept      whether these are kept, so that the next attempt begins with them
+    """
+
+    def __init__(self, waited: bool = False):
+        super().__init__()
+        self.waited = waited
+        self.doing: list[str] = []
+        self.answers: list[str] = []
+        self.finished: tuple[str, ...] = ()
+        self.kept = False
+
+
+@contextmanager
+def during(what: Callable[[], str]) -> Iterator[None]:
+    """Work that may take long; its words are asked for only if the time ends in it."""
+    try:
+        yield
+    except OutOfTime as late:
+        late.doing.append(what())
+        raise
 
 
 # --- collected and helped ---------------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from sympy.polys.rings import sring
 
 from derive.algebra.dimensions import Dimension, product
 from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, explicit
+from derive.errors import during
 
 
 class Amplitudes(MatrixNode):
@@ -65,7 +66,8 @@ def determinant_of(matrix: MatrixBase) -> Expr:
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
     domain = DomainMatrix.from_Matrix(matrix.xreplace(named))
-    value = domain.domain.to_sympy(domain.charpoly()[-1] * (-1) ** matrix.shape[0])
+    with during(lambda: f"the determinant of {matrix.shape[0]} rows with {len(matrix.free_symbols)} letters"):
+        value = domain.domain.to_sympy(domain.charpoly()[-1] * (-1) ** matrix.shape[0])
     return value.xreplace({letter: part for part, letter in named.items()})
 
 

@@ -144,10 +144,6 @@ class _Build:
         self.tell = tell
         self.crew = Crew(options.jobs or os.cpu_count() or 1, self._tick)
 
-    @property
-    def recipe(self) -> str:
-        return recipe_digest(self.made_by)
-
     def report(self) -> Report:
         manifest, result = self.manifest, self.result
         if self._is_current(self._wanted()) and not self.options.force:
@@ -202,7 +198,7 @@ class _Build:
                 self.manifest.problems = self.names
                 self.manifest.set_inputs = {path: self._input_digest(path) for path in heading.inputs}
                 asked = [name for name in self.names if name in self.options.only or not self.options.only]
-                keys = {name: self.manifest.page_key(name, self.recipe, self._digest) for name in asked}
+                keys = {name: self.manifest.page_key(name, recipe_digest(self.made_by), self._digest) for name in asked}
                 edited = {name: key for name, key in keys.items() if self.manifest.pages.get(name) != key}
                 self._pages(edited)
                 if self.edits:
@@ -267,18 +263,16 @@ class _Build:
     def _derive(self, names: Sequence[str]) -> None:
         if not names:
             return
-        if self.prepares and self.anew:  # TeX takes it in while this process loads what derives problems
+        if self.anew:  # TeX takes it in while this process loads what derives problems
             self._prepare()
         load(self.root, derives=len(names) > 1 or bool(self.edits), draws=self.anew or bool(self.edits))
         from derive.building.solution import rendered
 
-        if self.prepares:
-            self._prepare()
-
+        self._prepare()
+        shown = EvidenceShown(self.made_by[EVIDENCE])
+        more = [paper for paper, _ in self.papers if paper in ON_A_PAGE]
         for name in names:
             problem = f"{self.set_id}/{name}"
-            shown = EvidenceShown(self.made_by[EVIDENCE])
-            more = [paper for paper, _ in self.papers if paper in ON_A_PAGE]
             work = partial(
                 rendered, self.root, problem, self.options.detail, self.cache, draws=True, evidence=shown, papers=more
             )
@@ -286,15 +280,15 @@ class _Build:
         self.crew.start()
 
     def _prepare(self) -> None:
-        """A worker has TeX take in what all documents begin with."""
-        self._put(Job("what documents begin with", self._prepared, self.options.limit, rank=FIRST), lambda _: None)
-        self.crew.start()
-        self.prepares = False
-
-    def _prepared(self) -> None:
+        """A worker has TeX take in what all documents begin with, if none has before."""
         from derive.page.template import template_folder
 
-        prepare(beginning(template_folder(self.root), self.options.detail), self.engine, self.cache)
+        if self.prepares:
+            begins = partial(beginning, template_folder(self.root), self.options.detail)
+            work = lambda: prepare(begins(), self.engine, self.cache)  # noqa: E731
+            self._put(Job("what documents begin with", work, self.options.limit, rank=FIRST), lambda _: None)
+            self.crew.start()
+        self.prepares = False
 
     def _was_derived(self, name: str, outcome: Outcome) -> None:
         self.ended(Ended("failed" if outcome.error else "derived", f"{self.set_id}/{name}", outcome.seconds))
@@ -335,8 +329,8 @@ class _Build:
     def _input_digest(self, path: str) -> str:
         """Of a file as it was when the build began; one that changed since then must be read again next time."""
         file = self.root / path
-        edited = file.exists() and file.stat().st_mtime_ns > self.started
-        return "edited during the build" if edited else self._digest(path)
+        is_edited = file.exists() and file.stat().st_mtime_ns > self.started
+        return "edited during the build" if is_edited else self._digest(path)
 
     def _document(self, name: str) -> None:
         from derive.building.set_document import problem_document, problem_page
@@ -345,7 +339,8 @@ class _Build:
         texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in built_formats().values()}
         texts |= self._page(name, lambda: problem_page(self.root, derived, self.heading))
         if self._record(dict(derived.files)):
-            self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files, FIRST)
+            document = partial(problem_document, self.root, derived, self.heading)
+            self._typeset(name, document, texts, derived.files, FIRST)
 
     def _whole(self) -> None:
         """The documents of the set, as soon as its last problem is derived."""

@@ -32,7 +32,7 @@ from derive.course.reference.statements import reference_path
 from derive.course.stock import told_at
 from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
-from derive.errors import Complaint, Faults, Rejected, did_you_mean
+from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
 from derive.page.document import document_of
 from derive.page.folding import with_details
 from derive.page.hints import with_hints
@@ -184,7 +184,8 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
         return _kept(cache, key), ()
     with calls_of(problem.id, cache) as memory:
         derivation, values, known, run = derived(problem, memory)
-        compared = comparisons(problem, known, memory)
+        with during(lambda: "the comparison with the reference"):
+            compared = comparisons(problem, known, memory)
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
     if not failures:
@@ -252,7 +253,14 @@ def derived(
 ) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
     """The steps behind every answer, the step that gives each answer its number, all steps by key, and the record."""
     run = record.Run(memory=memory)
-    returned = run_solve(problem, run)
+    try:
+        returned = run_solve(problem, run)
+    except OutOfTime as late:
+        late.finished = late.finished or record.finished_steps(run)
+        late.kept = memory is not None
+        places = [i for i, part in enumerate(problem.parts) if {*part.answers} & {*late.answers[-1:]}]
+        late.doing += [f"part ({chr(ord('a') + i)})" for i in places[:1]]
+        raise
     known = with_ancestors(returned_quantities(returned, problem.script.returns), problem.script.returns)
     groups = returned_groups(returned, problem.script.returns)
     steps = [quantity.step for quantity in known.values()]

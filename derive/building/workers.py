@@ -2,7 +2,8 @@
 
 What a job returns or raises comes back to the parent. A child leads a process group of its own, so that killing it
 takes its TeX along, and it ends by itself if the parent is gone. The parent starts no threads, so forking is safe. What
-limits a child, and what is said of one that gives no answer, holds for the worker of a preview too.
+limits a child, and what is said of one that gives no answer, holds for the worker of a preview too. The limit of time
+is that of `derive.building.time_limit`.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ import tempfile
 import threading
 import time
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkProcess
@@ -32,14 +33,15 @@ from typing import Any
 
 from derive.building.files import of_system
 from derive.building.scratch import Scratch
-from derive.errors import BuildFailed, Complaint, DeriveError, Misused, Place
+from derive.building.time_limit import ended_by_limit, limited
+from derive.errors import BuildFailed, Complaint, DeriveError, Misused, OutOfTime, Place
 
 TIME_LIMIT = 120.0
 GIB = 2**30
 MEMORY_LIMIT, SMALLEST_MEMORY = 4.0, 0.25  # GiB
-ASK = signal.SIGUSR1  # asks a worker which lines it is in
 MEMORY, TOO_DEEP = "memory-limit", "too-deep"
 _TICK = 0.1
+_NAMED = 5  # at most so many steps are named
 
 
 class Bug(Exception):
@@ -155,7 +157,7 @@ class Crew:
             ours, theirs = self._fork.Pipe(duplex=False)
             trace, traced = os.pipe()
             os.set_blocking(trace, False)
-            told = (job.work, theirs, self._lifeline, traced, limit, self._scratch.name)
+            told = (job, theirs, self._lifeline, traced, limit, self._scratch.name)
             child = self._fork.Process(target=_child, args=told)
             with _undisturbed():
                 child.start()
@@ -226,20 +228,18 @@ def _outcome(worker: _Worker) -> Outcome | None:
             value, error = None, Bug(f"{type(unread).__name__}: {unread}", traceback.format_exc())
         if isinstance(error, str):
             error = overtaxed(job, error, lines_told(worker.trace))
-    elif seconds > job.limit:
-        value, error = None, too_long(job, lines_asked(worker.child.pid or 0, worker.trace))
     else:
         return None
     _kill(worker)
     return Outcome(job, value, error, seconds)
 
 
-def _stopped(job: Job, code: str, message: str, help_: str, trace: str) -> BuildFailed:
+def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
     """The complaint about a worker that gave no answer, at the line of the script that it was in."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"look at what it states of {job.name}"
-    return BuildFailed(Complaint(code, message, place, help=help_))
+    return BuildFailed(Complaint(code, message, place, tuple(notes), help_))
 
 
 def _reference_in(trace: str, job: Job) -> str:
@@ -250,27 +250,27 @@ def _reference_in(trace: str, job: Job) -> str:
     return path if there else ""
 
 
-def too_long(job: Job, trace: str) -> BuildFailed:
-    """A worker that came to the limit of its time: in a line of a script, or where nobody wrote one in a verb."""
-    verb = verb_in(trace)
-    if verb is None or _line_in(trace, job):
-        message, help_ = f"{job.name} took over {job.limit:g} s", "look for an endless loop in its script"
-    else:
-        message = f"{job.name} took over {job.limit:g} s, at last for `{verb}`"
-        help_ = "ask for less, describe it with fewer letters"
-    return _stopped(job, "time-limit", message, f"{help_}, or raise `--time-limit`", trace)
-
-
-def verb_in(trace: str) -> str | None:
-    """The verb of mechanics that a script of the engine was at."""
-    inner, asked, _ = trace.partition("/derive/stock/")
-    verbs = re.findall(r'/derive/mechanics/.+", line \d+ in (\w+)', inner) if asked else []
-    named = [verb for verb in verbs if not verb.startswith("_") and verb != "looked_at"]
-    return named[-1] if named else None
+def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed:
+    """A worker that came to the limit of its time: where, what it was doing if it could still say so, what is done."""
+    late = late or OutOfTime()
+    asked = f", at last for `{late.answers[-1]}`" if late.answers else ""
+    took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
+    message = f"{job.name} waited for over {job.limit:g} s{asked}" if late.waited else took
+    notes = [f"it was at {', in '.join(late.doing)}"] if late.doing else []
+    if late.finished:
+        last = ", ".join(f"`{key}`" for key in late.finished[-_NAMED:])
+        before = f" and {more} before them" if (more := len(late.finished) - _NAMED) > 0 else ""
+        kept = "finished, and kept for the next attempt" if late.kept else "finished"
+        notes.append(f"{kept}: {last}{before}")
+    in_script = not late.doing and not late.answers
+    help_ = "look for an endless loop in its script" if in_script else "ask for less, describe it with fewer letters"
+    return _stopped(job, "time-limit", message, f"{help_}, or raise `--time-limit`", trace, notes)
 
 
 def died(job: Job, code: int, trace: str) -> BuildFailed:
     """A worker that ended by itself, with that exit code, or by a signal."""
+    if ended_by_limit(code, trace):
+        return too_long(job, trace)
     why = f"signal {-code}" if code < 0 else f"exit code {code}"
     message = f"{job.name} ended without a word: {why}"
     help_ = "was memory short?" if code < 0 else "does its script end the program itself?"
@@ -285,18 +285,6 @@ def overtaxed(job: Job, what: str, trace: str) -> BuildFailed:
     message = f"{job.name} took over {memory_limit() / GIB:g} GiB of memory"
     help_ = "look for what grows without bound, or set DERIVE_MEMORY to more GiB"
     return _stopped(job, MEMORY, message, help_, trace)
-
-
-def lines_asked(worker: int, trace: int) -> str:
-    """The lines that a worker is in, innermost first, as it says when it is asked; nothing if it does not answer."""
-    with contextlib.suppress(OSError):
-        os.kill(worker, ASK)
-    for _ in range(20):
-        select.select([trace], [], [], 0.01)
-        if said := lines_told(trace):
-            time.sleep(0.01)
-            return said + lines_told(trace)
-    return ""
 
 
 def lines_told(trace: int) -> str:
@@ -331,9 +319,7 @@ def _kill(worker: _Worker) -> None:
         os.close(worker.trace)
 
 
-def _child(
-    work: Callable[[], Any], pipe: Connection, lifeline: tuple[int, int], trace: int, limit: int, scratch: str
-) -> None:
+def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, limit: int, scratch: str) -> None:
     with contextlib.suppress(OSError):
         os.setpgid(0, 0)
     os.close(lifeline[1])
@@ -348,9 +334,12 @@ def _child(
     value: Any = None
     error: DeriveError | Bug | str | None = None
     try:
-        value = work()
+        with limited(job.limit, trace):
+            value = job.work()
     except DeriveError as stopped:
         error = stopped
+    except OutOfTime as late:
+        error = too_long(job, trail_of(late), late)
     except (MemoryError, RecursionError) as short:
         error = told_to(trace, short)
     except OSError as refused:
@@ -380,7 +369,6 @@ def confine(lifeline: int, trace: int, limit: int) -> None:
         fcntl.fcntl(own, fcntl.F_SETFL, fcntl.fcntl(own, fcntl.F_GETFL) | os.O_ASYNC)
     threading.Thread(target=_end_with_parent, args=(lifeline,), daemon=True).start()
     faulthandler.enable(trace, all_threads=False)
-    faulthandler.register(ASK, trace, all_threads=False)
     _limit_memory(limit)
 
 
@@ -393,15 +381,19 @@ def _limit_memory(limit: int) -> None:
 
 
 def told_to(trace: int, error: MemoryError | RecursionError) -> str:
-    """Which limit that is; the lines that it came through are written there as `faulthandler` does, innermost first."""
+    """Which limit that is; the lines that it came through are written there."""
+    with contextlib.suppress(OSError):
+        os.write(trace, trail_of(error).encode()[: select.PIPE_BUF * 8])
+    return MEMORY if isinstance(error, MemoryError) else TOO_DEEP
+
+
+def trail_of(error: BaseException) -> str:
+    """The lines that it came through, innermost first, as `faulthandler` writes them; of many the ends."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')
         trail = trail.tb_next
-    with contextlib.suppress(OSError):
-        ends = [*lines[-80:][::-1], *lines[:-80][:20][::-1]]  # the last lines, and where it all began
-        os.write(trace, "".join(ends).encode()[: select.PIPE_BUF * 8])
-    return MEMORY if isinstance(error, MemoryError) else TOO_DEEP
+    return "".join([*lines[-80:][::-1], *lines[:-80][:20][::-1]])
 
 
 def _short_trace(error: BaseException) -> str:

@@ -128,7 +128,21 @@ def _open_streams() -> None:
             stream.reconfigure(encoding="utf-8" if ascii_only else None, errors="backslashreplace")
 
 
+class Ending:
+    """Whether this process was asked to end, and by which signal: what is raised in the middle of the code of a library
+    may be lost there."""
+
+    number = 0
+
+    def is_set(self) -> bool:
+        return self.number != 0
+
+
+ending = Ending()
+
+
 def _terminated(number: int, _: FrameType | None) -> NoReturn:
+    ending.number = number
     raise SystemExit(128 + number)  # unwinds, so that no worker is left behind
 
 

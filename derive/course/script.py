@@ -24,7 +24,7 @@ from typing import Any
 from derive.algebra.kinds import ANNOTATIONS, Asked, asked_by_annotation
 from derive.course.beside import importable, modules_beside
 from derive.course.yaml_tree import Source, abridged, read_source
-from derive.errors import Complaint, DeriveError, Faults, Place, Rejected, did_you_mean, nearest
+from derive.errors import Complaint, DeriveError, Faults, OutOfTime, Place, Rejected, did_you_mean, nearest
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def run(script: Script, values: Mapping[str, Any]) -> object:
             return script.solve(**values)
     except DeriveError as error:
         raise _placed(error, script.file, script.source) from error
-    except MemoryError:
+    except (MemoryError, OutOfTime):
         raise  # not the script's own line, but the limit is what there is to say
     except BaseException as error:
         raise Rejected(_failure(error, script.file, script.source)) from error
@@ -134,7 +134,7 @@ def _module(file: Path, source: Source, name: str) -> ModuleType:
             spec.loader.exec_module(module)
     except DeriveError as error:
         raise _placed(error, file, source) from error
-    except MemoryError:
+    except (MemoryError, OutOfTime):
         raise
     except BaseException as error:
         raise Rejected(_failure(error, file, source)) from error

@@ -17,7 +17,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 from sympy import Basic, Expr, Integer, MatrixBase, Symbol
 
 from derive.algebra.expressions import as_expr, explicit
-from derive.errors import Complaint, Rejected, Unverified
+from derive.errors import Complaint, OutOfTime, Rejected, Unverified
 from derive.steps.record import current_run
 from derive.steps.step import Quantity
 
@@ -65,14 +65,35 @@ def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
             for each in values:
                 _check(verb.__name__, name, each, wanted.get(name, Any))
         run = current_run.get()
-        if run is None or run.memory is None or keeps:
-            made = verb(*given, **named)
-            if keeps:
-                _check_kept(verb.__name__, arguments, made)
-            return made
-        return run.memory.result(verb, arguments, run, lambda: verb(*given, **named))
+        try:
+            if run is None or run.memory is None or keeps:
+                made = verb(*given, **named)
+                if keeps:
+                    _check_kept(verb.__name__, arguments, made)
+                return made
+            return run.memory.result(verb, arguments, run, lambda: verb(*given, **named))
+        except OutOfTime as late:
+            late.doing.append(_told_of_call(verb.__name__, arguments))
+            raise
 
     return looked_at
+
+
+def _told_of_call(verb: str, arguments: Mapping[str, Any]) -> str:
+    """The verb and what it is about: the steps and the coordinates that it was given."""
+    about = [f"`{name}`" for name in _names(tuple(arguments.values()))]
+    return f"`{verb}`" + (f" of {', '.join(about[:4])}" if about else "")
+
+
+def _names(given: Any) -> Iterator[str]:
+    """The keys of the steps in it, and its letters and coordinates."""
+    if isinstance(given, tuple | list):
+        for each in given:
+            yield from _names(each)
+    elif isinstance(given, Quantity):
+        yield given.key
+    elif isinstance(given, Symbol) or isinstance(getattr(given, "symbol", None), Symbol):
+        yield str(getattr(given, "symbol", given))
 
 
 def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from derive.building.files import of_system
-from derive.building.workers import Job, died, job_of, lines_asked, lines_told, memory_limit, overtaxed, too_long
+from derive.building.workers import Job, died, job_of, lines_told, memory_limit, overtaxed
 from derive.errors import BuildFailed, Complaint, DeriveError
 
 STEP = 0.05  # seconds between two looks whether an answer is still wanted
@@ -167,12 +167,10 @@ class Warm:
         worker = self.begun()
         if worker is None:
             return None
-        worker.ask(problem=problem_id, detail=detail)
+        worker.ask(problem=problem_id, detail=detail, limit=self.limit)
         job = partial(job_of, self.root, problem_id, lambda: None, self.limit)
         while (line := worker.answer(STEP)) is None:
             seconds = time.monotonic() - started
-            if seconds > self.limit:
-                return self._ended(too_long(job(), lines_asked(worker.process, worker.trace)))
             if seconds > PATIENCE and idle():
                 self._end()
                 return None
@@ -182,6 +180,8 @@ class Warm:
             return self._ended(_disturbed(job()))
         if limit := said.get("limit"):
             return self._ended(overtaxed(job(), limit, lines_told(worker.trace)))
+        if said.get("ends"):
+            self._end()
         return said
 
     def begun(self) -> _Worker | None:

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Protocol
 
 from derive.building.named import check_asked
 from derive.building.set_document import live_page
@@ -14,6 +15,13 @@ from derive.errors import DeriveError
 from derive.page.template import template_folder
 from derive.preview.asking import Shown, Warm
 from derive.preview.server import HOST, Pages, Server, server
+
+
+class Ending(Protocol):
+    """Whether it is time to end."""
+
+    def is_set(self) -> bool: ...
+
 
 WRITTEN = (".yaml", ".py", ".j2", ".css", ".js")
 SETTLED = 20  # milliseconds without a further change after which an edit is taken to be whole
@@ -28,8 +36,10 @@ def preview(
     limit: float,
     ready: Callable[[str], None],
     told: Callable[[str, Shown], None],
+    ending: Ending,
 ) -> None:
-    """Serve the pages of a set until somebody interrupts; `ready` is told the address, `told` what was shown."""
+    """Serve the pages of a set until somebody interrupts, or `ending` is set; `ready` is told the address, `told` what
+    was shown."""
     check_asked(root, set_id, [name] if name else ())
     heading = problem_set(root, set_id)
     first = name or heading.problems[0].rpartition("/")[2]
@@ -44,7 +54,7 @@ def preview(
         warm.begun()  # it loads while the browser is opened
         with _serving(served) as at:
             ready(f"http://{HOST}:{at}/{first}.html")
-            for _ in _edits(root):
+            for _ in _edits(root, ending):
                 with suppress(DeriveError, OSError):  # a heading that cannot be read stays as it was
                     heading = problem_set(root, set_id)
                 pages.names = {*heading.numbers, first}
@@ -65,7 +75,7 @@ def _serving(served: Server) -> Iterator[int]:
         served.server_close()
 
 
-def _edits(root: Path) -> Iterator[object]:
+def _edits(root: Path, ending: Ending) -> Iterator[object]:
     """Each time that problems or scripts, which may be another set's, templates or phrases were written."""
     from watchfiles import watch
 
@@ -75,4 +85,5 @@ def _edits(root: Path) -> Iterator[object]:
         watch_filter=lambda _, path: path.endswith(WRITTEN),
         step=SETTLED,
         debounce=400,
+        stop_event=ending,
     )

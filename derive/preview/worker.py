@@ -22,8 +22,9 @@ from pathlib import Path
 from typing import IO, Any
 
 from derive.building.loaded import load
-from derive.building.workers import confine, told_to
-from derive.errors import DeriveError
+from derive.building.time_limit import limited
+from derive.building.workers import confine, job_of, told_to, too_long, trail_of
+from derive.errors import DeriveError, OutOfTime
 
 
 def main(arguments: Sequence[str]) -> None:
@@ -33,7 +34,7 @@ def main(arguments: Sequence[str]) -> None:
     confine(lifeline, trace, memory)
     os.dup2(2, 1)  # what a script prints is for the person at the terminal, and no answer
     told = os.fdopen(answers, "w", encoding="utf-8")
-    load(root, draws=False)
+    load(root, derives=True, draws=False)
     for question in os.fdopen(questions, encoding="utf-8"):
         asked = json.loads(question)
         _tell(told, {"number": asked["number"], **answer(root, asked, trace)})
@@ -43,7 +44,7 @@ def main(arguments: Sequence[str]) -> None:
 @cache
 def _settle(root: Path) -> None:
     """While the first page is read, load what draws; all that is loaded is not looked through for garbage again."""
-    load(root, draws=True)
+    load(root, derives=True, draws=True)
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
 
@@ -51,10 +52,15 @@ def _settle(root: Path) -> None:
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
     """The page of a problem, or what is wrong with it, as plain data; by which limit it was stopped, and where, it says
     as a build's worker does."""
+    problem, limit = question["problem"], question["limit"]
     try:
-        return {"main": main_part(root, question["problem"], question["detail"])}
+        with limited(limit, trace):
+            return {"main": main_part(root, problem, question["detail"])}
     except DeriveError as error:
         return {"complaints": [each.shown() for each in error.complaints]}
+    except OutOfTime as late:
+        stopped = too_long(job_of(root, problem, lambda: None, limit), trail_of(late), late)
+        return {"complaints": [each.shown() for each in stopped.complaints], "ends": True}
     except (MemoryError, RecursionError) as short:
         return {"limit": told_to(trace, short)}
     except BaseException as bug:  # of a script too, which may well end its program

@@ -15,8 +15,9 @@ from hashlib import sha256
 from typing import Any, Protocol
 
 from derive.algebra.ranges import known_ranges, take_as_positive, taken_as_positive
+from derive.errors import OutOfTime
 from derive.steps.objects import NoDescription, Objects
-from derive.steps.record import QUESTIONS, Call, Run, add, assume
+from derive.steps.record import QUESTIONS, Call, Run, add, assume, finished_steps
 
 
 class Store(Protocol):
@@ -69,6 +70,9 @@ class Memory:
         run.call = Call(len(run.established))
         try:
             return self._result(verb, given, run, make)
+        except OutOfTime as late:
+            late.finished = finished_steps(run)  # without what the call itself has established, which is not kept
+            raise
         finally:
             run.call = None
 

@@ -218,6 +218,11 @@ def _before_call(run: Run) -> tuple[Quantity, ...]:
     return tuple(run.established[: run.call.before if run.call else None])
 
 
+def finished_steps(run: Run) -> tuple[str, ...]:
+    """The keys of what it had established before the call that is being made."""
+    return tuple(dict.fromkeys(quantity.key for quantity in _before_call(run)))
+
+
 def named_coordinates() -> tuple[Symbol, ...]:
     """All coordinates of the run."""
     run = current_run.get()

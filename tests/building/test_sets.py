@@ -188,7 +188,7 @@ def test_a_derivation_that_loops_is_stopped_and_named(course: Course) -> None:
     course.problem("one", "loop")
     report = build(course, Options(limit=2))
     (complaint,) = report.complaints
-    assert (complaint.code, complaint.message) == ("time-limit", "`hw1/one` took over 2 s")
+    assert (complaint.code, complaint.message) == ("time-limit", "`hw1/one` took over 2 s of processor time")
     assert (course.outputs / "two.pdf").is_file()
 
 

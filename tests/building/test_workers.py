@@ -27,7 +27,6 @@ from derive.building.workers import (
     told_to,
     too_long,
     under_way,
-    verb_in,
 )
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from tests.courses import ROOT
@@ -77,14 +76,6 @@ def test_a_worker_that_gives_no_answer_is_told_at_the_line_of_its_script(tmp_pat
     place = complaint.place
     assert place
     assert (place.path, place.line, place.text.strip()) == ("problems/hw1/block.py", 5, body)
-
-
-def test_what_took_too_long_is_named_where_the_engine_itself_has_the_script() -> None:
-    lines = [("algebra/tidy.py", "_written"), ("mechanics/systems/canonical.py", "hamiltonian")]
-    lines += [("mechanics/arguments.py", "looked_at"), ("stock/system.py", "solve")]
-    trace = "".join(f'  File "/somewhere/derive/{file}", line 7 in {name}\n' for file, name in lines)
-    assert verb_in(trace) == "hamiltonian"
-    assert verb_in(trace.replace("/stock/", "/course/")) is None
 
 
 def test_what_a_document_states_is_blamed_on_its_own_file(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from derive.preview.worker import answer
 from derive.steps import establish
 from tests.courses import course_in
 
-ASKED = {"problem": "hw9/block", "detail": None}
+ASKED = {"problem": "hw9/block", "detail": None, "limit": 60}
 
 
 def test_the_answer_is_the_main_part_of_the_page(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import argparse
 from contextlib import suppress
 
 from derive.cli.asked import problem_id_of, root_of
-from derive.cli.running import silence
+from derive.cli.running import ending, silence
 
 
 def preview_pages(arguments: argparse.Namespace) -> int:
@@ -33,5 +33,15 @@ def preview_pages(arguments: argparse.Namespace) -> int:
             silence(1)
 
     with suppress(KeyboardInterrupt):
-        preview(root_of(arguments), set_id, name, arguments.port, arguments.detail, arguments.time_limit, ready, told)
-    return 0
+        preview(
+            root_of(arguments),
+            set_id,
+            name,
+            arguments.port,
+            arguments.detail,
+            arguments.time_limit,
+            ready,
+            told,
+            ending,
+        )
+    return 128 + ending.number if ending.is_set() else 0

@@ -15,7 +15,7 @@ from typing import Any
 
 from derive.course.stock import each, told_at
 from derive.course.yaml_tree import Word
-from derive.errors import DeriveError, Place, Rejected, did_you_mean, nearest, rejected
+from derive.errors import DeriveError, OutOfTime, Place, Rejected, did_you_mean, nearest, rejected
 from derive.mechanics import Coordinate
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.record import Run, current_run, recorded
@@ -126,6 +126,9 @@ class ByName:
             try:
                 with told_at(place):
                     self._known[name] = tuple(returned_quantities(self.asks[name]()))
+            except OutOfTime as late:
+                late.answers.append(name)
+                raise
             finally:
                 self._in_progress.pop()
         return self._known[name]

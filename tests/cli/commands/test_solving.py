@@ -60,7 +60,7 @@ def test_a_loop_is_stopped(course: Course, capfd: pytest.CaptureFixture[str]) ->
     course.problem("one", "loop")
     assert main(["solve", "hw1/one", "--time-limit", "0.3"]) == 1
     assert capfd.readouterr().err.startswith(
-        "problems/hw1/one.yaml:1:1: error[time-limit]: `hw1/one` took over 0.3 s\n"
+        "problems/hw1/one.yaml:1:1: error[time-limit]: `hw1/one` took over 0.3 s of processor time\n"
     )
 
 

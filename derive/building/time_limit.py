@@ -1,0 +1,60 @@
+"""The limit of a worker's time, in seconds of its processor, so that no problem fails because the machine is busy.
+
+At the limit `OutOfTime` is raised where the work is: what surrounds it says what it was doing, and keeps what is
+finished. Work that only waits uses no processor, and is stopped after as many seconds of the clock. Work that catches
+`OutOfTime`, or is in the middle of one long instruction, is ended by the system a little later.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import NoReturn
+
+from derive.errors import OutOfTime
+
+__all__ = ["ended_by_limit", "limited"]
+
+GRACE = 2.0  # seconds of the processor in which `OutOfTime` may leave the work
+IDLE = 0.02  # share of the processor below which work only waits
+PATIENCE = 10  # times the limit by the clock, after which even a busy machine is no excuse
+_WATCHDOG = "Timeout ("  # with this `faulthandler` begins what it writes then
+
+
+@contextmanager
+def limited(seconds: float, trace: int) -> Iterator[None]:
+    """Work inside may take so long; where the system ends it, the lines that it is in are written to `trace`."""
+    used = time.process_time()
+
+    def stop(*_: object) -> NoReturn:
+        raise OutOfTime
+
+    def look(*_: object) -> None:
+        nonlocal used
+        used, before = time.process_time(), used
+        if used - before < IDLE * seconds:
+            raise OutOfTime(waited=True)
+
+    handlers = {signal.SIGPROF: stop, signal.SIGALRM: look}
+    previous = {signum: signal.signal(signum, handler) for signum, handler in handlers.items()}
+    faulthandler.register(signal.SIGVTALRM, trace, all_threads=False, chain=True)  # and then it ends this process
+    faulthandler.dump_traceback_later(PATIENCE * (seconds + 6), exit=True, file=trace)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    signal.setitimer(signal.ITIMER_REAL, seconds, seconds)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds + GRACE)
+    try:
+        yield
+    finally:
+        for timer in (signal.ITIMER_PROF, signal.ITIMER_REAL, signal.ITIMER_VIRTUAL):
+            signal.setitimer(timer, 0)
+        faulthandler.cancel_dump_traceback_later()
+        for signum, handler in previous.items():
+            signal.signal(signum, handler)
+
+
+def ended_by_limit(code: int, trace: str) -> bool:
+    """Whether a process that ended with this exit code, or by this signal, was ended at the limit of its time."""
+    return code == -signal.SIGVTALRM or trace.startswith(_WATCHDOG)
