@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 
 import derive.preview.preview
+from derive.cli.running import Ending
 from derive.preview.server import Pages, Server, server
 from tests.browser import browser_page
 from tests.building.test_workers import is_gone
@@ -113,6 +114,17 @@ def test_it_serves_on_when_nobody_reads_what_it_says(preview: Preview, course: P
     assert preview.said() == ""
 
 
+def served_until(course: Path, ending: Ending) -> None:
+    derive.preview.preview.preview(course, "hw9", "", 0, None, 60, lambda at: None, lambda *shown: None, ending)
+
+
+def test_it_ends_where_the_exception_of_a_signal_was_lost_in_a_library(course: Path) -> None:
+    ending, started = Ending(), time.monotonic()
+    ending.number = signal.SIGTERM
+    served_until(course, ending)
+    assert time.monotonic() - started < 30
+
+
 def test_an_edit_for_which_there_are_too_few_descriptors_does_not_end_it(
     course: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -121,7 +133,7 @@ def test_an_edit_for_which_there_are_too_few_descriptors_does_not_end_it(
     def refused(*_: object) -> None:
         raise OSError(24, "Too many open files")
 
-    def edited(root: Path) -> Iterator[object]:
+    def edited(*_: object) -> Iterator[object]:
         nonlocal edits
         for _ in range(2):
             edits += 1
@@ -129,14 +141,14 @@ def test_an_edit_for_which_there_are_too_few_descriptors_does_not_end_it(
             yield
 
     monkeypatch.setattr(derive.preview.preview, "_edits", edited)
-    derive.preview.preview.preview(course, "hw9", "", 0, None, 60, lambda at: None, lambda name, shown: None)
+    served_until(course, Ending())
     assert edits == 2
 
 
 def test_a_problem_that_the_set_lists_anew_has_a_page(course: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder, served = course / "problems" / "hw9", list[Pages]()
 
-    def edits(root: Path) -> Iterator[object]:
+    def edits(*_: object) -> Iterator[object]:
         shutil.copy(folder / "block.yaml", folder / "brick.yaml")
         with (folder / "set.yaml").open("a") as heading:
             heading.write("  - brick\n")
@@ -152,14 +164,14 @@ def test_a_problem_that_the_set_lists_anew_has_a_page(course: Path, monkeypatch:
 
     monkeypatch.setattr(derive.preview.preview, "_edits", edits)
     monkeypatch.setattr(derive.preview.preview, "server", noted)
-    derive.preview.preview.preview(course, "hw9", "", 0, None, 60, lambda at: None, lambda name, shown: None)
+    served_until(course, Ending())
     assert served
 
 
 def test_scripts_of_other_sets_are_watched_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     watched: list[Path] = []
     monkeypatch.setattr("watchfiles.watch", lambda *folders, **how: watched.extend(folders) or [])
-    assert [*derive.preview.preview._edits(tmp_path)] == []
+    assert [*derive.preview.preview._edits(tmp_path, Ending())] == []
     assert tmp_path / "problems" in watched
 
 

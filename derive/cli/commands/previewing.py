@@ -33,15 +33,6 @@ def preview_pages(arguments: argparse.Namespace) -> int:
             silence(1)
 
     with suppress(KeyboardInterrupt):
-        preview(
-            root_of(arguments),
-            set_id,
-            name,
-            arguments.port,
-            arguments.detail,
-            arguments.time_limit,
-            ready,
-            told,
-            ending,
-        )
-    return 128 + ending.number if ending.is_set() else 0
+        root, port, limit = root_of(arguments), arguments.port, arguments.time_limit
+        preview(root, set_id, name, port, arguments.detail, limit, ready, told, ending)
+    return 0
