@@ -42,7 +42,7 @@ def test_quiet_tells_the_address_and_what_is_wrong(
     options: tuple[str, ...], lines: int, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     def shows_one_page_and_one_fault(*given: Any) -> None:
-        *_, ready, told = given
+        *_, ready, told, _ = given
         ready("http://127.0.0.1:1/block.html")
         told("block", Shown(main="<main>"))
         told("top", Shown(complaints=("error[yaml]: no",)))
