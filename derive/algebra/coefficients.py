@@ -11,6 +11,8 @@ from math import gcd
 from typing import NamedTuple
 
 from sympy import Add, Expr, Integer, Mul, Pow, Rational, S, Symbol, cos, sin
+from sympy.core.add import _addsort
+from sympy.core.mul import _mulsort
 
 from derive.algebra.factors_in_front import Product
 from derive.algebra.sparse_polynomials import WIDTH, Form, Outside, Ring, Terms
@@ -156,9 +158,16 @@ class Expanded(Ring):
         key = (frozenset(terms.items()), below)
         found = self._built.get(key)
         if found is None:
-            parts = (Mul(Rational(c, below), *self._powers(monomial)) for monomial, c in terms.items())
-            found = self._built[key] = Add(*parts)
+            found = self._built[key] = _sum([self._term(Rational(c, below), monomial) for monomial, c in terms.items()])
         return found
+
+    def _term(self, coefficient: Rational, monomial: int) -> Expr:
+        """As `Mul` has it, which need not look for powers of one letter here."""
+        factors = [letter ** Integer(power) for letter, power in self._letters(monomial)]
+        if not all(factor.is_Symbol or factor.is_Pow and factor.base.is_Symbol for factor in factors):
+            return Mul(coefficient, *factors)
+        _mulsort(factors)
+        return Mul._from_args(factors if coefficient is S.One else [coefficient, *factors], is_commutative=True)
 
     def _powers(self, monomial: int) -> Iterator[Expr]:
         return (letter ** Integer(power) for letter, power in self._letters(monomial))
@@ -175,6 +184,16 @@ class Expanded(Ring):
             yield self._names[place], monomial & ONES
             monomial >>= WIDTH
             place += WIDTH
+
+
+def _sum(terms: list[Expr]) -> Expr:
+    """As `Add` has it, which need not look for terms that are alike here."""
+    if any(not (term.is_Mul or term.is_Atom or term.is_Pow) for term in terms) or not terms:
+        return Add(*terms)
+    numbers = [term for term in terms if term.is_Number]
+    others = [term for term in terms if not term.is_Number]
+    _addsort(others)
+    return Add._from_args([*numbers, *others], is_commutative=True)
 
 
 def _in_front(terms: Terms) -> tuple[int, int, Terms]:

@@ -137,7 +137,8 @@ def _varies(value: Expr, turning: set[Symbol]) -> bool:
     """Whether it does, as two samples show; it may still vary if they do not."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    angles = [{q: Float(x + 0.29 * i) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
+    # the angles differ by other amounts in the other sample, for a distance may depend on their differences alone
+    angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))
 

@@ -52,10 +52,11 @@ def _integrated_coordinates(
     named = {as_printed(q): q for q in coordinates}
     own = [
         (q, quantity.key)
-        for quantity in known.values()
+        for quantity in (known.values() if named else ())
+        if not quantity.coordinates
         for form in quantity.step.chain
         for variable in _integrated(form.expr)
-        if (q := named.get(as_printed(variable))) is not None and not quantity.coordinates
+        if (q := named.get(as_printed(variable))) is not None
     ]
     message = "`{}` is a coordinate, but the step `{}` integrates over a variable of that name"
     place = problem.script.returns if problem.script else None
