@@ -23,6 +23,7 @@ from sympy.logic.boolalg import And, Not, Or
 
 from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.node import ScalarNode, explicit
+from derive.algebra.ordered_roots import OrderedRoot, root_in_order
 from derive.algebra.ranges import fulfilling, range_of
 
 DIGITS = 50
@@ -272,6 +273,8 @@ class Values:
 
     def _function(self, expr: Expr) -> Any:
         name = type(expr).__name__
+        if isinstance(expr, OrderedRoot):
+            return root_in_order([_real(self._of(each)) for each in expr.args[0]], int(expr.args[1]))
         if isinstance(expr, ScalarNode):
             return self._of(explicit(expr))
         if isinstance(expr, Piecewise):

@@ -33,6 +33,11 @@ def with_numbers(expr: Expr) -> Expr:
     return explicit(bound(explicit(expr), run.numbers if run else {}))
 
 
+def have_numbers(*values: Any) -> bool:
+    """Whether the problem gives a number for each of their letters."""
+    return not any(with_numbers(entry).free_symbols for value in values for entry in value)
+
+
 def sign_known(expr: Expr) -> int | None:
     """The sign of an expression, by its letters, their ranges or their numbers: 1, -1, 0; None if none decides."""
     factors = [_sign_of_factor(factor) for factor in Mul.make_args(tidied(expr))]

@@ -9,6 +9,7 @@ Source: Squire, Trapp, *SIAM Review* 40 (1998), 110 (derivatives by complex step
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -36,6 +37,7 @@ from sympy import (
 )
 
 from derive.algebra.expressions import explicit
+from derive.algebra.ordered_roots import OrderedRoot
 
 Numbers: TypeAlias = NDArray[np.complex128]
 Operation: TypeAlias = tuple[Callable[..., Any], tuple[int, ...]]
@@ -74,6 +76,13 @@ FUNCTIONS: Mapping[Any, Callable[..., Any]] = {
     Abs: _absolute,
     sign: lambda x: np.sign(np.real(x)) + 0j,
 }
+
+
+def _root_in_order(number: int, *coefficients: Any) -> Any:
+    """Of a polynomial whose roots are real, at each point."""
+    rows = np.stack(np.broadcast_arrays(*map(np.asarray, coefficients)), axis=-1)
+    found = [np.sort(np.roots(np.real(row)).real)[number - 1] for row in rows.reshape(-1, rows.shape[-1])]
+    return np.asarray(found, dtype=complex).reshape(rows.shape[:-1])
 
 
 class Tape:
@@ -137,7 +146,8 @@ class Tape:
             return self._letter(formula)
         if formula.is_Number or formula.is_NumberSymbol or formula.is_number and not formula.args:
             return self._added(formula, complex(formula))
-        args = tuple(self._node(arg) for arg in formula.args)
+        of = formula.args[0] if isinstance(formula, OrderedRoot) else formula.args
+        args = tuple(self._node(arg) for arg in of)
         return self._added(formula, self._operation(formula, args))
 
     def _operation(self, formula: Expr, args: tuple[int, ...]) -> Operation:
@@ -149,6 +159,8 @@ class Tape:
             return operation, (last, args[-1])
         if isinstance(formula, Pow):
             return self._power(formula, args)
+        if isinstance(formula, OrderedRoot):
+            return partial(_root_in_order, int(formula.args[1])), args
         function = FUNCTIONS.get(formula.func)
         if function is None:
             raise NotComputable(type(formula).__name__)

@@ -39,6 +39,7 @@ from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.encoding import as_data, decoded, encoded, from_data
 from derive.algebra.expansion import Approach, Expansion, FirstOrder
 from derive.algebra.node import NODES, Node
+from derive.algebra.ordered_roots import OrderedRoot
 from derive.algebra.rounding import Rounded
 from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from tests.mechanics.block import known_block
@@ -93,6 +94,7 @@ EXPRESSIONS = [
     Approach(a, oo),
     FirstOrder(a * x + x**2 * y, x, y),
     SwingTime(b * (cos(x) - cos(a)), x, a, Integer(2)),
+    OrderedRoot((1, -a, b, -a * b), 2, Symbol("lambda_2")),
     SwingTimeOfNumbers(
         SwingTime(b * (cos(x) - cos(a)), x, a, Integer(2)),
         Tuple(a, b),

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
 import pytest
-from sympy import Expr, ImmutableDenseMatrix, Rational, cos, pi, sin, sqrt, symbols
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, cos, pi, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME as t
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.ordered_roots import OrderedRoot
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Particle,
@@ -34,7 +36,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.equations import characteristic, modes
 from derive.mechanics.equations.characteristic import Pencil
-from derive.steps.record import recorded
+from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 
 m, M, g, l, k, c, R, w = symbols("m M g l k c R omega", positive=True)
@@ -320,3 +322,61 @@ def test_letters_of_a_problem_are_not_those_of_a_check(name: str) -> None:
     stiff = potential(m * own**2 * (x.symbol**2 + y.symbol**2) / 2 - m * c * x.symbol * y.symbol)
     found = normal_modes(linearised(motion(Particle(m, point(x, y)), stiff)))
     assert {explicit(each.value**2) for each in found[:2]} == {own**2 - c, own**2 + c}
+
+
+def chain_in_numbers(masses: Sequence[int], springs: Sequence[int]) -> tuple[Quantity, ...]:
+    """The modes of masses between springs, with letters that have these numbers."""
+    count = len(masses)
+    inertia, stiffness = symbols(f"m_1:{count + 1}", positive=True), symbols(f"k_0:{count + 1}", positive=True)
+    numbers = dict(zip((*inertia, *stiffness), map(Integer, (*masses, *springs)), strict=True))
+    with recorded(Run(numbers=numbers)):
+        moving = [coordinate(f"x_{i + 1}", "length") for i in range(count)]
+        joints = [
+            point(0, 0),
+            *(point((i + 1) * l + q.symbol, 0) for i, q in enumerate(moving)),
+            point((count + 1) * l, 0),
+        ]
+        joined = [spring(k, u, v, natural=l) for k, u, v in zip(stiffness, joints, joints[1:], strict=False)]
+        equations = motion(*map(Particle, inertia, joints[1:]), *joined)
+        found = normal_modes(linearised(equations, at=dict.fromkeys(moving, 0)))
+    return tuple(q for q in found if q.key.startswith("frequency"))
+
+
+@pytest.mark.parametrize(("masses", "springs"), [((1, 1, 1), (2, 3, 4, 5)), ((3, 1, 2, 1), (1, 7, 2, 5, 1))])
+def test_frequencies_without_a_formula_are_those_of_an_eigenvalue_routine(
+    masses: tuple[int, ...], springs: tuple[int, ...]
+) -> None:
+    found = chain_in_numbers(masses, springs)
+    stiffness = np.diag([u + v for u, v in pairwise(springs)]) - np.diag(springs[1:-1], 1) - np.diag(springs[1:-1], -1)
+    root = np.diag([each**-0.5 for each in masses])
+    wanted = np.sqrt(np.linalg.eigvalsh(root @ stiffness @ root))
+    named = [*symbols(f"m_1:{len(masses) + 1}", positive=True), *symbols(f"k_0:{len(springs)}", positive=True)]
+    numbers = dict(zip(named, map(Integer, (*masses, *springs)), strict=True))
+    values = [float(explicit(explicit(q.value).xreplace(numbers)).evalf()) for q in found]
+    assert np.allclose(values, wanted)
+    assert {q.step.outcome for q in found} == {"ordered"}
+
+
+def test_roots_of_another_polynomial_or_in_another_order_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    def of_another(coefficients: Sequence[Expr], number: int, name: Any) -> Any:
+        return OrderedRoot([*coefficients[:-1], 2 * coefficients[-1]], number, name)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(characteristic, "OrderedRoot", of_another)
+        with pytest.raises(Unverified, match="put_back"):
+            chain_in_numbers((1, 1, 1), (2, 3, 4, 5))
+    size = characteristic._size
+    monkeypatch.setattr(characteristic, "_size", lambda value: (-size(value)[0], ""))
+    with pytest.raises(Unverified, match="the sentence for this result could not be confirmed"):
+        chain_in_numbers((1, 1, 1), (2, 3, 4, 5))
+
+
+def test_without_numbers_for_all_letters_there_is_no_frequency() -> None:
+    three = [coordinate(f"x_{i}", "length") for i in (1, 2, 3)]
+    names = symbols("k_0:4", positive=True)
+    joints = [point(0, 0), *(point(i * l + q.symbol, 0) for i, q in enumerate(three, 1)), point(4 * l, 0)]
+    joined = [spring(each, u, v, natural=l) for each, u, v in zip(names, joints, joints[1:], strict=False)]
+    equations = motion(*(Particle(m, at) for at in joints[1:4]), *joined)
+    with pytest.raises(Rejected, match="a polynomial that does not factor") as refused:
+        normal_modes(linearised(equations, at=dict.fromkeys(three, 0)))
+    assert "give all of them numbers" in str(refused.value)

@@ -7,7 +7,7 @@ lambda a letter, modulo the irreducible factor that it is a root of: whether a p
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from sympy import (
@@ -42,9 +42,10 @@ from sympy.simplify.fu import TR5, TR6, TR8
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.collect import spread_or_by_terms
-from derive.algebra.expressions import Relation
+from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.expressions import Root as RootSign
 from derive.algebra.length import length
+from derive.algebra.ordered_roots import OrderedRoot
 from derive.algebra.ranges import fulfilling
 from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
@@ -59,7 +60,10 @@ FINEST = 60  # parts of a right angle or two that a frequency of a chain is look
 
 @dataclass(frozen=True)
 class Root:
-    """A root lambda of det(K - lambda M): its columns, orthogonal with M between them, and its sign where known."""
+    """A root lambda of det(K - lambda M): its columns, orthogonal with M between them, and its sign where known.
+
+    A root that has no formula has no columns either.
+    """
 
     value: Expr
     columns: tuple[MatrixBase, ...]
@@ -67,16 +71,21 @@ class Root:
 
     @property
     def multiplicity(self) -> int:
-        return len(self.columns)
+        return max(len(self.columns), 1)
+
+    @property
+    def has_formula(self) -> bool:
+        return bool(self.columns)
 
 
 @dataclass(frozen=True)
 class Pencil:
-    """K - lambda M, of symmetric matrices, where a condition holds."""
+    """K - lambda M, of symmetric matrices, where a condition holds; without formulas roots have that name, in order."""
 
     stiffness: MatrixBase
     mass: MatrixBase
     exists: Relation | None = None
+    name: str = ""
 
     @cached_property
     def scale(self) -> Expr:
@@ -118,8 +127,25 @@ class Pencil:
     @cached_property
     def roots(self) -> tuple[Root, ...]:
         """From the least to the greatest, where the letters have middling values."""
-        found = [self._root(part, value, times) for part, times in self.factors for value in _roots_of(part)]
-        return tuple(sorted(found, key=lambda root: _size(root.value)))
+        found = [root for part, times in self.factors for root in self._roots_of(part, times)]
+        in_order = sorted(found, key=lambda root: _size(root.value))
+        return tuple(root if root.has_formula else self._numbered(root, n + 1) for n, root in enumerate(in_order))
+
+    def _numbered(self, root: Root, place: int) -> Root:
+        """A root without a formula, named by its place among all."""
+        return replace(root, value=root.value.xreplace({scalar(self.name): scalar(f"{self.name}_{place}")}))
+
+    def _roots_of(self, part: Poly, times: int) -> list[Root]:
+        values = _roots_of(part)
+        if values is not None:
+            return [self._root(part, value, times) for value in values]
+        degree = part.degree()
+        if not self.name or times > 1 or not self._is_positive:
+            message = f"the squares of {degree} frequencies are the roots of a polynomial that does not factor"
+            help_ = "give equal masses and springs one letter, or give all of them numbers"
+            raise Rejected(Complaint("no-closed-form", message, help=help_))
+        whole = Poly(tidied(part.as_expr().xreplace({_LAMBDA: _LAMBDA / self.scale}) * self.scale**degree), _LAMBDA)
+        return [Root(OrderedRoot(whole.all_coeffs(), n + 1, scalar(self.name)), (), 1) for n in range(degree)]
 
     def _root(self, part: Poly, value: Expr, times: int) -> Root:
         stiffness, mass = self._reduced
@@ -165,8 +191,8 @@ def _by_powers(value: Expr, unknown: Expr) -> Expr:
     return min((Add(*terms), value), key=length)
 
 
-def _roots_of(part: Poly) -> list[Expr]:
-    """Of an irreducible polynomial: linear, quadratic, or that of a uniform chain."""
+def _roots_of(part: Poly) -> list[Expr] | None:
+    """Of an irreducible polynomial: linear, quadratic, or that of a uniform chain; nothing of any other."""
     if part.degree() == 1:
         a, b = part.all_coeffs()
         return [_of_plain_sign(tidied(-b / a))]
@@ -174,11 +200,7 @@ def _roots_of(part: Poly) -> list[Expr]:
         a, b, c = part.all_coeffs()
         root = sqrt(_discriminant(a, b, c))
         return [_sum_with_root(-b / (2 * a), turn / (2 * a), root) for turn in (-1, 1)]
-    found = _of_chain(part)
-    if found is None:
-        message = f"the squares of {part.degree()} frequencies are the roots of a polynomial that does not factor"
-        raise Rejected(Complaint("no-closed-form", message, help="give equal masses and springs one letter"))
-    return found
+    return _of_chain(part)
 
 
 def _of_plain_sign(value: Expr) -> Expr:
@@ -309,7 +331,7 @@ def _presentable(column: MatrixBase) -> MatrixBase:
 def _size(value: Expr) -> tuple[float, str]:
     letters = sorted(value.free_symbols, key=str)
     drawn = {s: Integer(prime(n + 20)) / prime(20) for n, s in enumerate(letters)}
-    number = value.subs(fulfilling(drawn)).evalf()
+    number = explicit(value.subs(fulfilling(drawn))).evalf()
     return (float(number) if number.is_real else 0.0), str(value)
 
 

@@ -39,6 +39,7 @@ from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes,
 from derive.mechanics.equations.oscillations import frequency, frequency_squared, told_where_positive
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import have_numbers
 from derive.steps.record import free_letter, require_constant
 from derive.steps.step import Fact, Level, Quantity, is_zero, require_kind
 
@@ -69,9 +70,11 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
     the letters); where two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
-    conditional_repeated; of shapes: in_phase, opposite, alone (the other is at rest), generic, uniform (free motion),
-    departing (growing), any_of_several (repeated); of the determinant: several, one (coordinate).
-    Errors: the roots have no closed form; with drag the modes do not separate; too many letters.
+    conditional_repeated; ordered (no formula: the root of that place); of shapes: in_phase, opposite,
+    alone (the other is at rest), generic, uniform (free motion), departing (growing), any_of_several (repeated); of the
+    determinant: several, one (coordinate).
+    Errors: the roots have no closed form, and letters have no numbers; with drag the modes do not separate; too many
+    letters.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     Source: that of `normal_modes`.
     """
@@ -80,7 +83,8 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     turns = not is_zero(together.turning)
     if turns and not is_zero(together.turning + together.turning.T):
         return DampedModes(linear, together, f"{key}_" if key else "").found()
-    pencil = Pencil(together.stiffness, together.mass, together.exists)
+    in_numbers = have_numbers(together.stiffness, together.mass)
+    pencil = Pencil(together.stiffness, together.mass, together.exists, free_letter("lambda") if in_numbers else "")
     matrices = (together.stiffness, together.turning, together.mass)
     given = {s.name for each in matrices for s in each.free_symbols}
     free = next((name for name in LETTERS if name not in given), LETTERS[0])
@@ -196,19 +200,20 @@ def _frequency(
 
     outcome = _OF_SIGN[root.sign] + ("_repeated" if root.multiplicity > 1 else "")
     drift = _drift(linear, together, root)
+    named = {} if root.has_formula else {"root": root.value.name}
     return establish(
         "modes.frequency",
         scalar(name),
         lambda *_: root_of(turned * root.value),
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
-        routes={"put_back": put_back, "rayleigh": rayleigh, "trace": trace},
-        outcome=outcome,
+        routes={"put_back": put_back, **({"rayleigh": rayleigh} if root.has_formula else {}), "trace": trace},
+        outcome=outcome if root.has_formula else "ordered",
         telling=Telling(
             points_to={"characteristic": characteristic},
-            judged_by={**_judged_by(together), "left": drift.pop("left", ())},
+            judged_by={**_judged_by(together), "left": drift.pop("left", ()), "place": n + 1},
             formulas=told_where_positive(root.value) if root.sign is None else {},
-            named=drift,
+            named={**drift, **named},
         ),
         key=f"{start}frequency_{n + 1}",
         kind="angular speed",

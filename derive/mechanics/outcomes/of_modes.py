@@ -68,7 +68,7 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
     """Whether det(K - lambda M) vanishes there; once, or as often as its slope does too."""
     for numbers in _numbers(facts):
-        polynomial, place = _polynomial(facts, numbers), square.xreplace(numbers)
+        polynomial, place = _polynomial(facts, numbers), explicit(square.xreplace(numbers))
         several = _vanishes_at(polynomial.diff(), place)
         if not _vanishes_at(polynomial, place) or times is not None and several != (times > 1):
             return False
@@ -79,7 +79,7 @@ def _sign_everywhere(value: Expr, facts: Judged) -> int | None:
     """The sign at all points that were tried, if it is one."""
     signs = set()
     for numbers in _numbers(facts):
-        there = value.xreplace(numbers).evalf(30)
+        there = explicit(value.xreplace(numbers)).evalf(30)
         signs.add(0 if is_zero(value) else 1 if there.is_positive else -1 if there.is_negative else None)
     return signs.pop() if len(signs) == 1 else None
 
@@ -93,9 +93,19 @@ def _frequency(sign: int | None, repeated: bool) -> Predicate:
     return is_so
 
 
+def _is_in_order(facts: Judged) -> bool:
+    """Whether as many roots lie below its square as its number says, by Sturm's theorem."""
+    square, place = facts.result**2, facts.inputs["place"]
+    for numbers in _numbers(facts):
+        below = Rational(str(explicit(square.xreplace(numbers)).evalf(40) * (1 - LITTLE)))
+        if _polynomial(facts, numbers).count_roots(sup=below) != place - 1:
+            return False
+    return _is_root(square, facts, 1) and _sign_everywhere(square, facts) == 1
+
+
 def _is_not_negative(facts: Judged) -> bool:
     """Of the two roots of a square the frequency is that which is not negative, wherever it is real."""
-    there = [facts.result.xreplace(numbers).evalf(30) for numbers in _numbers(facts)]
+    there = [explicit(facts.result.xreplace(numbers)).evalf(30) for numbers in _numbers(facts)]
     return not any(value.is_negative or (value / I).is_negative for value in there)
 
 
@@ -166,7 +176,8 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         f"{word}{suffix}": _frequency(sign, repeated)
         for word, sign in (("oscillating", 1), ("growing", -1), ("free", 0), ("conditional", None))
         for suffix, repeated in (("", False), ("_repeated", True))
-    },
+    }
+    | {"ordered": _is_in_order},
     "modes.shape": {
         "in_phase": _of_pair(same=True),
         "opposite": _of_pair(same=False),

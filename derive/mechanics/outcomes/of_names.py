@@ -14,6 +14,7 @@ from sympy import Expr, I, Integer, MatrixBase, Rational, Symbol, cos, diff, oo,
 from derive.algebra.equality import equal
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import TIME, At, Relation, explicit, rate
+from derive.algebra.ordered_roots import OrderedRoot
 from derive.algebra.samples import letters_of, seed_of, value_at
 from derive.mechanics.outcomes.signs import points_as_assumed, same_equation
 from derive.mechanics.outcomes.told import (
@@ -185,6 +186,11 @@ def _nothing_is_left(facts: Judged, drift: Any) -> bool:
     """In a uniform motion along the zero mode nothing is left of the whole equations of motion."""
     left = facts.inputs["left"]
     return drift == 0 and bool(left) and all(is_zero(explicit(each)) for each in left)
+
+
+def _root_under_the_sign(facts: Judged, name: Any) -> bool:
+    """The square of the result is that root and nothing else."""
+    return [each.name for each in (facts.result**2,) if isinstance(each, OrderedRoot)] == [name]
 
 
 def _slope_vanishes_by(facts: Judged, letter: Any) -> bool:
@@ -420,7 +426,7 @@ _TABLE: dict[str, dict[str, Naming]] = {
     "gyroscopic.characteristic": {"trial": _trial(I, "omega")},
     "gyroscopic.motion": {"displacements": _moves_so, "first": _moves_as(0), "second": _moves_as(1)},
     "modes.shape": {"moving": _moves_alone, "drift": _nothing_is_left},
-    "modes.frequency": {"drift": _nothing_is_left},
+    "modes.frequency": {"drift": _nothing_is_left, "root": _root_under_the_sign},
     "oscillations.frequency_squared": {
         "oscillator": _oscillator,
         "inertia": _divided_by,

@@ -41,6 +41,7 @@ from derive.algebra import expressions as ex
 from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expansion import Approach, Expansion, FirstOrder
+from derive.algebra.ordered_roots import OrderedRoot
 from derive.algebra.rounding import Rounded, decimal_text
 from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
@@ -436,6 +437,7 @@ class Notation:
         (ex.Slope, _slope),
         (ex.At, _at),
         (SwingTime, lambda self, expr: self._swing(expr)),
+        (OrderedRoot, lambda self, expr: self.layout(expr.args[2])),
         (ex.Truncated | Expansion | FirstOrder | SwingTimeOfNumbers, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
         (Approach, _approach),
