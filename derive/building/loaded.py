@@ -24,14 +24,22 @@ DERIVING = (
 DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 
 
-def load(root: Path, derives: bool, draws: bool) -> None:
-    """The modules that print a problem, its phrases and templates; those that derive it; and those that draw."""
+def load(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
+    """The modules that print a problem, its phrases and templates; those that derive it; and those that draw.
+
+    The reference of a set is read once for all of its problems.
+    """
     for name in (*PRINTING, *(DERIVING if derives else ()), *(DRAWING if draws else ())):
         import_module(name)
     from derive.page.template import template_folder
     from derive.page.wording import phrases
     from derive.render.printing.templates import compile_templates
 
+    if derives and set_id:
+        from derive.course.reference.statements import reference_of_set
+
+        with suppress(DeriveError):  # which each problem tells
+            reference_of_set(root, set_id)
     with suppress(DeriveError):  # each problem has its complaint of them
         phrases(template_folder(root))
         compile_templates(template_folder(root))

@@ -265,7 +265,8 @@ class _Build:
             return
         if self.anew:  # TeX takes it in while this process loads what derives problems
             self._prepare()
-        load(self.root, derives=len(names) > 1 or bool(self.edits), draws=self.anew or bool(self.edits))
+        several, again = len(names) > 1, bool(self.edits)
+        load(self.root, several or again, self.anew or again, self.set_id if several else "")
         from derive.building.solution import rendered
 
         self._prepare()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping as Table
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from sympy import Expr, Symbol
 
@@ -107,6 +108,12 @@ def reference_path(problem: Problem) -> str:
     return f"problems/{problem.set_id}/reference.yaml"
 
 
+def reference_of_set(root: Path, set_id: str) -> Tree | None:
+    """What the documents of a set state, if there is such a file."""
+    path = f"problems/{set_id}/reference.yaml"
+    return read_yaml(root / path, path) if (root / path).exists() else None
+
+
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
     """The groups about this problem, each as the problem with what it pins, or `Rejected` with every fault.
 
@@ -114,11 +121,10 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
     """
     faults = Faults()
     own = [_own_group(problem, faults)] if problem.reference else []
-    path = reference_path(problem)
-    if not (problem.root / path).exists():
+    node = reference_of_set(problem.root, problem.set_id)
+    if node is None:
         faults.stop()
         return own
-    node = read_yaml(problem.root / path, path)
     if not isinstance(node, Sequence):
         wrong_type(faults, "a reference", "a list of groups, each with `problem`, `given` and `entries`", node)
     ids = problem_ids(problem.root)
