@@ -5,8 +5,8 @@
     a body of n parts    the exponent b of n^b, from 8 parts to 16; aim 2.5
 
 The problems are those of `bench/problems`, and chains and bodies that are described here. Each is derived once in a
-process of its own, importing not counted: the least of two processes. One problem has no closed form, and its time is
-that of the refusal. `derive --root bench check timed` shows how many steps each problem has.
+process of its own, importing not counted: the least of two processes. One problem has neither a closed form nor
+numbers, and its time is that of the refusal. `derive --root bench check timed` shows how many steps each problem has.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from bench.scale import seconds
 FOLDER = Path(__file__).resolve().parent / "problems" / "timed"
 SET = "timed"
 ROUNDS, AIM = 2, 5
-REFUSED = {"chain_of_masses"}  # its frequencies have no closed form
+REFUSED = {"chain_in_letters"}  # its frequencies have no closed form, and it has no numbers
 ORDINALS = (
     *("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"),
     *("ninth", "tenth", "eleventh", "twelfth", "thirteenth", "fourteenth", "fifteenth", "sixteenth"),
