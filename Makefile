@@ -64,6 +64,7 @@ bench: .venv/.runtime
 	@$(PYTHON) -P -m bench.systems
 	@$(PYTHON) -P -m bench.equality
 	@$(PYTHON) -P -m bench.scale
+	@$(PYTHON) -P -m bench.problems
 
 test: .venv/.tests
 	@$(PYTHON) -P -m ruff check --quiet .

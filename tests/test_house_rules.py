@@ -52,7 +52,7 @@ FLOORS = (
 DOORS = {"given": "course", "notebook": "cli", "__main__": "cli"}
 FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
 ENGINE = {name for name in MODULES if name.partition(".")[0] in {"errors", "algebra", "steps", "mechanics", "figures"}}
-PRINTING = {"cli.options", "cli.running", "cli.terminal", "building.doctor"}
+PRINTING = {"cli.options", "cli.running", "cli.streams", "cli.terminal", "building.doctor"}
 VERB_MODULES = sorted(name for name in MODULES if name.startswith("mechanics."))
 DEFINITIONS = {
     "any_angular_velocity",

@@ -52,7 +52,7 @@ def engine_digest(*packages: str) -> str:
 
 @functools.cache
 def _own_modules() -> str:
-    return folder_digest(FOLDER, "*.py")
+    return folder_digest(Path(FOLDER), "*.py")
 
 
 def folder_digest(folder: Path, pattern: str = "*") -> str:

@@ -36,7 +36,7 @@ def recipe_digest(recipe: Recipe) -> str:
 def _templates(root: Path) -> dict[str, str]:
     """Of each template and file of phrases, of the course and of derive itself."""
     found: dict[str, str] = {}
-    for folder in dict.fromkeys(each.resolve() for each in (root, FOLDER, FOLDER.parent)):
+    for folder in dict.fromkeys(each.resolve() for each in (root, Path(FOLDER), Path(FOLDER).parent)):
         for file in sorted((folder / "templates").rglob("*")):
             if file.is_file() and "__pycache__" not in file.parts:
                 within = folder == root.resolve()

@@ -63,8 +63,9 @@ class _Watch:
 
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
-        self.folders = [root / "problems", *(each / "templates" for each in (root, FOLDER, FOLDER.parent))]
-        self.loaded, self.engine = folder_digest(FOLDER, "*.py"), seen_in([FOLDER])
+        self.own = Path(FOLDER)
+        self.folders = [root / "problems", *(each / "templates" for each in (root, self.own, self.own.parent))]
+        self.loaded, self.engine = folder_digest(self.own, "*.py"), seen_in([self.own])
         load(root, derives=True, draws=True)
         self.files: Seen = {}
 
@@ -83,7 +84,7 @@ class _Watch:
             self.shown.wrote(path, time.monotonic() - begun)
 
         try:
-            if folder_digest(FOLDER, "*.py") != self.loaded:
+            if folder_digest(self.own, "*.py") != self.loaded:
                 message = "derive itself has been edited, and what is loaded is derive as it was"
                 raise BuildFailed(Complaint("restart", message, help="end this and start it again"))
             edits = Edits(self._edited, wrote)
@@ -109,7 +110,7 @@ class _Watch:
         while not self._edited():
             time.sleep(EVERY)
             if time.monotonic() - looked > ENGINE_EVERY:
-                looked, before, self.engine = time.monotonic(), self.engine, seen_in([FOLDER])
+                looked, before, self.engine = time.monotonic(), self.engine, seen_in([self.own])
                 if self.engine != before:
                     self.files = {}
 

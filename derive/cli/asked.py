@@ -17,7 +17,7 @@ def found_root(named: str | None) -> Path | None:
     asked = named or os.environ.get("DERIVE_ROOT")
     try:
         here = Path.cwd()
-        candidates = [Path(asked)] if asked else [here, *here.parents, FOLDER.resolve().parent]
+        candidates = [Path(asked)] if asked else [here, *here.parents, Path(FOLDER).resolve().parent]
         return next((folder.resolve() for folder in candidates if _has_problems(folder)), None)
     except FileNotFoundError:
         message = "the folder that you are in is no more"

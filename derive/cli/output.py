@@ -46,7 +46,7 @@ def _is_ours(path: Path) -> bool:
 
 def _belongs_to(path: Path, root: Path) -> bool:
     """Whether a file is part of the course, or of derive."""
-    folders = (root / "problems", root / "templates", FOLDER)
+    folders = (root / "problems", root / "templates", Path(FOLDER))
     return path.name == "Makefile" or any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
 
 

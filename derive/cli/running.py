@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import argparse
-import codecs
 import errno
 import os
 import signal
 import sys
 import traceback
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager
 from importlib import import_module
-from io import StringIO, TextIOWrapper
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
 from derive.building.files import cannot_write, of_system
 from derive.cli.output import deliver
+from derive.cli.streams import silence
 from derive.cli.terminal import complain, tell
 from derive.errors import BuildFailed, Complaint, DeriveError
 
@@ -41,25 +40,6 @@ COMMANDS = {
     "why": "staleness.why",
     "completion": "shells.completion",
 }
-
-
-def read(parse: Callable[[], argparse.Namespace]) -> argparse.Namespace:
-    """What is asked for; if that is shown at once, as the version is, it has to arrive."""
-    _open_streams()
-    shown = StringIO()
-    try:
-        with redirect_stdout(shown):
-            return parse()
-    except SystemExit:
-        try:
-            print(shown.getvalue(), end="", flush=True)
-        except BrokenPipeError:
-            silence(1)
-            raise SystemExit(141) from None
-        except OSError as error:
-            silence(1)
-            raise SystemExit(_told(cannot_write(Path("standard output"), error))) from None
-        raise
 
 
 def exit_code(arguments: argparse.Namespace) -> int:
@@ -106,26 +86,6 @@ def _told(error: DeriveError) -> int:
     tell("")
     complain(error.complaints)
     return error.exit_code
-
-
-def silence(descriptor: int) -> None:
-    """What is still to be written there goes nowhere."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
-
-
-def _open_streams() -> None:
-    """A standard stream that is closed stays so, but no other file may take its place and be written to."""
-    for descriptor, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
-        try:
-            os.fstat(descriptor)
-        except OSError:
-            os.open(os.devnull, mode)  # to write to the second fails, as it should
-    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
-    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):  # pages are UTF-8 too, whatever a terminal without a language shows
-            ascii_only = codecs.lookup(stream.encoding).name == "ascii"
-            stream.reconfigure(encoding="utf-8" if ascii_only else None, errors="backslashreplace")
 
 
 class Ending:

@@ -101,7 +101,7 @@ class StockScript:
     returns: Place
 
 
-def stock_names(folder: Path = FOLDER / "stock") -> tuple[str, ...]:
+def stock_names(folder: Path = Path(FOLDER, "stock")) -> tuple[str, ...]:
     """What `solve:` may name in place of a script."""
     return tuple(sorted(file.stem for file in folder.glob("[a-z]*.py")))
 

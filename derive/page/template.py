@@ -17,7 +17,7 @@ from derive.errors import Complaint, Rejected
 
 def template_folder(root: Path) -> Path:
     """The course's own templates if it has them, else those of the installation."""
-    for folder in (root / "templates", FOLDER / "templates", FOLDER.parent / "templates"):
+    for folder in (each / "templates" for each in (root, Path(FOLDER), Path(FOLDER).parent)):
         if (folder / "phrases" / "en").is_dir():
             return folder
     raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))

@@ -1,11 +1,14 @@
-"""The stand-in course of the tests of commands."""
+"""The stand-in course of the tests of commands, and commands that do nothing."""
 
 from __future__ import annotations
 
+from argparse import Namespace
 from pathlib import Path
 
 import pytest
 from fake_course import Course, stand_in_course
+
+from derive.cli import running
 
 
 @pytest.fixture
@@ -13,3 +16,16 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Course:
     monkeypatch.delenv("DERIVE_ROOT", raising=False)
     monkeypatch.delenv("DERIVE_DEBUG", raising=False)
     return stand_in_course(tmp_path, monkeypatch)
+
+
+@pytest.fixture
+def handed(monkeypatch: pytest.MonkeyPatch) -> list[Namespace]:
+    """What the commands are handed, which then do nothing."""
+    found: list[Namespace] = []
+
+    def take(arguments: Namespace) -> int:
+        found.append(arguments)
+        return 7
+
+    monkeypatch.setattr(running, "exit_code", take)
+    return found

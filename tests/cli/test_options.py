@@ -1,28 +1,18 @@
-"""The options of the command line: defaults, limits, and what the commands are handed."""
+"""The command line: what the commands are handed, wrong usage, help, and how little help loads."""
 
 from __future__ import annotations
 
 import argparse
+import subprocess
+import sys
 from argparse import Namespace
+from collections.abc import Sequence
 
 import pytest
 
-from derive.cli import running
 from derive.cli.options import main, parser_of_commands
 from derive.cli.running import COMMANDS
-
-
-@pytest.fixture
-def handed(monkeypatch: pytest.MonkeyPatch) -> list[Namespace]:
-    """What the commands are handed, which then do nothing."""
-    found: list[Namespace] = []
-
-    def take(arguments: Namespace) -> int:
-        found.append(arguments)
-        return 7
-
-    monkeypatch.setattr(running, "exit_code", take)
-    return found
+from tests.cli.started import PACKAGE
 
 
 def test_a_command_has_its_defaults_and_its_exit_code_is_passed_on(handed: list[Namespace]) -> None:
@@ -30,20 +20,6 @@ def test_a_command_has_its_defaults_and_its_exit_code_is_passed_on(handed: list[
     (found,) = handed
     assert (found.command, found.sets, found.force, found.jobs, found.detail) == ("build", [], False, 0, None)
     assert (found.engine, found.time_limit, found.root) == (None, 120.0, None)
-
-
-def test_options_are_read_wherever_they_stand(handed: list[Namespace]) -> None:
-    main(["--root", "course", "solve", "-o", "-", "hw9/block", "--format", "json", "--detail", "full"])
-    (found,) = handed
-    assert (found.root, found.id, found.output, found.format, found.detail) == (
-        "course",
-        "hw9/block",
-        "-",
-        "json",
-        "full",
-    )
-    main(["check", "hw9", "hw1/one", "-j", "3", "--time-limit", "0.5"])
-    assert (handed[1].ids, handed[1].jobs, handed[1].time_limit) == (["hw9", "hw1/one"], 3, 0.5)
 
 
 @pytest.mark.parametrize(
@@ -72,8 +48,8 @@ def test_what_is_no_command_line_is_wrong_usage(
     assert handed == []
 
 
-def commands() -> dict[str, argparse.ArgumentParser]:
-    (found,) = (a for a in parser_of_commands()._actions if isinstance(a, argparse._SubParsersAction))
+def commands(words: Sequence[str] | None = None) -> dict[str, argparse.ArgumentParser]:
+    (found,) = (a for a in parser_of_commands(words)._actions if isinstance(a, argparse._SubParsersAction))
     return dict(found.choices)
 
 
@@ -110,9 +86,19 @@ def test_each_command_is_listed_and_has_help_of_its_own(
         assert screen([command], capsys, monkeypatch)[0].startswith(f"usage: derive {command}")
 
 
-def test_to_tell_more_and_to_tell_nothing_exclude_each_other(handed: list[Namespace]) -> None:
-    with pytest.raises(SystemExit) as ended:
-        main(["build", "-q", "-v"])
-    assert ended.value.code == 2
-    main(["check", "-q"])
-    assert (handed[0].quiet, handed[0].verbose) == (True, False)
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_help_and_version_load_no_more_than_the_names_of_commands(option: str) -> None:
+    code = (
+        "import sys; from derive.cli.options import main\n"
+        "try: main([sys.argv[1]])\n"
+        "except SystemExit: print(*(name for name in sys.modules if name.startswith('derive')), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-P", "-c", code, option], capture_output=True, text=True, cwd=PACKAGE)
+    assert set(done.stderr.split()) == {"derive", "derive.cli", "derive.cli.options", "derive.cli.streams"}
+    assert "derive" in done.stdout
+
+
+def test_only_the_commands_that_are_named_have_their_options() -> None:
+    with_options = {name for name, each in commands(["--root", "list", "solve", "x"]).items() if len(each._actions) > 1}
+    assert with_options == {"list", "solve"}
+    assert all(len(each._actions) > 1 for each in commands().values())

@@ -1,28 +1,14 @@
-"""A command carried out: bugs, readers that have had enough, nothing heavy for help."""
+"""A command carried out: bugs, slips, readers that have had enough."""
 
 from __future__ import annotations
 
-import shlex
 import subprocess
-import sys
 
 import pytest
 from fake_course import Course
 
 from derive.cli.options import main
-from tests.cli.started import PACKAGE, alone, command
-
-
-def test_help_and_version_import_no_heavy_package() -> None:
-    code = (
-        "import sys; from derive.cli.options import main\n"
-        "try: main([sys.argv[1]])\n"
-        "except SystemExit: print(sorted({'sympy', 'jinja2', 'yaml'} & set(sys.modules)), file=sys.stderr)"
-    )
-    for option in ("--help", "--version"):
-        done = subprocess.run([sys.executable, "-P", "-c", code, option], capture_output=True, text=True, cwd=PACKAGE)
-        assert done.stderr == "[]\n"
-        assert "derive" in done.stdout
+from tests.cli.started import alone, command
 
 
 def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
@@ -80,33 +66,6 @@ def test_a_slip_is_met_with_one_message_and_nothing_is_done(
     assert (code, output) == (2, "")
     assert told in complaint and "Traceback" not in complaint and complaint.count("error") == 1
     assert {*course.root.rglob("*")} == before
-
-
-@pytest.mark.parametrize("shell", ["{} --version > /dev/full", "{} --help > /dev/full", "{} solve --help > /dev/full"])
-def test_what_is_shown_at_once_has_to_arrive_too(course: Course, shell: str) -> None:
-    run = in_a_shell(course, shell)
-    assert run.returncode == 1
-    assert run.stderr == "error[cannot-write]: cannot write `standard output`: the disk is full\n"
-
-
-def in_a_shell(course: Course, shell: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    program = shlex.join(command())
-    run = ["bash", "-c", shell.format(program)]
-    return subprocess.run(run, env={**alone(course), **environment}, capture_output=True, encoding="utf-8")
-
-
-@pytest.mark.parametrize("shell", ["{} list", "{} solve hw1/one", "{} explain hw1/one"])
-def test_letters_of_all_alphabets_are_shown_where_the_system_has_no_language(course: Course, shell: str) -> None:
-    course.problem("one", "ω and é")
-    without = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "PYTHONIOENCODING": ""}
-    run = in_a_shell(course, shell, **without)
-    assert (run.returncode, run.stderr) == (0, "")
-    assert "ω and é" in run.stdout
-
-
-def test_what_a_terminal_cannot_show_is_written_by_its_number(course: Course) -> None:
-    course.problem("one", "ω and x")
-    assert r"\u03c9 and x" in in_a_shell(course, "{} list", PYTHONIOENCODING="latin-1").stdout
 
 
 def test_a_reader_that_has_had_enough_is_no_error(course: Course) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from derive.cli.options import EVIDENCE
+from derive.cli.command_options import EVIDENCE
 from derive.course.names import DOCUMENTS, NAME, EvidenceShown
 
 

@@ -70,7 +70,7 @@ def test_a_help_for_scripts_is_said_in_the_keys_of_a_file() -> None:
 
 
 def _modules(room: str) -> Iterable[Path]:
-    return (FOLDER / room).rglob("*.py")
+    return Path(FOLDER, room).rglob("*.py")
 
 
 def test_the_sign_of_a_number_stays_outside_its_letter_and_a_size_has_none() -> None:

@@ -6,7 +6,8 @@ import argparse
 from contextlib import suppress
 
 from derive.cli.asked import problem_id_of, root_of
-from derive.cli.running import ending, silence
+from derive.cli.running import ending
+from derive.cli.streams import silence
 
 
 def preview_pages(arguments: argparse.Namespace) -> int:

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from fake_course import Course
 
-from derive.cli.options import SHELLS, main
+from derive.cli.command_options import SHELLS
+from derive.cli.options import main
 from tests.cli.started import alone
 
 ASKED = r"""

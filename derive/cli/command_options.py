@@ -1,0 +1,218 @@
+"""The operands and options of each command. `derive --help` names the commands alone, and does not load this module."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable
+
+from derive.course.names import PAPERS
+from derive.render.formats import TYPESET, formats
+
+DETAILS = ("brief", "standard", "full")
+EVIDENCE = ("none", "end", "margin")
+SHELLS = ("bash", "zsh", "fish")
+_TIME_LIMIT = 120.0
+
+_WHERE = """\
+Print what has a shell complete names and options. It belongs in
+  ~/.bashrc                   eval "$(derive completion bash)"
+  ~/.zshrc, behind compinit   eval "$(derive completion zsh)"
+  ~/.config/fish/config.fish  derive completion fish | source"""
+
+
+def add_options(name: str, command: argparse.ArgumentParser) -> None:
+    """Give the parser of a command its operands and options."""
+    _OPTIONS[name](command)
+
+
+# --- each command -----------------------------------------------------------------------------------------------------
+
+
+def _new(new: argparse.ArgumentParser) -> None:
+    named(new.add_argument("id", metavar="SET/PROBLEM", help="what it shall be called; the set may be new too"), "new")
+    like = new.add_argument(
+        "--like",
+        default="system",
+        metavar="LIKE",
+        help="system (default), body, rotation, script, or a problem: hw9/top",
+    )
+    named(like, "like")
+
+
+def _preview(preview: argparse.ArgumentParser) -> None:
+    named(preview.add_argument("id", metavar="ID|SET", help="such as hw9/block; Ctrl-C ends it"), "ids and sets")
+    preview.add_argument("--port", type=_port, default=8311, metavar="N", help="of this machine (default 8311; 0: any)")
+    preview.add_argument("--open", action="store_true", help="open the browser too")
+    _detail(preview)
+    _time_limit(preview)
+    preview.add_argument("-q", "--quiet", action="store_true", help="tell the address and what is wrong, nothing else")
+
+
+def _build(build: argparse.ArgumentParser) -> None:
+    named(build.add_argument("sets", nargs="*", metavar="SET|ID", help="default: every set"), "ids and sets")
+    how = build.add_mutually_exclusive_group()
+    how.add_argument("--force", action="store_true", help="do everything again")
+    how.add_argument("--watch", action="store_true", help="build again at each edit, until Ctrl-C")
+    build.add_argument("--only", type=_papers, default=(), metavar="PAPERS", help=", ".join(PAPERS))
+    _detail(build)
+    _evidence(build)
+    _engine(build)
+    _time_limit(build)
+    _jobs_and_messages(build)
+
+
+def _check(check: argparse.ArgumentParser) -> None:
+    named(check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem"), "ids and sets")
+    check.add_argument("--report", action="store_true", help="also build/SET/report.pdf: how each was checked")
+    _engine(check)
+    _time_limit(check)
+    _jobs_and_messages(check)
+
+
+def _solve(solve: argparse.ArgumentParser) -> None:
+    named(solve.add_argument("id", metavar="ID", help="such as hw9/block"), "ids")
+    typed = sorted([*formats(), *TYPESET])
+    solve.add_argument("--format", choices=typed, default="text", metavar="F", help=", ".join(typed))
+    solve.add_argument("-o", dest="output", metavar="FILE", help="where to write; - is standard output")
+    _detail(solve)
+    _evidence(solve)
+    _engine(solve)
+    _time_limit(solve)
+
+
+def _explain(explain: argparse.ArgumentParser) -> None:
+    named(explain.add_argument("id", metavar="ID", help="such as hw9/block"), "ids")
+    key = explain.add_argument("key", nargs="?", metavar="STEP", help="the key of a step (default: list them)")
+    named(key, "steps")
+    _text_or_json(explain)
+    _time_limit(explain)
+
+
+def _diff(diff: argparse.ArgumentParser) -> None:
+    named(diff.add_argument("id", metavar="ID|SET", help="such as hw9/block"), "ids and sets")
+    diff.add_argument("--rev", metavar="REVISION", help="compare with this revision of git (default: the last build)")
+    _text_or_json(diff)
+    _detail(diff)
+    _time_limit(diff)
+
+
+def _why(why: argparse.ArgumentParser) -> None:
+    named(why.add_argument("what", metavar="FILE|ID|SET", help="a page below build/, a problem, a set"), "outputs")
+    _detail(why)
+    _evidence(why)
+    _engine(why)
+
+
+def _list(listed: argparse.ArgumentParser) -> None:
+    of = listed.add_argument("set", nargs="?", metavar="SET|ID", help="only those of a set; with --answers, a problem")
+    named(of, "ids and sets")
+    listed.add_argument("--answers", action="store_true", help="every name that parts of a problem may ask for")
+    named(listed.add_argument("--topic", metavar="TOPIC", help="only those of a topic, a folder in a set"), "topics")
+    _time_limit(listed)
+
+
+def _schema(schema: argparse.ArgumentParser) -> None:
+    sorts = ("problem", "set", "reference")
+    schema.add_argument("sort", nargs="?", choices=sorts, metavar="SORT", help=f"print one only: {', '.join(sorts)}")
+
+
+def _clean(clean: argparse.ArgumentParser) -> None:
+    named(clean.add_argument("sets", nargs="*", metavar="SET", help="default: every set"), "sets")
+    clean.add_argument("--cache", action="store_true", help="only what is kept for the next build; documents stay")
+
+
+def _completion(completion: argparse.ArgumentParser) -> None:
+    completion.add_argument("shell", choices=SHELLS, metavar="SHELL", help=", ".join(SHELLS))
+    completion.description = _WHERE
+
+
+# --- options of several commands --------------------------------------------------------------------------------------
+
+
+def _detail(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--detail", choices=DETAILS, help="how much algebra")
+
+
+def _evidence(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--evidence", choices=EVIDENCE, help="how much is told of the checks")
+
+
+def _engine(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--engine", metavar="NAME", help="of TeX; `derive doctor` lists them")
+
+
+def _time_limit(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="for one problem")
+
+
+def _text_or_json(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--format", choices=("text", "json"), default="text", help="(default text)")
+
+
+def _jobs_and_messages(command: argparse.ArgumentParser) -> None:
+    command.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
+    told = command.add_mutually_exclusive_group()
+    told.add_argument("-v", "--verbose", action="store_true", help="tell each piece that is done, with its time")
+    told.add_argument("-q", "--quiet", action="store_true", help="tell what is wrong, and nothing else")
+
+
+_OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
+    "new": _new,
+    "preview": _preview,
+    "build": _build,
+    "check": _check,
+    "solve": _solve,
+    "explain": _explain,
+    "diff": _diff,
+    "why": _why,
+    "list": _list,
+    "schema": _schema,
+    "clean": _clean,
+    "doctor": _engine,
+    "completion": _completion,
+}
+
+# --- what an option may be --------------------------------------------------------------------------------------------
+
+
+def named(action: argparse.Action, names: str) -> None:
+    """Have a shell complete it by names of the course; which they are, `derive/cli/completing.py` knows."""
+
+    def completer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> Iterable[str]:
+        from derive.cli.completing import offered
+
+        return offered(names, prefix, parsed_args.root, getattr(parsed_args, "id", None) or "")
+
+    setattr(action, "completer", completer)  # noqa: B010  where argcomplete looks for it
+
+
+def _positive(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds < float("inf"):
+        raise ValueError(text)
+    return seconds
+
+
+def _count(text: str) -> int:
+    if int(text) < 1:
+        raise ValueError(text)
+    return int(text)
+
+
+def _papers(text: str) -> tuple[str, ...]:
+    papers = tuple(text.split(","))
+    if odd := [paper for paper in papers if paper not in PAPERS]:
+        message = f"there is no paper `{odd[0]}`: name some of {', '.join(PAPERS)}, with commas between them"
+        raise argparse.ArgumentTypeError(message)
+    return papers
+
+
+def _port(text: str) -> int:
+    if not 0 <= int(text) < 65536:
+        raise ValueError(text)
+    return int(text)
+
+
+# argparse names the type in its message
+_positive.__name__, _port.__name__ = "time limit", "port"
+_count.__name__ = "count"

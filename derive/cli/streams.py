@@ -1,0 +1,62 @@
+"""The standard streams as a command finds them, and what is shown before any command is carried out."""
+
+from __future__ import annotations
+
+import argparse
+import codecs
+import os
+import sys
+from collections.abc import Callable
+from contextlib import redirect_stdout
+from io import StringIO, TextIOWrapper
+
+
+def read(parse: Callable[[], argparse.Namespace]) -> argparse.Namespace:
+    """What is asked for; if that is shown at once, as the version is, it has to arrive."""
+    _open_streams()
+    shown = StringIO()
+    try:
+        with redirect_stdout(shown):
+            return parse()
+    except SystemExit:
+        try:
+            print(shown.getvalue(), end="", flush=True)
+        except BrokenPipeError:
+            silence(1)
+            raise SystemExit(141) from None
+        except OSError as error:
+            silence(1)
+            raise SystemExit(_unwritten(error)) from None
+        raise
+
+
+def _unwritten(error: OSError) -> int:
+    """The exit code after the message that standard output cannot be written."""
+    from pathlib import Path
+
+    from derive.building.files import cannot_write
+    from derive.cli.terminal import complain
+
+    failed = cannot_write(Path("standard output"), error)
+    complain(failed.complaints)
+    return failed.exit_code
+
+
+def silence(descriptor: int) -> None:
+    """What is still to be written there goes nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
+
+
+def _open_streams() -> None:
+    """A standard stream that is closed stays so, but no other file may take its place and be written to."""
+    for descriptor, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, mode)  # to write to the second fails, as it should
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # pages are UTF-8 too, whatever a terminal without a language shows
+            ascii_only = codecs.lookup(stream.encoding).name == "ascii"
+            stream.reconfigure(encoding="utf-8" if ascii_only else None, errors="backslashreplace")
