@@ -13,10 +13,12 @@ from tests.courses import ROOT
 from tests.witness.systems import PENDULUM, g, m
 
 WITNESS = sorted((ROOT / "derive" / "witness").glob("*.py"))
-# The letters of coordinates and rates, what a node stands for, the range of a letter, and the words of a verdict.
+# The letters of coordinates and rates, what a node stands for, the range of a letter, and the words of a verdict. A root
+# in order is a node that the witness works out by NumPy.
 ALLOWED = {
     "derive.algebra.equality": {"Grade", "Verdict"},
     "derive.algebra.expressions": {"TIME", "Relation", "explicit", "rate"},
+    "derive.algebra.ordered_roots": {"OrderedRoot"},
     "derive.algebra.ranges": {"range_of"},
     "derive.steps.outcomes": {"Judged"},
     "derive.steps.step": {"Fact", "Quantity"},
