@@ -27,16 +27,20 @@ _WATCHDOG = "Timeout ("  # with this `faulthandler` begins what it writes then
 @contextmanager
 def limited(seconds: float, trace: int) -> Iterator[None]:
     """Work inside may take so long; where the system ends it, the lines that it is in are written to `trace`."""
-    used = time.process_time()
+    used, told = time.process_time(), False
 
-    def stop(*_: object) -> NoReturn:
-        raise OutOfTime
+    def stop(*_: object, waited: bool = False) -> NoReturn:
+        nonlocal told
+        if told:  # and it went on
+            signal.raise_signal(signal.SIGVTALRM)
+        told = True
+        raise OutOfTime(waited)
 
     def look(*_: object) -> None:
         nonlocal used
         used, before = time.process_time(), used
         if used - before < IDLE * seconds:
-            raise OutOfTime(waited=True)
+            stop(waited=True)
 
     handlers = {signal.SIGPROF: stop, signal.SIGALRM: look}
     previous = {signum: signal.signal(signum, handler) for signum, handler in handlers.items()}

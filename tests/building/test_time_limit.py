@@ -57,6 +57,15 @@ def test_work_that_only_waits_is_said_to_wait() -> None:
     assert stopped(lambda: time.sleep(60))[0].message == "`x` waited for over 1 s"
 
 
+def test_work_that_waits_and_catches_all_is_ended_too() -> None:
+    def waits() -> None:
+        while True:
+            with suppress(BaseException):
+                time.sleep(60)
+
+    assert stopped(waits)[1] < 10
+
+
 def test_a_busy_machine_costs_no_work_its_time() -> None:
     """Half a second of the processor may take more than 0.7 s by the clock."""
 
