@@ -13,8 +13,8 @@ from tests.courses import ROOT
 from tests.witness.systems import PENDULUM, g, m
 
 WITNESS = sorted((ROOT / "derive" / "witness").glob("*.py"))
-# The letters of coordinates and rates, what a node stands for, the range of a letter, and the words of a verdict. A root in
-# order is a node that the witness works out by NumPy.
+# The letters of coordinates and rates, what a node stands for, the range of a letter, and the words of a verdict. NumPy
+# works out a root in order here.
 ALLOWED = {
     "derive.algebra.equality": {"Grade", "Verdict"},
     "derive.algebra.expressions": {"TIME", "Relation", "explicit", "rate"},
