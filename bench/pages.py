@@ -125,7 +125,7 @@ def in_a_worker(work: Callable[[], None]) -> Callable[[], None]:
 
 def sets(tree: Path, folder: Path) -> dict[str, tuple[float, float]]:
     """The seconds of HTML and of PDF, with what they rest on kept and without."""
-    load(tree, draws=True)
+    load(tree, derives=True, draws=True)
     caches = Cache(folder / "html"), Cache(folder / "pdf")
     works = [in_a_worker(partial(make, tree, cache)) for make, cache in zip((html, pdf), caches, strict=True)]
     cold = [seconds(work, rounds=1) for work in works]

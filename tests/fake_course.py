@@ -61,6 +61,11 @@ def rendered(
         raise ZeroDivisionError("nobody thought of that")
     if said == "die":
         os.kill(os.getpid(), signal.SIGKILL)
+    if said == "replaced":  # by somebody else, while it is derived
+        successor = root / "successor"
+        successor.write_text("its successor")
+        os.utime(successor, (0, 0))
+        os.replace(successor, root / path)
     if said == "print":
         print("chatter of the script")
     warnings = (Complaint("unshown", "`spin` is never shown", severity="warning"),) if said == "warn" else ()

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from derive.building.named import set_folder
 from derive.building.scratch import Scratch
-from derive.building.tex import chosen_engine, typeset
+from derive.building.tex import by_the_clock, chosen_engine, typeset
 from derive.building.workers import Job, done
 from derive.course.names import REPORT
 from derive.course.problem_set import ProblemSet, problem_set
@@ -20,7 +20,7 @@ def typeset_alone(outputs: Path, name: str, tex: str, files: Files, engine: str 
     with Scratch() as folder:
         target = Path(folder) / f"{name}.pdf"
         work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", beside=files)
-        done(Job(f"the pages of `{outputs.name}/{name}`", work, limit + 10))
+        done(Job(f"the pages of `{outputs.name}/{name}`", work, by_the_clock(limit)))
         return target.read_bytes()
 
 

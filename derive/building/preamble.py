@@ -28,6 +28,7 @@ __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 DIFFERS = "%% derive: from here on documents differ\n"
 NAME = "preamble"  # of the format in the folder where TeX runs
 PACKED = b"\x1f\x8b"
+ROOM = 64 * 1024 * 1024  # a format takes a third of it
 CANNOT = b""  # instead of a format: this engine cannot dump this preamble, and need not be asked again
 
 Environment = Mapping[str, str]
@@ -64,7 +65,8 @@ def without_preamble(
         made = cache.recalled(key)
         if made is None:
             made = _dumped(above, [engine, "-ini", *options], environment, place)
-            cache.keep(key, made)
+            if made != CANNOT or shutil.disk_usage(place).free > ROOM:  # else the disk may have been the reason
+                cache.keep(key, made)
         if made == CANNOT:
             return None
         own.write_bytes(made)

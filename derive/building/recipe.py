@@ -5,6 +5,7 @@ Each ingredient has a name that somebody who is told of it knows, and a digest o
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from derive import FOLDER
 from derive.building.cache import PACKAGES, digest, engine_digest, file_digest, package_version
 
 MODULES = "the modules of derive"
+EDITED = "edited during the build"  # instead of a digest
 OPTIONS = DETAIL, EVIDENCE, PAPERS, ENGINE = "--detail", "--evidence", "--only", "--engine"
 OWN = "templates of derive"
 
@@ -33,10 +35,35 @@ def recipe_digest(recipe: Recipe) -> str:
     return digest(*(part for name in sorted(recipe) for part in (name, recipe[name])))
 
 
+def edited_since(root: Path, time: int) -> bool:
+    """Whether a module of derive, a template or a phrase was written since that time in nanoseconds, if only to what it
+    was before."""
+    below = [str(folder / "templates") for folder in _folders(root)]
+    return any(_has_changed(top, time) for top in (FOLDER, *below) if os.path.isdir(top))
+
+
+def _has_changed(folder: str, time: int) -> bool:
+    """Whether that is so of a file in the folder, or in one within it."""
+    try:
+        with os.scandir(folder) as entries:
+            return any(
+                _has_changed(entry.path, time) if entry.is_dir() else entry.stat().st_ctime_ns > time
+                for entry in entries
+                if entry.name != "__pycache__"
+            )
+    except FileNotFoundError:  # a file that an editor has just put another one in the place of
+        return True
+
+
+def _folders(root: Path) -> list[Path]:
+    """Those that may have templates: the course, the package, and the checkout that it is in."""
+    return list(dict.fromkeys(each.resolve() for each in (root, Path(FOLDER), Path(FOLDER).parent)))
+
+
 def _templates(root: Path) -> dict[str, str]:
     """Of each template and file of phrases, of the course and of derive itself."""
     found: dict[str, str] = {}
-    for folder in dict.fromkeys(each.resolve() for each in (root, Path(FOLDER), Path(FOLDER).parent)):
+    for folder in _folders(root):
         for file in sorted((folder / "templates").rglob("*")):
             if file.is_file() and "__pycache__" not in file.parts:
                 within = folder == root.resolve()

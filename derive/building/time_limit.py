@@ -47,7 +47,7 @@ def limited(seconds: float, trace: int) -> Iterator[None]:
     faulthandler.register(signal.SIGVTALRM, trace, all_threads=False, chain=True)  # and then it ends this process
     faulthandler.dump_traceback_later(PATIENCE * (seconds + 6), exit=True, file=trace)
     signal.setitimer(signal.ITIMER_PROF, seconds)
-    signal.setitimer(signal.ITIMER_REAL, seconds, seconds)
+    signal.setitimer(signal.ITIMER_REAL, max(seconds, 1), max(seconds, 1))
     signal.setitimer(signal.ITIMER_VIRTUAL, seconds + GRACE)
     try:
         yield

@@ -188,7 +188,7 @@ def named(action: argparse.Action, names: str) -> None:
 
 def _positive(text: str) -> float:
     seconds = float(text)
-    if not 0 < seconds < float("inf"):
+    if not 0 < seconds < 1e6:
         raise ValueError(text)
     return seconds
 

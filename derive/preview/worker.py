@@ -21,6 +21,7 @@ from functools import cache
 from pathlib import Path
 from typing import IO, Any
 
+from derive.building.cache import engine_digest
 from derive.building.loaded import load
 from derive.building.time_limit import limited
 from derive.building.workers import confine, job_of, told_to, too_long, trail_of
@@ -34,6 +35,8 @@ def main(arguments: Sequence[str]) -> None:
     confine(lifeline, trace, memory)
     os.dup2(2, 1)  # what a script prints is for the person at the terminal, and no answer
     told = os.fdopen(answers, "w", encoding="utf-8")
+    for packages in (("sympy", "mpmath"), ("matplotlib",)):
+        engine_digest(*packages)  # of the modules as they are now, before they are loaded
     load(root, derives=True, draws=False)
     for question in os.fdopen(questions, encoding="utf-8"):
         asked = json.loads(question)

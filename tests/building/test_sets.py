@@ -134,12 +134,36 @@ def test_a_reference_that_appears_is_a_change(course: Course) -> None:
 
 
 def test_a_file_edited_while_it_is_built_is_read_again(course: Course) -> None:
+    """Also if what takes its place has an old time, as after `mv` or `rsync -a`."""
+    course.problem("one", "replaced")
+    build(course)
+    assert "replaced" in (course.outputs / "one.txt").read_text()
+    course.derived()
+    build(course)
+    assert course.derived() == ["hw1/one None"]
+    assert "its successor" in (course.outputs / "one.txt").read_text()
+
+
+def test_a_file_with_a_time_in_the_future_is_read_once(course: Course) -> None:
     future = time.time() + 60
     os.utime(course.folder / "one.yaml", (future, future))
     build(course)
     course.derived()
     build(course)
-    assert course.derived() == ["hw1/one None"]
+    assert course.derived() == []
+
+
+def test_what_is_made_while_a_template_is_edited_is_made_again(course: Course, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also if the template is as before when the next build looks at it."""
+    with monkeypatch.context() as patched:
+        patched.setattr("derive.building.sets.edited_since", lambda *_: True)
+        build(course)
+    assert not (course.outputs / ".built").exists()
+    course.derived()
+    build(course)
+    assert course.derived() == ["hw1/one None", "hw1/two None"]
+    build(course)
+    assert course.derived() == []
 
 
 def test_a_failing_problem_keeps_its_outputs_and_stops_no_other(course: Course) -> None:

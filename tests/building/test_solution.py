@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Collection
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from derive.building import solution
+from derive.building.cache import Cache
 from derive.building.solution import Rendered, rendered
 from derive.errors import Complaint, Rejected
 from tests.courses import ROOT, course_in, rendered_once
@@ -53,6 +56,27 @@ def refused(folder: Path, form: str) -> Complaint:
         solved(folder, f"    form: {form}\n")
     (complaint,) = caught.value.complaints
     return complaint
+
+
+def test_steps_are_not_kept_if_their_script_was_edited_while_they_were_derived(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They are those of a script that is not there any more."""
+    solved(tmp_path)
+    script, cache, derivations = tmp_path / "problems" / "set" / "pendulum.py", Cache(tmp_path / "kept"), []
+    derive_it = solution.derived
+
+    def derived_and_edited(*given: Any) -> Any:
+        found = derive_it(*given)
+        derivations.append(found)
+        if len(derivations) == 1:
+            script.write_text(script.read_text() + "# edited\n")
+        return found
+
+    monkeypatch.setattr(solution, "derived", derived_and_edited)
+    for derived_so_far in (1, 2, 2):
+        rendered(tmp_path, "set/pendulum", cache=cache)
+        assert len(derivations) == derived_so_far
 
 
 def test_a_number_that_is_only_named_has_the_unit_of_its_dimension(tmp_path: Path) -> None:
