@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
-from sympy import Expr, Integer, Rational, cos, sin, sqrt, symbols
+from random import Random
 
-from derive.algebra.coefficients import Outside, coefficients, is_multiplied_out
+import pytest
+from sympy import Add, Expr, Integer, Mul, Rational, Symbol, cos, expand, sin, sqrt, symbols
+
+from derive.algebra.coefficients import Expanded, Outside, coefficients, is_multiplied_out
 from derive.algebra.normal_form import vanishes
 
 a, b, c = symbols("a b c", positive=True)
@@ -77,3 +79,17 @@ def test_what_is_no_polynomial_is_left_to_others(value: Expr) -> None:
 def test_sums_of_products_are_told_from_what_is_to_be_multiplied_out() -> None:
     assert is_multiplied_out(a**2 * sin(p) / 3 - b + 1)
     assert not any(map(is_multiplied_out, (a * (b + c), (a + b) ** 2, 1 / a, sqrt(a), sin(2 * p))))
+
+
+def test_terms_are_put_together_as_sympy_itself_has_them() -> None:
+    letters = [*symbols("x y z a_1 rho R_10 R_2", positive=True), Symbol("theta"), cos(Symbol("theta"))]
+    drawn = Random(2026)
+    for _ in range(150):
+        factors = [drawn.choice(letters) ** drawn.randint(0, 3) for _ in range(12)]
+        parts = [
+            Mul(*drawn.sample(factors, 3)) * Rational(drawn.randint(-6, 6), drawn.choice([1, 2, 3])) for _ in range(5)
+        ]
+        ring, value = Expanded(), expand(Add(*parts))
+        form = ring.form(value)
+        found = ring.expression(form.terms, form.below)
+        assert (found, found.func, found.args) == (value, value.func, value.args)
