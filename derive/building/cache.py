@@ -107,7 +107,7 @@ class Cache:
             except BuildFailed as refused:  # the next build has more to do, and this one its answer
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
-    def let_go(self) -> None:
+    def evict(self) -> None:
         """Let go what was used longest ago, if there is too much; once for a build, for it lists all that is there."""
         if self.folder is None or not self.folder.is_dir():
             return

@@ -215,7 +215,7 @@ class _Build:
             finally:
                 # An interrupted build saves what it has finished, and is not complete.
                 self._keep(self.manifest.save)
-                self.cache.let_go()
+                self.cache.evict()
 
     def _papers_told(self) -> str:
         """What is made of each problem besides its solution."""

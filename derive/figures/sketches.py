@@ -17,6 +17,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, co
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis, AxisOfRotation, PointMark, Weight
+from derive.figures.completeness import is_whole
 from derive.figures.contacts import contact_marks
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
@@ -44,7 +45,6 @@ from derive.figures.tops import stance_values
 from derive.figures.touching import Touching
 from derive.figures.turning import angle_marks, downwards, turning_marks
 from derive.figures.velocities import Moment, blow_marks, is_of_the_moment, launch_marks, moment_drawn
-from derive.figures.wholeness import is_whole
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import Central, Particle, System
 

@@ -51,7 +51,7 @@ def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
     keeps = verb.__name__ in KEEPING
 
     @functools.wraps(verb)
-    def looked_at(*given: Any, **named: Any) -> Any:
+    def wrapper(*given: Any, **named: Any) -> Any:
         wanted = _hints(verb)
         try:
             arguments = signature.bind(*given, **named).arguments
@@ -76,7 +76,7 @@ def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
             late.doing.append(_told_of_call(verb.__name__, arguments))
             raise
 
-    return looked_at
+    return wrapper
 
 
 def _told_of_call(verb: str, arguments: Mapping[str, Any]) -> str:

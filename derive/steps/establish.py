@@ -81,14 +81,14 @@ class Lines:
 
 
 @dataclass(frozen=True)
-class Telling:
+class PhraseData:
     """What the sentence of a step has besides its chain, and what its outcome is judged by.
 
     words       name -> key of a term that phrases put into words ("about": "corner")
     formulas    role -> a formula that only the sentence has, with the same by another way
     named       role -> a letter or a place that only the sentence names: it has no other way, and a predicate judges it
     points_to   role -> a parent that the sentence names, by its letter or its number
-    judged_by   what else the outcome is judged by, besides the result and the inputs
+    outcome_data   what else the outcome is judged by, besides the result and the inputs
     stands_for  keys that answers may ask for although in this case there is only this step
     """
 
@@ -96,7 +96,7 @@ class Telling:
     formulas: Mapping[str, tuple[Any, Any]] = field(default_factory=dict)
     named: Mapping[str, Any] = field(default_factory=dict)
     points_to: Mapping[str, Quantity] = field(default_factory=dict)
-    judged_by: Mapping[str, Any] = field(default_factory=dict)
+    outcome_data: Mapping[str, Any] = field(default_factory=dict)
     stands_for: Sequence[str] = ()
 
     @property
@@ -139,7 +139,7 @@ def establish(
     routes: Mapping[str, Route] | None = None,
     outcome: Callable[[Any], str] | str = GENERIC,
     lines: Lines = Lines(),
-    telling: Telling = Telling(),
+    phrase_data: PhraseData = PhraseData(),
     scope: Scope = Scope(),
     parents: Sequence[Quantity] = (),
     facts: Sequence[Fact] = (),
@@ -163,7 +163,7 @@ def establish(
     _check_names(key, list(quantities.values()))
     together = united(key, [(q.key, q.subject) for q in quantities.values()], scope.differ, same_value)
     body = (scope.about.body if isinstance(scope.about, Subject) else None) or together.body
-    plain_symbol, words, called = symbol, _told_centre(telling.words, body), str(getattr(body, "called", ""))
+    plain_symbol, words, called = symbol, _told_centre(phrase_data.words, body), str(getattr(body, "called", ""))
     if called:
         key, symbol = with_name(called, key, symbol)
         words = {"part": called, **words}
@@ -188,17 +188,17 @@ def establish(
     )
     evidence += rests
     evidence += evidence_of_routes(key, rule, result, routes or {})
-    _check_told(key, telling.formulas)
+    _check_told(key, phrase_data.formulas)
     _check_words(key, words)
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
     subject = scope.around(together, result)
     chosen = outcome(result) if callable(outcome) else outcome
-    values = {**dict(zip(inputs, given, strict=True)), **telling.told, **telling.judged_by}
-    _check_pointed(key, telling.points_to)
-    judged = Judged(result, values, {**quantities, **telling.points_to}, plain_symbol, subject, words)
+    values = {**dict(zip(inputs, given, strict=True)), **phrase_data.told, **phrase_data.outcome_data}
+    _check_pointed(key, phrase_data.points_to)
+    judged = Judged(result, values, {**quantities, **phrase_data.points_to}, plain_symbol, subject, words)
     _check_outcome(key, rule, chosen, judged, may_be_zero=callable(outcome))
-    _check_named(key, rule, judged, telling.named)
+    _check_named(key, rule, judged, phrase_data.named)
     _check_handed_on(key, judged, facts)
     step = Step(
         key=key,
@@ -206,13 +206,13 @@ def establish(
         symbol=symbol,
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
-        roles=tuple((role, _called(q)) for role, q in {**inputs, **telling.told, **telling.points_to}.items()),
+        roles=tuple((role, _called(q)) for role, q in {**inputs, **phrase_data.told, **phrase_data.points_to}.items()),
         outcome=chosen,
         evidence=tuple(evidence),
         kind=kind,
         words=tuple(words.items()),
         coordinates=tuple({**coordinates_in(result), **scope.coordinates}.items()),
-        stands_for=tuple(telling.stands_for),
+        stands_for=tuple(phrase_data.stands_for),
         names=names_in([symbol, *(form.expr for form in chain)], bindings),
         motion=tuple(lines.motion.items()),
         law_at=_place_of_verb(sys._getframe(1)),

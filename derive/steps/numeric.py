@@ -44,7 +44,7 @@ from derive.algebra.samples import value_at
 from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Fact, Form, Level, Quantity
 
 DIGITS = 20  # in which an exact value and the one taken anew agree
@@ -132,10 +132,10 @@ def value_of(
         {},
         routes={"floats": floats},
         outcome=_outcome(_bent(answer, amounts).get("curvature"), bool(letters)),
-        telling=Telling(
+        phrase_data=PhraseData(
             words={**({"case": case} if case else {}), **given.words},
             named=given.named,
-            judged_by={"letters": letters, **_bent(answer, amounts), **given.judged_by},
+            outcome_data={"letters": letters, **_bent(answer, amounts), **given.outcome_data},
         ),
         scope=Scope(about=answer.subject, case_of=answer),
         key=key or f"{answer.key}_value",
@@ -181,9 +181,9 @@ def _period_of(
         {},
         routes={"floats": by_gauss},
         outcome="integrated",
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"case": case} if case else {},
-            judged_by={"letters": time.args[1], "integral": whole.time, "numbers": time.args[2]},
+            outcome_data={"letters": time.args[1], "integral": whole.time, "numbers": time.args[2]},
         ),
         scope=Scope(about=series.subject, case_of=series),
         key=key or f"{series.key}_value",
@@ -245,11 +245,11 @@ def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: i
 
 def _given_beside(
     condition: Quantity, amounts: Mapping[Symbol, Amount], unit: tuple[str, Expr], figures: int
-) -> Telling:
+) -> PhraseData:
     """The number that the letter of a condition has, and whether that fulfils it: S > 23.55 rad/s, and S = 900 rpm."""
     relation = condition.value
     if not isinstance(relation, Relation) or relation.mark not in {*FULFILLED} - {"="} or relation.left not in amounts:
-        return Telling()
+        return PhraseData()
     at = {letter: explicit(amount) for letter, amount in amounts.items()}
     difference = explicit(relation.residual).subs(at)
     mark = "=" if vanishes(difference) else ">" if difference.is_positive else "<"
@@ -259,10 +259,10 @@ def _given_beside(
         Amount(number, name, factor) if number.is_Integer and name else _with_unit(at[relation.left], *unit, figures)
     )
     told = Relation(relation.left, "=", written)
-    return Telling(
+    return PhraseData(
         words={"seen": "fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled"},
         named={"given": told},
-        judged_by={"condition": Relation(at[relation.left], relation.mark, explicit(relation.right).subs(at))},
+        outcome_data={"condition": Relation(at[relation.left], relation.mark, explicit(relation.right).subs(at))},
     )
 
 
@@ -389,7 +389,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
         {},
         routes={"floats": lambda result: _by_floats(number, set(), {}, result / letters)},
         outcome="exact",
-        telling=Telling(judged_by={"letters": ()}),
+        phrase_data=PhraseData(outcome_data={"letters": ()}),
         scope=Scope(about=answer.subject, case_of=answer),
         key=f"{answer.key}_value",
         kind=answer.step.kind,

@@ -170,7 +170,7 @@ def test_what_was_used_longest_ago_is_let_go(tmp_path: Path) -> None:
         os.utime(tmp_path / key, (age, age))
     assert cache.recalled(TWO), "and is now the last that was used"
     cache.keep(THREE, bytes(10))
-    cache.let_go()
+    cache.evict()
     assert {file.name for file in tmp_path.iterdir()} == {TWO, THREE}
 
 
@@ -178,7 +178,7 @@ def test_a_value_above_the_limit_is_not_kept_and_leaves_the_others(tmp_path: Pat
     cache = Cache(tmp_path, limit=100)
     cache.keep(ONE, b"1")
     cache.keep(TWO, bytes(200))
-    cache.let_go()
+    cache.evict()
     assert (cache.recalled(ONE), cache.recalled(TWO)) == (b"1", None)
 
 
@@ -189,7 +189,7 @@ def test_a_file_that_another_build_lets_go_meanwhile_is_no_obstacle(
     monkeypatch.setattr(Path, "iterdir", lambda _: iter(listed))
     full = Cache(tmp_path / "kept", limit=0)
     full.keep(ONE, b"1")
-    full.let_go()
+    full.evict()
     assert not (tmp_path / "kept" / ONE).exists()
 
 

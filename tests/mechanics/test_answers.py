@@ -588,7 +588,7 @@ def driven() -> tuple[Quantity, Quantity]:
     ("module", "name", "wrong", "asked"),
     [
         ("solving", "_written", lambda matrix: 2 - matrix.det(), lambda: atwood()),
-        ("solving", "lecture_form", lambda value: 2 * value, lambda: atwood()),
+        ("solving", "presented", lambda value: 2 * value, lambda: atwood()),
         ("substitution", "with_unknown", lambda e, u, at: e.xreplace({u: -at}), lambda: put_in(given(c + R), c=h)),
         ("limits", "tidied_terms", lambda series, x, to: Integer(7), lambda: limiting_case(given(sin(h)), h)),
         (

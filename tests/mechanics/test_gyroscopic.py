@@ -33,7 +33,7 @@ from derive.mechanics import (
     weight,
 )
 from derive.mechanics.equations import gyroscopic, turning_modes, turning_stability
-from derive.mechanics.equations.turning_modes import TurningPencil
+from derive.mechanics.equations.turning_modes import GyroscopicPencil
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 
@@ -224,7 +224,7 @@ WRONG: dict[str, tuple[Any, str, Any]] = {
     "a root too large": (turning_modes, "_sum_with_root", lambda middle, a, d, ways: middle / a + sqrt(d)),
     "another sense": (gyroscopic, "_of_time", lambda entry, w, turn: _other_sense(entry, w, turn)),
     "a determinant without turning": (
-        TurningPencil,
+        GyroscopicPencil,
         "at",
         lambda self, omega: ImmutableDenseMatrix(self.stiffness - omega**2 * self.mass),
     ),

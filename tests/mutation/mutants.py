@@ -37,7 +37,7 @@ TOLD = {"Complaint", "Rejected", "Unverified", "TypeError", "ValueError", "Asser
 ORDERLESS = (
     SUMS
     | PRODUCTS
-    | {"isinstance", "getattr", "establish", "Lines", "Telling", "Scope", "Form", "zip", "range", "dict"}
+    | {"isinstance", "getattr", "establish", "Lines", "PhraseData", "Scope", "Form", "zip", "range", "dict"}
 )
 MARKS = {"=": ">", "!=": "=", ">": "<", "<": ">", ">=": ">", "<=": "<"}
 COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
@@ -69,7 +69,7 @@ ONE_FOR_ANOTHER = {
     "symbol": "value",
 }
 ONE_FOR_ANOTHER |= {other: one for one, other in ONE_FOR_ANOTHER.items()}
-DROPPED = {"differ", "about", "means", "case_of", "judged_by", "motion", "nonzero", "words", "facts", "between"}
+DROPPED = {"differ", "about", "means", "case_of", "outcome_data", "motion", "nonzero", "words", "facts", "between"}
 
 
 @dataclass
@@ -306,7 +306,7 @@ class _Maker:
                     yield self._mutant(argument, node, "args", i, "dropped", None)
             if _called(node) == "establish":
                 yield from self._of_establishing(node)
-            if _called(node) == "Telling":
+            if _called(node) == "PhraseData":
                 yield from self._of_telling(node)
             for i, keyword in enumerate(node.keywords):
                 if keyword.arg in DROPPED:

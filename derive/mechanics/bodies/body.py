@@ -27,7 +27,7 @@ from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.bodies.regions import Point, Region, no_such_coordinates
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import free_letter
 from derive.steps.step import Form, Level, Quantity, is_zero
@@ -328,7 +328,7 @@ def axis_vector(
         {},
         outcome="edge" if name in {"x", "y", "z"} else name,
         definition=True,
-        telling=Telling(words={"axis": name}),
+        phrase_data=PhraseData(words={"axis": name}),
         key=key,
         scope=Scope(about=Subject(body=body)),
     )
@@ -357,7 +357,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
         outcome=_density_outcome(body, extent),
         kind=kind,
         key=key,
-        telling=Telling(words={"part": part} if part else {}),
+        phrase_data=PhraseData(words={"part": part} if part else {}),
         scope=Scope(about=Subject(body=body)),
     )
 
@@ -417,7 +417,7 @@ def centre_of_mass(
         ),
         kind="length",
         facts=[CountedFrom(start)],
-        telling=Telling(words={"start": start.name}),
+        phrase_data=PhraseData(words={"start": start.name}),
         key=key,
         scope=Scope(about=Subject(body=body, point=start)),
     )

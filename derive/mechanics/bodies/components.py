@@ -15,7 +15,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import Integrated
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import Region
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Form, Level, Quantity
 from derive.steps.subject import Subject
 
@@ -97,7 +97,7 @@ def centre_component(
         kind="length",
         parents=[body.density, *body.radii(start, region)],
         facts=[Integrated.over(region)],
-        telling=Telling(words={"start": start.name}, judged_by={"along": Str(axis)}),
+        phrase_data=PhraseData(words={"start": start.name}, outcome_data={"along": Str(axis)}),
         key=key or f"centre_of_mass_{axis}",
         scope=Scope(about=Subject(body=body, point=start)),
     )

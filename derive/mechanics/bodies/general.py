@@ -37,7 +37,7 @@ from derive.mechanics.bodies.mapping import cell, checked_limits, from_point, in
 from derive.mechanics.bodies.possible import check_map, require_positive
 from derive.mechanics.bodies.quadrature import agrees, spanned
 from derive.mechanics.bodies.regions import Bounds, Point, Region
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Form, Quantity, Route
 from derive.steps.subject import Subject
 
@@ -272,9 +272,9 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
         },
         outcome={1: "curve", 2: "surface", 3: "solid"}[n],
         lines=Lines(put_in=None, means=dict(zip(letters, tangents, strict=True))),
-        telling=Telling(
+        phrase_data=PhraseData(
             named={"cell": size_now, "place": position, **{f"u_{k}": x for k, x in enumerate(names)}},
-            judged_by={"limits": limits},
+            outcome_data={"limits": limits},
         ),
         scope=Scope(about=Subject(body=body), coordinates=_variables_of(body)),
     )
@@ -363,7 +363,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
         routes={"mass_given_back": lambda rho: agrees(body.mass, [rho], *body.map())},
         lines=Lines(put_in=None),
         scope=Scope(about=Subject(body=body), coordinates=_variables_of(body)),
-        telling=Telling(named={"profile": p}),
+        phrase_data=PhraseData(named={"profile": p}),
     )
 
 

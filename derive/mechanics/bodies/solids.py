@@ -27,7 +27,7 @@ from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.mapping import Map, cylindrical, spherical
 from derive.mechanics.bodies.regions import Point, Region, coordinates, round_by_chords
 from derive.mechanics.bodies.thin_bodies import HalfDisc
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import Subject, with_name
 
@@ -384,7 +384,7 @@ def volume(body: Cone) -> Quantity:
         {},
         parents=body.radii(start, region),
         facts=[Integrated.over(region)],
-        telling=Telling(judged_by={"element": region.element, "radius": region.names[2]}),
+        phrase_data=PhraseData(outcome_data={"element": region.element, "radius": region.names[2]}),
         lines=Lines(between=worked_integral(region, Integer(1), Integer(1), Integer(1)), put_in=None),
         routes={"pappus": lambda value: (value, _by_pappus(body))},
         outcome="cylindrical",
@@ -421,10 +421,10 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
         kind="length",
         lines=Lines(put_in=None),
         scope=Scope(coordinates={z: "length"}, about=Subject(body=body, point=point)),
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"start": point.name, **({"polar": point.name} if polar else {})},
             formulas=polar,
-            judged_by={"element": region.element, "names": list(region.names)},
+            outcome_data={"element": region.element, "names": list(region.names)},
         ),
         key="section_radius" if point.name == body.reference else f"section_radius_from_{point.name}",
     )

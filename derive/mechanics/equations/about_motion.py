@@ -15,7 +15,7 @@ from derive.algebra.expressions import bound, explicit, rate
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.equations.unknowns import presented
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import ReducedMatter
 from derive.steps.step import Quantity, is_zero
@@ -65,7 +65,7 @@ def letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity
     known = explicit(lagrangian.value).free_symbols | value.free_symbols
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := alone(given - value, letter)) is not None:
-            return {letter: lecture_form(found)}
+            return {letter: presented(found)}
     message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, but in the steady motion it is {value}"
     help_line = "give the momentum by a letter of its own, or none"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))

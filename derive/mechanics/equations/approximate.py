@@ -18,7 +18,7 @@ from derive.mechanics.equations.leading import expansion_of, rest_vanishes
 from derive.mechanics.equations.substitution import arranged
 from derive.mechanics.equations.unknowns import coordinates_of, letter_of, residual_of, unknown_of
 from derive.mechanics.systems.coordinates import OfCoordinate
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Quantity, approximations_among, is_zero
 
 __all__ = ["equation_in_limit"]
@@ -69,9 +69,9 @@ def equation_in_limit(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"numbers": lambda result: rest_vanishes(left, explicit(result).residual * share, x, place, power)},
         outcome=_sort_of(place, order, exact=is_zero(left - kept)),
-        telling=Telling(
+        phrase_data=PhraseData(
             named=told,
-            judged_by={"value": left, "kept": kept, "to": place, "order": Integer(-1 if order is None else order)},
+            outcome_data={"value": left, "kept": kept, "to": place, "order": Integer(-1 if order is None else order)},
         ),
         key=key or f"{equation.key}_limit",
         facts=[fact] if (fact := equation.fact(OfCoordinate)) is not None else [],

@@ -10,7 +10,7 @@ from sympy import Expr, MatrixBase, Mul, Pow, Rational, Symbol, cancel, factor, 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, bound, explicit, scalar
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.unknowns import lecture_form, left_over, unknown_of
+from derive.mechanics.equations.unknowns import left_over, presented, unknown_of
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Quantity
 from derive.steps.subject import EVERYTHING
@@ -53,13 +53,13 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
 
 def _cancelled(value: Expr) -> Expr:
     """As one writes it down, with nothing under a root that cancels."""
-    plain = lecture_form(value)
+    plain = presented(value)
     if plain.count_ops() > LARGEST:
         return plain
 
     roots = [f for f in Mul.make_args(plain) if isinstance(f, Pow) and abs(f.exp) == HALF]
     below = factor(cancel(Mul(*(f**2 for f in roots))))
-    rooted = lecture_form(Mul(*(f for f in Mul.make_args(plain) if f not in roots)) * sqrt(below))
+    rooted = presented(Mul(*(f for f in Mul.make_args(plain) if f not in roots)) * sqrt(below))
     return rooted if rooted.count_ops() < plain.count_ops() and equal(rooted, plain) else plain
 
 

@@ -19,14 +19,14 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.reach import reached
 from derive.mechanics.equations.unknowns import (
-    lecture_form,
     left_over,
     mark_for,
+    presented,
     unknown_of,
     with_unknown,
     without_factors_beside,
 )
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
 from derive.steps.step import Form, Level, Quantity, value_behind
 
@@ -109,10 +109,10 @@ def where(
             **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"comparison": WORDS[mark], "seen": "radicand" if (of.step.rule, mark) in REAL else "quantity"},
             formulas=conditions_told(excluded=excluded, existing=existing),
-            judged_by={"unknown": unknown, "mark": Str(mark), "difference": difference, "for_real": for_real},
+            outcome_data={"unknown": unknown, "mark": Str(mark), "difference": difference, "for_real": for_real},
         ),
         key=key,
         parents=through[1] if through is not None else (),
@@ -171,9 +171,9 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
         lines=Lines(put_in=Level.STANDARD if sign else None, result=False, arranged=explicit),
         routes={"points": lambda found: _same_truth(Relation(Integer(1), "=", 1), found.residual, found.mark, None)},
         outcome="always" if holds else "never" if sign else "equal",
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"comparison": WORDS[mark]},
-            judged_by={"difference": difference, "sign": Integer(sign), "mark": Str(mark)},
+            outcome_data={"difference": difference, "sign": Integer(sign), "mark": Str(mark)},
         ),
         key=key,
     )
@@ -215,12 +215,12 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
     rising = sign_known(divided)
     if not rising and mark not in ("=", "!="):
         raise unsolvable(of, unknown, _without_sign(divided))
-    solved = lecture_form(-rest / leading)
+    solved = presented(-rest / leading)
     turned = mark if rising != -1 else TURNED[mark]
     if powers[0] == 1:
         return unknown, solved, turned
     if unknown.is_nonnegative and solved.is_nonnegative:
-        return unknown, lecture_form(sqrt(solved)), turned
+        return unknown, presented(sqrt(solved)), turned
     return unknown**2, solved, turned
 
 

@@ -20,7 +20,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.trajectory import followed
 from derive.mechanics.rotation.vectors import RateByParticles
 from derive.mechanics.systems.coordinates import by_functions_of_time, kind_of_rate, require_all_times
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 
 __all__ = ["rate_under"]
@@ -148,7 +148,7 @@ def _product(
             "divided": lambda value: _divided(value, factor, written, motion),
         },
         outcome="alone" if of_many == 1 else "one_of_several",
-        telling=Telling(judged_by={"written": written, "of_many": Integer(of_many)}),
+        phrase_data=PhraseData(outcome_data={"written": written, "of_many": Integer(of_many)}),
         parents=[equation],
         key=f"{quantity.key}_{equation.key}",
     )
@@ -207,10 +207,10 @@ def _sum(
             "one_by_one": lambda value: _one_by_one(value, products),
         },
         outcome=_left_over(sides[0], list(motion)),
-        telling=Telling(
+        phrase_data=PhraseData(
             named={f"factor_{i}": factor for i, (_, factor) in enumerate(of, 1)},
             points_to={f"equation_{i}": equation for i, (equation, _) in enumerate(of, 1)},
-            judged_by={"highest": list(motion), "products": sides[0]},
+            outcome_data={"highest": list(motion), "products": sides[0]},
         ),
         parents=[*(equation for equation, _ in of), *products],
         key=f"{quantity.key}_sum",

@@ -18,12 +18,12 @@ from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation, Root, explicit, scalar, stand_in
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.gyroscopic import judged_by
+from derive.mechanics.equations.gyroscopic import outcome_data
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes, with_motion
 from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import T
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter, require_constant
 from derive.steps.step import Quantity, is_zero
 
@@ -128,7 +128,7 @@ def _characteristic(
         lines=Lines(put_in=None, arranged=lambda _: Relation(product, "=", 0)),
         routes={"trial": by_trial},
         outcome="several" if len(linear) > 1 else "one",
-        telling=Telling(named={"trial": exp(letter * T)}),
+        phrase_data=PhraseData(named={"trial": exp(letter * T)}),
         key=f"{start}characteristic_equation",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
@@ -148,7 +148,7 @@ def _free(characteristic: Quantity, together: Linear, part: Poly, times: int, st
         {},
         lines=Lines(put_in=None, arranged=explicit),
         routes={"put_back": lambda found: (_left(characteristic).subs(letter, found.right), 0)},
-        telling=Telling(points_to={"characteristic": characteristic}, judged_by=judged_by(together)),
+        phrase_data=PhraseData(points_to={"characteristic": characteristic}, outcome_data=outcome_data(together)),
         key=f"{start}exponent_0",
         parents=[characteristic],
     )
@@ -183,7 +183,7 @@ def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, s
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"put_back": put_back},
         outcome=outcome,
-        telling=Telling(points_to={"characteristic": characteristic}, judged_by=judged_by(together)),
+        phrase_data=PhraseData(points_to={"characteristic": characteristic}, outcome_data=outcome_data(together)),
         key=f"{start}decay{number}",
         kind="angular speed",
         parents=[characteristic],
@@ -232,10 +232,10 @@ def _frequency(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"motion": motion},
         outcome={1: "oscillating", None: "conditional"}.get(sign, "overdamped"),
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas=told,
             points_to={"rate": own},
-            judged_by=judged_by(together, [condition] if condition is not None else []) | {"beta": own.value},
+            outcome_data=outcome_data(together, [condition] if condition is not None else []) | {"beta": own.value},
         ),
         key=f"{start}frequency{number}",
         kind="angular speed",
@@ -299,7 +299,7 @@ def _shape(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"motion": moving},
         outcome={1: "in_phase", -1: "opposite"}.get(sign, "generic") if sign is not None else "generic",
-        telling=Telling(points_to={"linear": linear[0]}, judged_by=judged_by(together)),
+        phrase_data=PhraseData(points_to={"linear": linear[0]}, outcome_data=outcome_data(together)),
         key=f"{start}mode_{number}",
         parents=[*linear],
     )

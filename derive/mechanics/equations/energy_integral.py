@@ -16,10 +16,10 @@ from derive.algebra.swing import SwingTime, half_swing, quarter_swing
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.turning_points import ByEnergy
-from derive.mechanics.equations.unknowns import lecture_form, residual_of, with_unknown
+from derive.mechanics.equations.unknowns import presented, residual_of, with_unknown
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.numeric import WholeSwing
 from derive.steps.record import free_letter, letter_of_limit
 from derive.steps.step import Form, Level, Quantity, approximations_among, is_zero, value_behind
@@ -86,11 +86,11 @@ def speed_from_energy(
         lines=Lines(
             law=Level.FULL,
             put_in=None,
-            arranged=lecture_form,
+            arranged=presented,
             means={speed: sqrt(2 * (at_start - rest) / mass)},
         ),
         routes={"motion": by_motion},
-        telling=Telling(judged_by={"coordinate": letter, "start": first, "start_rate": initial}),
+        phrase_data=PhraseData(outcome_data={"coordinate": letter, "start": first, "start_rate": initial}),
         key=key or f"{letter.name}_dot_squared",
         facts=[ByEnergy(letter, first, initial, acceleration)],
     )
@@ -125,9 +125,9 @@ def _energy_kept(
         routes={"motion": keeps},
         outcome="from_rest" if initial == 0 else "moving",
         key=key,
-        telling=Telling(
+        phrase_data=PhraseData(
             named={"place": Relation(letter, "=", first)},
-            judged_by={"initial": initial},
+            outcome_data={"initial": initial},
         ),
         parents=about,
     )
@@ -219,9 +219,9 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
         outcome="exact" if exact else "expanded",
         key=key,
         kind="time",
-        telling=Telling(
+        phrase_data=PhraseData(
             named={"amplitude": amplitude},
-            judged_by={"value": value, "coordinate": q, "acceleration": known.acceleration},
+            outcome_data={"value": value, "coordinate": q, "acceleration": known.acceleration},
         ),
         scope=Scope() if exact else Scope(approximates=period),
         facts=[] if exact else [WholeSwing(Integer(4), integral)],

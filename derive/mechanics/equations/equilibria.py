@@ -44,7 +44,7 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import SeenWith
 from derive.mechanics.systems.forced import ActedOn
 from derive.mechanics.systems.system import System
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import may_vanish
 from derive.steps.record import changes, given_letters
 from derive.steps.step import Fact, Quantity, Route, compared_with, is_zero, require_kind
@@ -101,7 +101,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
         lines=Lines(put_in=None, motion=still),
         routes=matter.named({"work": work}),
         outcome="pushed" if pushes else "generic",
-        telling=Telling(judged_by={"coordinates": tuple(moving)}),
+        phrase_data=PhraseData(outcome_data={"coordinates": tuple(moving)}),
         key=key,
         kind="energy",
         facts=[matter],
@@ -299,7 +299,7 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
             potential, {"virtual_work": compared_with(lambda: Relation(slope_otherwise(potential, q), "=", 0))}
         ),
         outcome="zero" if force == 0 else "generic",
-        telling=Telling(judged_by={"coordinate": q}, named=steady_in(potential, [q])),
+        phrase_data=PhraseData(outcome_data={"coordinate": q}, named=steady_in(potential, [q])),
         key=f"condition_{q.name}",
     )
 
@@ -420,10 +420,10 @@ def _rest(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"no_force": no_force, **({"counted": counted} if is_countable(sought) else {})},
         outcome=outcome,
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas=told,
             named=steady_in(potential, sought),
-            judged_by={
+            outcome_data={
                 "count": Integer(len(states)),
                 "distances": distances,
                 "sought": tuple(sought),

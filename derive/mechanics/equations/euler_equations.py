@@ -42,7 +42,7 @@ from derive.mechanics.bodies.regions import Point
 from derive.mechanics.equations.conservation import Acting, highest_rates
 from derive.mechanics.rotation.given_moments import check_given_moment
 from derive.mechanics.rotation.vectors import RateByParticles, Through
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
@@ -197,7 +197,7 @@ def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_ten
         definition=True,
         kind="moment of inertia",
         facts=[OfBody(body), AboutPoint(body.point)],
-        telling=Telling(words={"about": body.about}),
+        phrase_data=PhraseData(words={"about": body.about}),
         key=key,
         scope=Scope(about=Subject(body=body, point=body.point)),
     )
@@ -287,7 +287,7 @@ def rate_in_space(
         },
         outcome=lambda value: _constancy(value, in_body),
         kind="torque",
-        telling=Telling(words={"about": L.needed(AboutPoint).point.name}),
+        phrase_data=PhraseData(words={"about": L.needed(AboutPoint).point.name}),
         facts=[RateOfMomentum(matter, tuple(moving))],
         key=key,
     )
@@ -343,8 +343,9 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
         ),
         routes={"matter": lambda value: (value, Relation(explicit(of.by_particles())[i], "=", acting))},
         outcome=_coupling(rate.value, moving, i, torque),
-        telling=Telling(
-            words={"axis": AXES[i]}, judged_by={"torque": column(*torque), "rate": rate.value, "moving": list(moving)}
+        phrase_data=PhraseData(
+            words={"axis": AXES[i]},
+            outcome_data={"torque": column(*torque), "rate": rate.value, "moving": list(moving)},
         ),
         kind="torque",
         key=f"euler_{AXES[i]}",
@@ -394,7 +395,7 @@ def rate_in_body(
         lines=Lines(put_in=Level.FULL, means=motion),
         routes={"motion": compared_with(lambda: bound(explicit(BodyRate(momentum.value, *moving)), motion))},
         outcome=lambda value: "zero" if is_zero(value) else "in_general" if is_zero(acting) else "driven",
-        telling=Telling(judged_by={"torque": acting}),
+        phrase_data=PhraseData(outcome_data={"torque": acting}),
         kind="torque",
         parents=list(equations),
         facts=[MotionOfBody(motion)],

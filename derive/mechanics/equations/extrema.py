@@ -17,9 +17,9 @@ from derive.algebra.ranges import ends_within, range_of, strict_sign_within
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, letter_of, unknown_of
+from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, letter_of, presented, unknown_of
 from derive.mechanics.equations.zeros import Unsolved, positive, zeros_of
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assumed
 from derive.steps.step import Level, Quantity
@@ -88,10 +88,10 @@ def _extremum(
         outcome="greatest" if curved < 0 else "least",
         key=f"{key}_{x.name}",
         kind=kind_of_unknown(x, coordinates_of(of)),
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas={role: (_apart(each), each) for role, each in conditions.items()},
             named={"letter": x},
-            judged_by={"value": value, "place": place, **({"within": within} if within else {})},
+            outcome_data={"value": value, "place": place, **({"within": within} if within else {})},
         ),
         scope=Scope(coordinates={}),
     )
@@ -100,12 +100,12 @@ def _extremum(
         scalar(f"{of.symbol.name}_{verb[:3]}") if isinstance(of.symbol, Symbol) else scalar(key),
         lambda f, p: At(f, x, p),
         {"quantity": of, "place": at},
-        lines=Lines(put_in=Level.FULL, law=Level.FULL, arranged=lecture_form),
+        lines=Lines(put_in=Level.FULL, law=Level.FULL, arranged=presented),
         routes={"beside": lambda top: _not_exceeded(value, x, top, within, conditions, curved, place)},
         outcome="greatest" if curved < 0 else "least",
         key=key,
         kind=of.step.kind,
-        telling=Telling(judged_by={"value": value, "letter": x, "place": place, **conditions}),
+        phrase_data=PhraseData(outcome_data={"value": value, "letter": x, "place": place, **conditions}),
     )
     return at, top
 
@@ -239,14 +239,14 @@ def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]
     if len(coefficients) == 3:
         a, b, c = coefficients
         if b == 0:
-            inside = lecture_form(-c / a, in_sums=False)
+            inside = presented(-c / a, in_sums=False)
             condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
             return [] if sign_known(inside) == -1 else [(sign * _root_of(inside), condition) for sign in (1, -1)]
         inside = tidied(b**2 - 4 * a * c)
         if sign_known(inside) == -1:
             return []
         condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
-        return [(lecture_form((-b + sign * sqrt(inside)) / (2 * a)), condition) for sign in (1, -1)]
+        return [(presented((-b + sign * sqrt(inside)) / (2 * a)), condition) for sign in (1, -1)]
     return []
 
 

@@ -10,10 +10,10 @@ from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Ter
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
-from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.equations.unknowns import presented
 from derive.mechanics.equations.zeros import check_no_resonance, different_from_zero, positive
 from derive.mechanics.systems.coordinates import Coordinate
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assume
 from derive.steps.step import Level, Quantity
@@ -77,12 +77,12 @@ def steady_amplitude(
         outcome=damped,
         key=key,
         kind=q.kind,
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas={
                 "motion": (Factors(size, cos(Terms(angle, -lag))), size * cos(angle - lag)),
                 **({} if excluded is None else {"excluded": (excluded, _written_out(excluded))}),
             },
-            judged_by={"loss": loss},
+            outcome_data={"loss": loss},
         ),
     )
     lags = establish(
@@ -93,16 +93,16 @@ def steady_amplitude(
         lines=Lines(
             law=Level.FULL,
             put_in=None,
-            arranged=lecture_form,
+            arranged=presented,
             means={lag: atan(loss / stiff)} if damped == "damped" else {},
         ),
         routes={"quarter_turn_on": lagging, **({"put_back": in_step} if damped == "undamped" else {})},
         outcome="opposite" if sign == -1 else damped,
         key=f"{key}_lag",
         kind="number" if damped == "damped" else "angle",
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas={} if in_phase is None else {"in_step": (in_phase, _written_out(in_phase))},
-            judged_by={"loss": loss, "stiff": stiff},
+            outcome_data={"loss": loss, "stiff": stiff},
         ),
     )
     return amplitude, lags
@@ -114,11 +114,11 @@ def _written_out(condition: Relation) -> Relation:
 
 def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
     if loss == 0:
-        return lecture_form(force / sqrt(stiff**2))
+        return presented(force / sqrt(stiff**2))
     common = common_factor([force, stiff, loss])
     if common.is_positive:
         force, stiff, loss = (tidied(each / common) for each in (force, stiff, loss))
-    return force / sqrt(Add(stiff**2, lecture_form(loss**2)))
+    return force / sqrt(Add(stiff**2, presented(loss**2)))
 
 
 def _of_unknown_sign(value: Expr) -> Expr:

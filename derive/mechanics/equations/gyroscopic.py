@@ -33,10 +33,10 @@ from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.linearised import Linear, with_motion
-from derive.mechanics.equations.turning_modes import OMEGA, Swing, TurningPencil, factored
+from derive.mechanics.equations.turning_modes import OMEGA, GyroscopicPencil, Swing, factored
 from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import T
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Quantity, is_zero
 
@@ -75,7 +75,7 @@ class TurningModes:
         return (*found, *motions)
 
     @cached_property
-    def pencil(self) -> TurningPencil:
+    def pencil(self) -> GyroscopicPencil:
         return pencil_of(self.together)
 
     @cached_property
@@ -83,10 +83,10 @@ class TurningModes:
         return _characteristic(self.linear, self.together, self.pencil, self.letter, self.start)
 
 
-def pencil_of(together: Linear) -> TurningPencil:
+def pencil_of(together: Linear) -> GyroscopicPencil:
     """The matrices, of forces that do no work and have a potential energy."""
     require_turning("normal_modes", together)
-    return TurningPencil(together.stiffness, together.turning, together.mass, together.exists)
+    return GyroscopicPencil(together.stiffness, together.turning, together.mass, together.exists)
 
 
 def require_turning(verb: str, together: Linear) -> None:
@@ -106,7 +106,7 @@ def require_turning(verb: str, together: Linear) -> None:
 
 
 def _characteristic(
-    linear: Sequence[Quantity], together: Linear, pencil: TurningPencil, letter: Symbol, start: str
+    linear: Sequence[Quantity], together: Linear, pencil: GyroscopicPencil, letter: Symbol, start: str
 ) -> Quantity:
     """det(K + i omega G - omega^2 M) = 0.
 
@@ -123,7 +123,7 @@ def _characteristic(
         lines=Lines(put_in=None, arranged=lambda _: Relation(factored(pencil.parts, letter), "=", 0)),
         routes={"quadrature": lambda found: in_quadrature(found, linear, together, letter)},
         outcome="plain" if is_zero(together.turning) else "generic",
-        telling=Telling(named={"trial": exp(I * letter * T)}, judged_by={"turning": tuple(together.turning)}),
+        phrase_data=PhraseData(named={"trial": exp(I * letter * T)}, outcome_data={"turning": tuple(together.turning)}),
         key=f"{start}characteristic_equation",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
@@ -159,7 +159,7 @@ _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
 
 
 def _frequency(
-    characteristic: Quantity, together: Linear, pencil: TurningPencil, n: int, symbol: str, start: str
+    characteristic: Quantity, together: Linear, pencil: GyroscopicPencil, n: int, symbol: str, start: str
 ) -> Quantity:
     """One frequency, or rate of growth.
 
@@ -191,8 +191,8 @@ def _frequency(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"put_back": put_back, "sum_of_squares": sum_of_squares},
         outcome=_OF_SIGN[swing.sign],
-        telling=Telling(
-            formulas=told, points_to={"characteristic": characteristic}, judged_by=judged_by(together, conditions)
+        phrase_data=PhraseData(
+            formulas=told, points_to={"characteristic": characteristic}, outcome_data=outcome_data(together, conditions)
         ),
         key=f"{start}frequency_{n + 1}",
         kind="angular speed",
@@ -201,7 +201,7 @@ def _frequency(
     )
 
 
-def judged_by(together: Linear, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
+def outcome_data(together: Linear, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
     """What a word about such a motion is judged by: the matrices, and under which conditions it is told."""
     found: dict[str, Any] = {
         "stiffness": together.stiffness,
@@ -276,10 +276,10 @@ def _motion(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"motion": in_equations, "energy": energy},
         outcome=_outcome(column, swing),
-        telling=Telling(
+        phrase_data=PhraseData(
             named={"displacements": displacements, **names},
             points_to={"linear": linear[0]},
-            judged_by=judged_by(together),
+            outcome_data=outcome_data(together),
         ),
         key=f"{start}mode_{n}",
         parents=[*linear],

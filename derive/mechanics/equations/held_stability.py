@@ -24,7 +24,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.systems.constraint import Constraint, Kept
 from derive.mechanics.systems.system import System
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Quantity, is_zero
 
 __all__: list[str] = []
@@ -160,9 +160,9 @@ class OnConstraints:
             ),
             routes={"along_curves": along_curves},
             outcome={1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign],
-            telling=Telling(
+            phrase_data=PhraseData(
                 named=named,
-                judged_by={
+                outcome_data={
                     "coordinates": tuple(allowed.coordinates),
                     "place": tuple(allowed.place.values()),
                     "potential_here": allowed.energy,

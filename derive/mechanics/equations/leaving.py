@@ -31,7 +31,7 @@ from derive.mechanics.equations.unknowns import (
     without_factors_beside,
 )
 from derive.mechanics.equations.zeros import positive
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.step import Form, Level, Quantity, is_zero
 
@@ -119,10 +119,10 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
             **({} if held == 1 else {"in_numbers": lambda found: _pushes_until(found, value, unknown, begin)}),
         },
         outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas=conditions_told(existing=existing and _as_positive(existing), reached=reached),
             named={"from": Relation(unknown, "=", start)},
-            judged_by={
+            outcome_data={
                 "unknown": unknown,
                 "start": begin,
                 **({"squared": squared} if squared is not None else {}),
@@ -180,10 +180,10 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
         lines=Lines(law=Level.BRIEF, put_in=Level.STANDARD, result=False, arranged=explicit),
         routes={"on_the_way": on_the_way},
         outcome="turns_there" if mark == ">=" else "turns_back",
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas={"impossible": (Relation(rate(q) ** 2, "=", there), Relation(rate(q) ** 2, "=", at_angle))},
             named={"place": Relation(unknown, "=", place)},
-            judged_by={"unknown": unknown, "start": begin, "squared": squared},
+            outcome_data={"unknown": unknown, "start": begin, "squared": squared},
         ),
         key=key,
     )

@@ -32,7 +32,7 @@ from derive.mechanics.equations.leading import (
 )
 from derive.mechanics.equations.turning_points import ByEnergy, assume_reached
 from derive.mechanics.equations.unknowns import letter_of, meaning, unknown_of
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed, changes, letter_of_limit, named_coordinates
 from derive.steps.step import Form, Level, Quantity, approximations_among, compared_with, is_zero
@@ -111,12 +111,12 @@ def limiting_case(
         outcome="exact" if exact else _sort_of(place) if order is not None else _as_it_goes(power),
         key=key or f"{of.key}_limit",
         kind=of.step.kind,
-        telling=Telling(
+        phrase_data=PhraseData(
             named={
                 **({"place": aim} if aim not in (oo, -oo) else {}),
                 **({"bound": value} if solved is not None and of.value.mark != "=" else {}),
             },
-            judged_by={"to": place, "value": value, "x": x},
+            outcome_data={"to": place, "value": value, "x": x},
         ),
         parents=approximations_among(to),
         scope=Scope(case_of=of) if exact else Scope(approximates=_whole(of, name, Approach(goes, aim))),

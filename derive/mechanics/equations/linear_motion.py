@@ -40,10 +40,10 @@ from derive.algebra.length import length, shortest
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.unknowns import coordinates_of, is_number, lecture_form, residual_of
+from derive.mechanics.equations.unknowns import coordinates_of, is_number, presented, residual_of
 from derive.mechanics.equations.zeros import check_no_resonance, different_from_zero
 from derive.mechanics.systems.coordinates import Coordinate
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume, changes, require_constant
 from derive.steps.step import Level, Quantity, approximations_among, is_zero, value_behind
@@ -134,10 +134,10 @@ def solution(
         outcome=sort,
         key=key or f"{q.symbol.name}_of_t",
         kind=q.kind,
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas=_told(linear, condition),
             named=_start(q, first, initial),
-            judged_by={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
+            outcome_data={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
         parents=approximations_among(start, start_rate),
     )
@@ -148,7 +148,7 @@ def _by_powers(motion: Expr) -> Expr:
     powers = motion.as_poly(TIME) if motion.is_polynomial(TIME) else None
     if powers is None:
         return by_terms(motion.expand())
-    terms = ((n, lecture_form(c)) for (n,), c in powers.terms())
+    terms = ((n, presented(c)) for (n,), c in powers.terms())
     return Add(*(by_terms(c.expand()) if c.is_Add and n == 0 else c * TIME**n for n, c in terms))
 
 
@@ -426,7 +426,7 @@ def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Ex
 def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: Linear, sort: str) -> Expr:
     """e^(-b t/2a) (C cos + D sin): the exponential that both have in common in front."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
-    inside = Add(*(lecture_form(C) * (e / common) for C, e in zip(values, basis, strict=True)))
+    inside = Add(*(presented(C) * (e / common) for C, e in zip(values, basis, strict=True)))
     inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=length)
     return Mul(common, inside, evaluate=False) if common != 1 and inside.is_Add else common * inside
 
@@ -436,10 +436,10 @@ def _joined(free: Expr, particular: Expr) -> Expr:
     if not particular.has(TIME) and particular != 0 and not free.is_Add:
         outside, inside = free.as_independent(TIME, as_Add=False)
         if is_zero(outside + particular):
-            return Mul(lecture_form(particular), 1 - inside, evaluate=False)
+            return Mul(presented(particular), 1 - inside, evaluate=False)
     whole = free + particular
     marks = {f: Dummy(str(f)) for f in whole.atoms(sin, cos, exp, cosh, sinh) if f.has(TIME)}
     back = {mark: f for f, mark in marks.items()}
-    factored = lecture_form(whole.xreplace(marks)).xreplace(back)
+    factored = presented(whole.xreplace(marks)).xreplace(back)
     forms = (whole, factor_terms(whole.expand()), factor_terms(whole), factored)
     return min(forms, key=length)

@@ -27,7 +27,7 @@ from derive.mechanics.equations.held_stability import constraints_of
 from derive.mechanics.equations.mass_matrix import check_regular
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.systems.dalembert import Matter
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 from derive.witness.facts import Around, Rest
@@ -170,9 +170,13 @@ def _one(
         .needed(Matter)
         .named({"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))}),
         outcome=_outcome(linear, i, bool(away)),
-        telling=Telling(
+        phrase_data=PhraseData(
             points_to={"motion": equations[i], **({"other": equations[i - 1]} if len(equations) > 1 else {})},
-            judged_by={"place": tuple(place.values()), "displacements": tuple(s.symbol for s in eta), **_loss(linear)},
+            outcome_data={
+                "place": tuple(place.values()),
+                "displacements": tuple(s.symbol for s in eta),
+                **_loss(linear),
+            },
             formulas=counted,
             named=alone,
         ),

@@ -39,7 +39,7 @@ from derive.mechanics.equations.stability import Shape, slope
 from derive.mechanics.equations.stable_where import StableWhere
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
 from derive.mechanics.systems.effective import SeenWith
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
 from derive.witness.facts import Rest
@@ -199,11 +199,11 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda _: spread_or_by_terms(value)),
         routes={"small_force": lambda found: (found, _small_force(place, q))},
         outcome=outcome,
-        telling=Telling(
+        phrase_data=PhraseData(
             points_to={"potential": potential},
             formulas=told,
             named=named,
-            judged_by={
+            outcome_data={
                 "coordinates": place.coordinates,
                 "place": tuple(place.values.values()),
                 "potential_here": place.energy,
@@ -326,10 +326,10 @@ def _of_several(place: Place, key: str) -> Quantity:
         ),
         routes={"any_direction": in_any_direction},
         outcome=outcome,
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas=told,
             named=named,
-            judged_by={
+            outcome_data={
                 "coordinates": moving,
                 "place": tuple(place.values.values()),
                 "potential_here": place.energy,

@@ -38,7 +38,7 @@ from derive.mechanics.equations.gyroscopic import TurningModes
 from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes, left_by_drift, with_motion
 from derive.mechanics.equations.oscillations import frequency, frequency_squared, told_where_positive
 from derive.mechanics.systems.coordinates import Coordinate, T
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import have_numbers
 from derive.steps.record import free_letter, require_constant
 from derive.steps.step import Fact, Level, Quantity, is_zero, require_kind
@@ -209,9 +209,9 @@ def _frequency(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"put_back": put_back, **({"rayleigh": rayleigh} if root.has_formula else {}), "trace": trace},
         outcome=outcome if root.has_formula else "ordered",
-        telling=Telling(
+        phrase_data=PhraseData(
             points_to={"characteristic": characteristic},
-            judged_by={**_judged_by(together), "left": drift.pop("left", ()), "place": n + 1},
+            outcome_data={**_judged_by(together), "left": drift.pop("left", ()), "place": n + 1},
             formulas=told_where_positive(root.value) if root.sign is None else {},
             named={**drift, **named},
         ),
@@ -277,9 +277,9 @@ def _shape(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"motion": moving, "orthogonal": across},
         outcome=_shape_outcome(root, column, together.displacements),
-        telling=Telling(
+        phrase_data=PhraseData(
             points_to={"linear": linear[0]},
-            judged_by={"squared": squared, **_judged_by(together), "left": drift.pop("left", ())},
+            outcome_data={"squared": squared, **_judged_by(together), "left": drift.pop("left", ())},
             named={"moving": moved, **drift},
         ),
         key=f"{start}mode_{n}",

@@ -18,7 +18,7 @@ from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Linear
 from derive.mechanics.equations.zeros import positive, sign_where
 from derive.mechanics.systems.coordinates import OfCoordinate, T
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity
 
@@ -78,13 +78,13 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         key=key,
         kind="squared angular speed",
         parents=[linear],
-        telling=Telling(
+        phrase_data=PhraseData(
             named={
                 **({} if mass == 1 else {"inertia": mass, "acceleration": rate(q, 2)}),
                 "oscillator": Relation(Terms(rate(q, 2), Factors(scalar(symbol) ** 2, q)), "=", 0),
             },
             points_to={"linear": linear},
-            judged_by={"exists": exists} if exists is not None else {},
+            outcome_data={"exists": exists} if exists is not None else {},
         ),
         facts=[SquareOf(symbol, exists)],
     )
@@ -222,9 +222,9 @@ def _rate(
         ),
         routes={"motion": satisfies, "positive": positive_root},
         outcome=outcome,
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas=told_where_positive(squared.value) if condition and outcome == "conditional" else {},
-            judged_by={"exists": known.exists} if known.exists is not None else {},
+            outcome_data={"exists": known.exists} if known.exists is not None else {},
             stands_for=stands_for,
         ),
         key=key,

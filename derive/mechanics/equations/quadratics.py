@@ -16,8 +16,8 @@ from derive.algebra.expressions import PLUS_MINUS, RATES, Factors, Ratio, Relati
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.conditions import solved_in_letters, where
-from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, presented
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
@@ -110,7 +110,7 @@ def roots_together(
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
     """Those of an equation that is quadratic in x, or linear, the first without a minus sign; and what else is a factor
     of its left side, with the values put in."""
-    factors = Mul.make_args(lecture_form(equation.value.residual)) if isinstance(equation.value, Relation) else ()
+    factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))
     polynomial = Mul(*(f for f in factors if x in f.free_symbols)).as_poly(x)
     if polynomial is None or polynomial.degree() not in (1, 2):
@@ -155,8 +155,8 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
         {"equation": equation, "unknown": x, **of.roles},
         routes={"put_back": lambda found: (here.at(found), ZERO), "sum": sum_of_both},
         outcome="linear" if linear else character(here),
-        telling=Telling(
-            judged_by={"quadratic": here},
+        phrase_data=PhraseData(
+            outcome_data={"quadratic": here},
             formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
             stands_for=keys if linear else (),
         ),
@@ -235,9 +235,9 @@ def _one_of_two(
         lines=Lines(put_in=None, arranged=lambda _: _of_sign(both.value, sign)),
         routes={"put_back": lambda found: (quadratic.at(found), ZERO), "other_form": compared_with(other_form)},
         outcome=outcome,
-        telling=Telling(
+        phrase_data=PhraseData(
             words={} if outcome == "coinciding" else {"sign": "upper" if sign > 0 else "lower"},
-            judged_by={"quadratic": quadratic},
+            outcome_data={"quadratic": quadratic},
             stands_for=stands_for,
         ),
         key=key,
@@ -281,7 +281,7 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
         routes={"resultant": by_resultant},
         outcome="none",
         key=keys[0],
-        telling=Telling(judged_by={"quadratic": of.quadratic}, stands_for=keys),
+        phrase_data=PhraseData(outcome_data={"quadratic": of.quadratic}, stands_for=keys),
         scope=Scope(differ=EVERYTHING),
         facts=[of],
     )
@@ -326,7 +326,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
         outcome="linear" if here.is_linear else lambda found: SIGNS[sign_known(found)],
         key=key,
         parents=[next((q for q in (roots, *roots.parents) if q.step.rule == "roots.together"), roots)],
-        telling=Telling(judged_by={"quadratic": here}),
+        phrase_data=PhraseData(outcome_data={"quadratic": here}),
         scope=Scope(differ=EVERYTHING),
     )
 

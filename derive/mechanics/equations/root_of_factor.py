@@ -9,7 +9,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import Factors, Ratio, Root, Terms
 from derive.algebra.tidy import tidied
-from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.equations.unknowns import presented
 from derive.steps.step import Fact
 
 FOUR = Integer(4)
@@ -53,11 +53,11 @@ def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
     """k (-b/k +- sqrt(D/k^2))/(2 a), with what b and the root have in common in front."""
     under = sqrt(discriminant)
     if not any(isinstance(part, Pow) and part.exp == Rational(1, 2) and part.free_symbols for part in under.atoms(Pow)):
-        return lecture_form((-b + sign * under) / (2 * a))
+        return presented((-b + sign * under) / (2 * a))
     if b == 0:
-        return lecture_form(sign * under / (2 * a), in_sums=False)
+        return presented(sign * under / (2 * a), in_sums=False)
     common = _common_root(b, discriminant)
-    inside = lecture_form(discriminant / common**2, in_sums=False)
+    inside = presented(discriminant / common**2, in_sums=False)
     both = Add(tidied(-b / common), sign * sqrt(inside))
     return Mul(tidied(common / (2 * a)), both)
 

@@ -38,15 +38,15 @@ from derive.mechanics.equations.unknowns import (
     factors_elsewhere,
     is_number,
     kind_of_unknown,
-    lecture_form,
     letter_of,
     meaning,
     polynomial_in,
+    presented,
     residual_of,
     unknown_of,
 )
 from derive.mechanics.equations.zeros import within_one
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
 from derive.steps.step import Level, Quantity, is_zero
 
@@ -172,10 +172,10 @@ def _step(
         outcome=_outcome(root, i, kept, every),
         key=key,
         kind=kind_of_unknown(unknown, coordinates_of(equation)),
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"asked": _asked(equation), **({} if isinstance(unknown, Symbol) else {"seen": "function"})},
             formulas=told,
-            judged_by={
+            outcome_data={
                 "polynomial": polynomial.as_expr(),
                 "gen": polynomial.gen,
                 "positive": Integer(strict_sign_within(unknown) == 1),
@@ -233,7 +233,7 @@ def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: b
         lines=Lines(put_in=None, result=real or not decides.free_symbols),
         routes={"otherwise": lambda found: (found.residual, otherwise)},
         outcome="none_positive" if real else "none",
-        telling=Telling(words={"asked": _asked(equation)}),
+        phrase_data=PhraseData(words={"asked": _asked(equation)}),
         key=key,
     )
 
@@ -264,7 +264,7 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
         lines=Lines(put_in=None),
         routes={"otherwise": lambda found: (found.left, explicit(nearest.formula))},
         outcome="none_reached",
-        telling=Telling(words={"asked": _asked(equation)}),
+        phrase_data=PhraseData(words={"asked": _asked(equation)}),
         key=key,
     )
 
@@ -358,9 +358,9 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
         _, b, c = root.coefficients
         lost = sign_known(c) or strict_sign_within(unknown) == 1  # of a x^2 + c with a = 0; or it is 0 there
         mark = ">" if b == 0 and lost else ">="
-        return Relation(lecture_form(_without_positive(root.discriminant)), mark, ZERO)
+        return Relation(presented(_without_positive(root.discriminant)), mark, ZERO)
     if strict_sign_within(unknown) == 1 and _sign(root) is None:
-        return Relation(lecture_form(_without_positive(root.value)), ">", ZERO)
+        return Relation(presented(_without_positive(root.value)), ">", ZERO)
     return None
 
 

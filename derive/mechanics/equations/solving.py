@@ -13,14 +13,14 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import (
     coordinates_of,
     kind_of_unknown,
-    lecture_form,
     letter_of,
     linear_coefficients,
     meaning,
     polynomial_in,
+    presented,
     unknown_of,
 )
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import may_vanish
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import EVERYTHING
@@ -106,17 +106,17 @@ def _solution(
         lines=Lines(
             put_in=None,
             law=Level.FULL,
-            arranged=lecture_form,
+            arranged=presented,
             means={} if isinstance(unknown, Symbol) else meaning(unknown, values[i]),
         ),
         routes={"put_back": put_back, "elimination": lambda found: (found, values[i])},
         outcome=_which(len(wanted), i),
         key=key,
         kind=kind_of_unknown(unknown, known),
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
             named={"unknown": unknown},
-            judged_by={"count": Integer(len(wanted)), "place": Integer(i)},
+            outcome_data={"count": Integer(len(wanted)), "place": Integer(i)},
         ),
         scope=Scope(differ=EVERYTHING),
     )

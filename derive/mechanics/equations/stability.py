@@ -13,9 +13,9 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.equations.unknowns import presented
 from derive.mechanics.systems.coordinates import Coordinate, only_coordinate
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.numeric import Extreme
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
@@ -135,11 +135,11 @@ def extreme_value(
         At(potential.symbol, q, place),
         lambda energy: At(energy, q, place),
         {"potential": potential},
-        lines=Lines(put_in=None, law=Level.FULL, arranged=lecture_form),
+        lines=Lines(put_in=None, law=Level.FULL, arranged=presented),
         routes={"expanded": compared_with(lambda: _coefficient(value, q, place, 0))},
         outcome="level" if curvature == 0 else sort[strict_sign_within(curvature)],
-        telling=Telling(
-            judged_by={"coordinate": q, "at": place},
+        phrase_data=PhraseData(
+            outcome_data={"coordinate": q, "at": place},
             named={"place": Relation(q, "=", place)},
         ),
         key=key,
@@ -197,9 +197,9 @@ def leading_order(
         in_case(potential.symbol),
         lambda energy, *_: in_case(energy),
         {"potential": potential},
-        telling=Telling(
+        phrase_data=PhraseData(
             named={"case": where} if where else {},
-            judged_by={"coordinate": q, "place": place},
+            outcome_data={"coordinate": q, "place": place},
         ),
         lines=Lines(
             put_in=None,

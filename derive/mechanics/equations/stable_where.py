@@ -15,7 +15,7 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import TRUE_FOR, sign_by_factors
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.step import Fact, Form, Level, Quantity
 
 __all__ = ["stable_where"]
@@ -87,8 +87,8 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         ),
         routes={"beside": beside, "energies": lambda found: _by_energies(found, known, border)},
         outcome="open" if known.stable_there is None else "with_border" if known.stable_there else "without_border",
-        telling=Telling(
-            judged_by={
+        phrase_data=PhraseData(
+            outcome_data={
                 "coordinates": (known.coordinate,),
                 "place": (known.place,),
                 "potential_here": known.energy,

@@ -25,7 +25,7 @@ from derive.mechanics.equations.equilibria import RestOf, matter_behind
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.oscillations import SquareOf
 from derive.mechanics.equations.substitution import WithMomenta
-from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.equations.unknowns import presented
 from derive.mechanics.equations.zeros import sign_where
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.systems.dalembert import Load, Matter
@@ -33,7 +33,7 @@ from derive.mechanics.systems.effective import ReducedMatter, SeenWith
 from derive.mechanics.systems.forced import ActedOn
 from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.mechanics.systems.lagrangian import coordinates_of
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero, require_kind
@@ -95,7 +95,7 @@ def steady_motion(
     places = {q.symbol: values.get(q.symbol, q.symbol) for q in still}
     motion = {letter: ZERO for q in every for letter in (q.rate, q.acceleration)}
     motion |= {rate(q): value for q, value in steady_rates.items()} | values
-    conditions = tuple(lecture_form(bound(derivative(L, q.symbol), motion)) for q in still)
+    conditions = tuple(presented(bound(derivative(L, q.symbol), motion)) for q in still)
     steady = Steady(of, places, steady_rates, conditions)
     if equation is not None:
         return _of_equation(equation, steady, equation.needed(OfCoordinate).coordinate, motion, key)
@@ -115,7 +115,7 @@ def _of_equation(
     turning = set(steady.rates)
     still = {letter: value for letter, value in motion.items() if letter not in {rate(s) for s in turning}}
     matter = steady.lagrangian.needed(Matter)
-    left = _rates_first(lecture_form(bound(equation.value.left, still)), steady)
+    left = _rates_first(presented(bound(equation.value.left, still)), steady)
     core = _without_positive(left)
     if core.is_nonzero:
         raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
@@ -131,9 +131,9 @@ def _of_equation(
             {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
         ),
         outcome="of_equation",
-        telling=Telling(
+        phrase_data=PhraseData(
             named={role: Relation(s, "=", v) for role, (s, v) in told.items()},
-            judged_by={"lagrangian": steady.lagrangian.value, "constant": tuple(kept)},
+            outcome_data={"lagrangian": steady.lagrangian.value, "constant": tuple(kept)},
         ),
         key=key,
         facts=[steady, OfCoordinate(q)],
@@ -169,7 +169,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
     """
     of, matter = steady.lagrangian, steady.lagrangian.needed(Matter)
     force = bound(derivative(explicit(of.value), q.symbol), motion)
-    core = _without_positive(_rates_first(lecture_form(-force), steady))
+    core = _without_positive(_rates_first(presented(-force), steady))
     if core.is_nonzero or core != 0 and never_vanishes_within(core):
         raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
@@ -184,9 +184,9 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
             {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
         ),
         outcome="always" if core == 0 else "generic",
-        telling=Telling(
+        phrase_data=PhraseData(
             named={role: Relation(s, "=", v) for role, (s, v) in told.items()},
-            judged_by={"coordinate": q.symbol},
+            outcome_data={"coordinate": q.symbol},
         ),
         key=key,
         facts=[steady, OfCoordinate(q)],
@@ -199,7 +199,7 @@ def _rates_first(value: Expr, steady: Steady) -> Expr:
         for each in Mul.make_args(value):
             polynomial = each.as_poly(letter)
             if each.is_Add and polynomial is not None and polynomial.degree() > 1:
-                return lecture_form(-value) if polynomial.LC().could_extract_minus_sign() else value
+                return presented(-value) if polynomial.LC().could_extract_minus_sign() else value
     return value
 
 
@@ -250,7 +250,7 @@ def frequency_squared_about(
     curvature = about.there(diff(energy, q, 2))
     if is_zero(mass):
         raise Rejected(Complaint("wrong-argument", f"nothing has a mass along {q.name} there, so nothing oscillates"))
-    forms = {each: _of_plain_sign(lecture_form(each.known(curvature / mass))) for each in (about, *about.by_momenta())}
+    forms = {each: _of_plain_sign(presented(each.known(curvature / mass))) for each in (about, *about.by_momenta())}
     about, result = min(forms.items(), key=lambda form: length(form[1]))
     exists = at.needed(Rest).exists if at.fact(Rest) is not None else None
     told = {
@@ -274,7 +274,7 @@ def frequency_squared_about(
         outcome=_sort(result, exists),
         key=key,
         kind="squared angular speed",
-        telling=Telling(
+        phrase_data=PhraseData(
             named={
                 **{role: Relation(s, "=", v) for role, (s, v) in told.items()},
                 **({"exists": exists} if exists is not None else {}),
@@ -330,7 +330,7 @@ def _about_steady(of: Quantity, at: Quantity, without: Expr | None) -> About:
     kept = {fact.momentum: fact.value for each in of.ancestors() if (fact := each.fact(KeptMomentum)) is not None}
     momenta: dict[Symbol, Expr] = {}
     for c in seen.constants:
-        value = lecture_form(about.there(bound(explicit(c.value), going)))
+        value = presented(about.there(bound(explicit(c.value), going)))
         given = kept.get(c.symbol)
         momenta.update({c.symbol: value} if given is None else letter_of_value(given, value, steady.lagrangian, of))
     whole = About(of, matter, q, place, steady.rates, momenta, {})
@@ -367,5 +367,5 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if len(ways) == 1:
         return ways[0]
-    value = lecture_form(value)
+    value = presented(value)
     return min(ways, key=lambda way: (length(tidied(bound(value, way))), str(way)))

@@ -18,10 +18,10 @@ from derive.mechanics.equations.turning_points import ByEnergy, assume_reached, 
 from derive.mechanics.equations.unknowns import (
     ValueOf,
     coordinates_of,
-    lecture_form,
     left_over,
     letter_of,
     meaning,
+    presented,
     unknown_of,
     with_unknown,
 )
@@ -29,7 +29,7 @@ from derive.mechanics.systems.coordinates import AtOneMoment, Coordinate, OfCoor
 from derive.mechanics.systems.effective import Constant, SeenWith
 from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.mechanics.systems.lagrangian import FromLagrangian
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
@@ -95,9 +95,9 @@ def put_in(
         outcome="again" if again is not None else _outcome(result, rests),
         key=key or _key_for(of, rests, there),
         kind=of.step.kind,
-        telling=Telling(
+        phrase_data=PhraseData(
             named={f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},
-            judged_by={
+            outcome_data={
                 "replaced": [letter_of(target) for target, _ in told],
                 **({"found": again.value} if again is not None else {}),
             },
@@ -293,22 +293,22 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
     """Tidy; an equation of motion by its accelerations; of another relation to zero what is positive in all terms is
     left out."""
     if isinstance(value, MatrixBase):
-        return ImmutableDenseMatrix(value.applyfunc(lecture_form))
+        return ImmutableDenseMatrix(value.applyfunc(presented))
     if not isinstance(value, Relation):
-        return _energy_by_terms(value) or lecture_form(value)
+        return _energy_by_terms(value) or presented(value)
     fast = {rate(q, 2) for q in moving}
     if not is_zero(value.right) and all(side.free_symbols & fast for side in value.sides):
         return Relation(by_accelerations(value.residual, moving), value.mark, Integer(0))
     if not is_zero(value.right):
-        return Relation(lecture_form(value.left), value.mark, lecture_form(value.right))
+        return Relation(presented(value.left), value.mark, presented(value.right))
     if value.free_symbols & fast:
         return Relation(by_accelerations(value.left, moving), value.mark, Integer(0))
-    left = lecture_form(value.left)
+    left = presented(value.left)
     kept = [f for f in Mul.make_args(left) if strict_sign_within(f) != 1]
     core = Mul(*kept) if kept else left
     if value.mark == "=" and all(term.could_extract_minus_sign() for term in Add.make_args(core)):
         core = -core  # x = 0, not -x = 0
-    return Relation(lecture_form(core), value.mark, Integer(0))
+    return Relation(presented(core), value.mark, Integer(0))
 
 
 def _energy_by_terms(value: Expr) -> Expr | None:

@@ -23,7 +23,7 @@ from derive.mechanics.equations.linearised import Linear, with_motion
 from derive.mechanics.equations.modes import Mode
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.derivation import with_ancestors
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Form, Quantity, approximations_among, is_zero, value_behind
 
@@ -209,7 +209,7 @@ def _motion(
         ),
         routes={"put_back": put_back, "start": from_the_start},
         outcome="zero" if is_zero(motion[i]) else "generic",
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas=told,
             words={"seen": "all_told" if all(value != 0 for _, value in _starts(together, started)) else "others_zero"},
         ),

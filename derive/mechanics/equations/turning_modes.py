@@ -80,7 +80,7 @@ class Swing:
 
 
 @dataclass(frozen=True)
-class TurningPencil:
+class GyroscopicPencil:
     """K + i omega G - omega^2 M, with G antisymmetric."""
 
     stiffness: MatrixBase

@@ -16,14 +16,14 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.gyroscopic import (
     TurningModes,
     in_quadrature,
-    judged_by,
     of_cosines_and_sines,
+    outcome_data,
     require_turning,
 )
 from derive.mechanics.equations.linearised import Linear
-from derive.mechanics.equations.turning_modes import Part, TurningPencil
+from derive.mechanics.equations.turning_modes import GyroscopicPencil, Part
 from derive.mechanics.equations.zeros import border_of, positive
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.step import Form, Level, Quantity, is_zero
 from derive.witness.facts import Rest
 
@@ -68,7 +68,7 @@ def linear_stability(
     return found[0] if len(found) == 1 else tuple(found)
 
 
-def _needed(pencil: TurningPencil) -> list[tuple[Expr, Part]]:
+def _needed(pencil: GyroscopicPencil) -> list[tuple[Expr, Part]]:
     """What must be positive, each with the factor that it is about."""
     if pencil.is_minimum:
         return []
@@ -83,7 +83,7 @@ def _needed(pencil: TurningPencil) -> list[tuple[Expr, Part]]:
     return [(need, part) for part in pencil.parts for need in part.needs]
 
 
-def _open(need: Expr, pencil: TurningPencil) -> Expr:
+def _open(need: Expr, pencil: GyroscopicPencil) -> Expr:
     """Its factors whose sign is not known where the state exists: K - m w^2 of (K - m w^2)(k - m w^2), if k > m w^2."""
     if need.count_ops() > LARGEST:
         return need
@@ -91,7 +91,7 @@ def _open(need: Expr, pencil: TurningPencil) -> Expr:
     return Mul(*(f / abs(f) if f.is_number else f for f in factors if pencil.sign(f) != 1))
 
 
-def _may_drift(part: Part, pencil: TurningPencil) -> bool:
+def _may_drift(part: Part, pencil: GyroscopicPencil) -> bool:
     """Whether a root may be zero, and the coordinates then move on evenly: not where no stiffness at all is left."""
     if not part.mirrored or len(part.coefficients) != 3 or pencil.sign(part.coefficients[2]) is not None:
         return any(pencil.sign(need) == 0 for need in part.needs)
@@ -114,7 +114,7 @@ def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str)
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"quadrature": lambda found: in_quadrature(found, characteristic.parents, together, letter)},
         outcome=outcome,
-        telling=Telling(points_to=_named(characteristic), judged_by=judged_by(together)),
+        phrase_data=PhraseData(points_to=_named(characteristic), outcome_data=outcome_data(together)),
         key=key,
         parents=[characteristic, *_rests(characteristic)],
     )
@@ -168,7 +168,7 @@ def _condition(
         ),
         routes={"border": at_border},
         outcome=_place_among(i, len(conditions)),
-        telling=Telling(points_to=_named(characteristic), judged_by=judged_by(together, conditions)),
+        phrase_data=PhraseData(points_to=_named(characteristic), outcome_data=outcome_data(together, conditions)),
         key=key,
         parents=[characteristic, *_rests(characteristic)],
     )

@@ -220,7 +220,7 @@ def coordinates_of(*quantities: Quantity) -> dict[Symbol, str]:
     return {q: kind for quantity in quantities for q, kind in quantity.coordinates.items()}
 
 
-def lecture_form(value: Expr, *, in_sums: bool = True) -> Expr:
+def presented(value: Expr, *, in_sums: bool = True) -> Expr:
     """The value as one writes it down: factored, or its terms apart, whichever is shorter.
 
     in_sums     products of sines and cosines may become sums of them; not under a root, out of which squares are drawn

@@ -28,7 +28,7 @@ from derive.algebra.tidy import size_and_rest, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation.vectors import RateByParticles, RateOfSquare, Through, length_by_turning
 from derive.mechanics.systems.dalembert import Matter
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 from derive.steps.subject import EVERYTHING, Subject
@@ -249,7 +249,7 @@ def let(
         kind=kind,
         outcome=_sort_of(is_equation, bool(because)),
         lines=Lines(arranged=explicit if is_equation else _by_rates if kind == "energy" else tidied),
-        telling=Telling(words=reason),
+        phrase_data=PhraseData(words=reason),
         facts=_facts_of(quantities),
         scope=Scope(differ=EVERYTHING),
     )

@@ -17,7 +17,7 @@ from derive.algebra.expressions import AXES, Factors, Ratio, Relation, Root, Ter
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.euler_equations import RateOfMomentum
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Quantity, is_zero
 
@@ -138,7 +138,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"opposite": lambda value: (value, by_opposite_disturbances())},
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"axis": AXES[disturbed.axis]},
             points_to={"motion": equations[k], "slow": equations[disturbed.axis]},
             named={
@@ -202,11 +202,11 @@ def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str =
             "particles": lambda found: (-2 * found, _trace_of_squared_motion(disturbed)),
         },
         outcome=lambda value: _stability(value, disturbed),
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"axis": AXES[disturbed.axis]},
             points_to={"first": linear[0], "second": linear[1]},
             named={f"small_{n}": disturbed.moving[k] for n, k in enumerate(disturbed.across, 1)},
-            judged_by={"moments": disturbed.moments, "axis_index": Integer(disturbed.axis)},
+            outcome_data={"moments": disturbed.moments, "axis_index": Integer(disturbed.axis)},
         ),
         key=key,
         kind="squared angular speed",
@@ -317,7 +317,7 @@ def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble
         lines=Lines(put_in=None, arranged=lambda _: _root_of(-value if grows else value)),
         routes={"determinant": determinant, "not_negative": not_negative},
         outcome=outcome,
-        telling=Telling(words={"axis": AXES[disturbed.axis]}),
+        phrase_data=PhraseData(words={"axis": AXES[disturbed.axis]}),
         key=key,
         kind="angular speed",
     )
@@ -367,10 +367,10 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         lines=Lines(put_in=None),
         routes={"angle": lambda found: (found, rate_of_angle())},
         outcome=_sense(about - across),
-        telling=Telling(
+        phrase_data=PhraseData(
             points_to={"first": equations[0], "second": equations[1], "third": equations[2]},
             named={"along": z, "around": x, "beside": y},
-            judged_by={"excess": about - across},
+            outcome_data={"excess": about - across},
         ),
         key=key,
         kind="angular speed",

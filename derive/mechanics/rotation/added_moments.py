@@ -13,7 +13,7 @@ from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.bodies.parts import PlacedPart
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.rotation.inertia import moment_of_inertia, moment_seen
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Level, Quantity, compared_with, is_zero
 from derive.steps.subject import Subject
 
@@ -68,7 +68,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
         key=key,
         lines=Lines(put_in=Level.FULL),
         parents=[*own.values(), *body.shares],
-        telling=Telling(words={"about": point.name, "axis": axis}),
+        phrase_data=PhraseData(words={"about": point.name, "axis": axis}),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis), differ=OF_PARTS),
     )
 
@@ -124,7 +124,9 @@ def _by_shape(
         lines=Lines(put_in=Level.FULL),
         kind="moment of inertia",
         key=key,
-        telling=Telling(words={"axis": axis, **_of_whole(key.removeprefix("moment_"))}, judged_by={"turn": turn}),
+        phrase_data=PhraseData(
+            words={"axis": axis, **_of_whole(key.removeprefix("moment_"))}, outcome_data={"turn": turn}
+        ),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=centre, axis=axis), differ={"axis"}),
     )
 

@@ -42,7 +42,7 @@ from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.rotation.added_moments import moment_of_parts
 from derive.mechanics.rotation.inertia import inertia_tensor
 from derive.mechanics.rotation.tensors import seen_particles, shape_of, tensor_entry
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import NOTHING, Subject
 
@@ -247,7 +247,9 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
         routes={"integration": by_integration},
         outcome="hole" if part.sign < 0 else "part",
         lines=Lines(put_in=None),
-        telling=Telling(words={"part": part.body.called}, judged_by={"sign": Integer(part.sign), "part_of": part.body}),
+        phrase_data=PhraseData(
+            words={"part": part.body.called}, outcome_data={"sign": Integer(part.sign), "part_of": part.body}
+        ),
     )
 
 
@@ -303,7 +305,7 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
         outcome="cut_out" if any(part.sign < 0 for part in body.parts) else "generic",
         lines=Lines(put_in=Level.FULL),
         facts=[CountedFrom(start)],
-        telling=Telling(words={"start": start.name}),
+        phrase_data=PhraseData(words={"start": start.name}),
         scope=Scope(about=Subject(body=body, point=start), differ=EVERYTHING_BUT_ROTATION),
     )
 
@@ -339,7 +341,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
         outcome=shape_of,
         lines=Lines(put_in=Level.FULL),
         facts=[OfBody(body), AboutPoint(point)],
-        telling=Telling(words={"about": _told(point)}),
+        phrase_data=PhraseData(words={"about": _told(point)}),
         scope=Scope(about=Subject(body=body, point=point), differ=EVERYTHING_BUT_ROTATION),
     )
 
@@ -394,7 +396,7 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
         routes={"particles": any_axis},
         outcome=_PLACED[is_turned, way is not None],
         lines=Lines(put_in=Level.FULL),
-        telling=Telling(words={"about": _told(point)}, judged_by={"turn": turn}),
+        phrase_data=PhraseData(words={"about": _told(point)}, outcome_data={"turn": turn}),
         scope=Scope(about=Subject(body=part.body, point=point), differ=EVERYTHING_BUT_ROTATION),
     )
 
@@ -427,7 +429,7 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
         key="way_from_" + point.name.replace(" ", "_"),
         kind="length",
         routes={"particles": lambda found: (found, mean())},
-        telling=Telling(words={"about": _told(point)}),
+        phrase_data=PhraseData(words={"about": _told(point)}),
         scope=Scope(about=Subject(body=part.body, point=point)),
     )
 

@@ -27,7 +27,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.rotation.vectors import Through, length_by_turning
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Quantity, compared_with, is_zero, require_kind
 
@@ -68,7 +68,7 @@ def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_s
         key=key,
         kind="number",
         parents=[inertia],
-        telling=Telling(points_to={"inertia": inertia}),
+        phrase_data=PhraseData(points_to={"inertia": inertia}),
     )
 
 
@@ -182,7 +182,7 @@ def precession_rate(
         key=key,
         kind="angular speed",
         parents=[inertia],
-        telling=Telling(named={"across": across}),
+        phrase_data=PhraseData(named={"across": across}),
     )
 
 

@@ -34,7 +34,7 @@ from derive.mechanics.bodies.equimomental import squared_distance
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, Integrated, OfBody
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.rotation.tensors import shape_of
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Level, Quantity, compared_with, entry_name, is_zero
 from derive.steps.subject import Subject
 
@@ -95,7 +95,7 @@ def inertia_tensor(
         kind="moment of inertia",
         lines=Lines(law=Level.FULL, put_in=None),
         facts=[OfBody(body), AboutPoint(point)],
-        telling=Telling(words={"about": point.name, **_edged(body), **_mirrored(pairs)}),
+        phrase_data=PhraseData(words={"about": point.name, **_edged(body), **_mirrored(pairs)}),
         key=key,
         scope=Scope(about=Subject(body=body, point=point)),
     )
@@ -161,10 +161,10 @@ def moment_seen(
         parents=[body.density, *body.radii(point, region)],
         facts=[Integrated.over(region)],
         key=key,
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas=_told_square(region, (i, i), weight),
             words={"about": point.name, "axis": axis, **seen},
-            judged_by={} if turn is None else {"turn": turn},
+            outcome_data={} if turn is None else {"turn": turn},
         ),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis)),
     )
@@ -191,7 +191,7 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
         parents=[body.density, *body.radii(point, region)],
         facts=[Integrated.over(region)],
         lines=Lines(put_in=None, result=False),
-        telling=Telling(words={"about": point.name}),
+        phrase_data=PhraseData(words={"about": point.name}),
         key=f"{key}_definition",
         scope=Scope(about=Subject(body=body, point=point)),
     )
@@ -249,7 +249,7 @@ def _entry_by_integration(
         parents=[definition, body.density, *body.radii(point, region)],
         facts=[Integrated.over(region)],
         key=f"{key}_{named}",
-        telling=Telling(formulas=_told_square(region, pair, weight), words={"about": point.name}),
+        phrase_data=PhraseData(formulas=_told_square(region, pair, weight), words={"about": point.name}),
         scope=Scope(about=Subject(body=body, point=point, axis=named)),
     )
 
@@ -355,7 +355,7 @@ def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: s
         parents=[body.density],
         lines=Lines(law=Level.FULL, put_in=None),
         facts=[OfBody(body), AboutPoint(target)],
-        telling=Telling(words={"about": target.name, "start": other.name, **_edged(body)}),
+        phrase_data=PhraseData(words={"about": target.name, "start": other.name, **_edged(body)}),
         key=key,
         scope=Scope(about=Subject(body=body, point=target)),
     )
@@ -412,7 +412,7 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         kind="moment of inertia",
         lines=Lines(put_in=Level.STANDARD),
         parents=[there],
-        telling=Telling(words={"start": other.name}),
+        phrase_data=PhraseData(words={"start": other.name}),
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
         scope=Scope(about=Subject(body=body, point=target), differ={"point"}),
     )
@@ -443,7 +443,7 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
         kind="moment of inertia",
         lines=Lines(put_in=None),
         facts=found.facts,
-        telling=Telling(words={"about": points[0].name}, judged_by={"turn": turn}),
+        phrase_data=PhraseData(words={"about": points[0].name}, outcome_data={"turn": turn}),
         key=key,
         scope=Scope(about=found.subject, differ={"point", "axes"}),
     )

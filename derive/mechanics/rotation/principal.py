@@ -15,7 +15,7 @@ from derive.algebra.expressions import Dot, column, explicit, scalar, vector
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import OfBody
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Fact, Quantity, is_zero, require_kind
 
 __all__ = ["principal_axes", "principal_moments"]
@@ -67,7 +67,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
         outcome=_multiplicity if inertia.value.is_diagonal() else _multiplicity_of_roots,
         kind="moment of inertia",
         lines=Lines(put_in=None),
-        telling=Telling(words={"seen": "kept" if _was_diagonal(inertia) else "first"}),
+        phrase_data=PhraseData(words={"seen": "kept" if _was_diagonal(inertia) else "first"}),
         facts=[*inertia.facts, PrincipalOf(inertia)],
         key=key,
     )

@@ -10,7 +10,7 @@ from sympy.core.symbol import Str
 from derive.algebra.expressions import column, vector
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation.vectors import Momentary, Through
-from derive.steps.establish import Scope, Telling, establish
+from derive.steps.establish import PhraseData, Scope, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import Subject
@@ -63,6 +63,6 @@ def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key
         kind="angular speed",
         outcome="momentary" if is_momentary else "generic",
         facts=[Through(through), *([Momentary(through)] if is_momentary else [])],
-        telling=Telling(judged_by={"verb": Str(verb), "given": tuple(components)}),
+        phrase_data=PhraseData(outcome_data={"verb": Str(verb), "given": tuple(components)}),
         scope=Scope(about=Subject(rotation=omega)),
     )

@@ -20,7 +20,7 @@ from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint
 from derive.mechanics.rotation.vectors import Momentary, RateOfTurning, whether_zero
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Form, Level, Quantity, compared_with, require_kind
 
@@ -70,10 +70,10 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
         key=key,
         kind="torque",
         parents=[*_moments(inertia), inertia],
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"about": about, "point": about, **({"euler": about} if by_euler else {})},
             points_to={"tensor": inertia},
-            judged_by={"inertia": inertia.value},
+            outcome_data={"inertia": inertia.value},
         ),
     )
 

@@ -35,7 +35,7 @@ from derive.mechanics.bodies.equimomental import squared_distance, summed, tenso
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.bodies.parts import turn_about
 from derive.mechanics.bodies.regions import Point
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Level, Quantity, entry_name, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject
 
@@ -101,10 +101,10 @@ def turned_tensor(
         outcome=shape_of,
         lines=Lines(put_in=Level.STANDARD, arranged=_shorter_sums),
         facts=[OfBody(body), AboutPoint(there)],
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"about": point.name, "along": axis},
             named={"angle": angle},
-            judged_by={"turn": turn},
+            outcome_data={"turn": turn},
         ),
         scope=Scope(about=Subject(body=body, point=there, axes=there.axes), differ={"point", "axes"}),
     )
@@ -138,7 +138,7 @@ def moment_about(
         kind=MOMENT,
         routes=body.another_way(lambda r: squared_distance(r, unit), point),
         lines=Lines(put_in=Level.STANDARD),
-        telling=Telling(words={"about": point.name}),
+        phrase_data=PhraseData(words={"about": point.name}),
         scope=Scope(about=Subject(body=body, point=point)),
     )
 
@@ -186,7 +186,7 @@ def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: 
         parents=[inertia],
         routes=body.another_way(lambda r: tensor_at(r)[i, j], point),
         outcome="moment" if i == j else "product",
-        telling=Telling(words={"about": point.name, "entry": entry}, points_to={"inertia": inertia}),
+        phrase_data=PhraseData(words={"about": point.name, "entry": entry}, points_to={"inertia": inertia}),
         scope=Scope(about=Subject(body=body, point=point, axis="xyz"[i] if i == j else None)),
     )
 
@@ -234,7 +234,7 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
         routes={"particles": no_product},
         outcome=lambda found: "zero" if found == 0 else "generic",
         lines=Lines(means={angle: atan2(2 * I[0, 1], I[0, 0] - I[1, 1]) / 2}),
-        telling=Telling(words={"about": point.name}, points_to={"inertia": inertia}),
+        phrase_data=PhraseData(words={"about": point.name}, points_to={"inertia": inertia}),
         scope=Scope(about=Subject(body=body, point=point)),
     )
 
@@ -284,7 +284,7 @@ def perpendicular_axes(
         kind=MOMENT,
         routes=body.another_way(lambda r: tensor_at(r)[k, k], point),
         lines=Lines(put_in=Level.STANDARD),
-        telling=Telling(words={"about": point.name, "across": across}),
+        phrase_data=PhraseData(words={"about": point.name, "across": across}),
         scope=Scope(about=Subject(body=body, point=point, axis=across)),
     )
 

@@ -29,7 +29,7 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import factored_matrix, size_and_rest, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter, require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
@@ -261,7 +261,7 @@ def kinetic_energy(
         routes={"speeds": compared_with(by_speeds)},
         key=key,
         kind="energy",
-        telling=Telling(words=words),
+        phrase_data=PhraseData(words=words),
         facts=[RateOfEnergy(inertia, omega)],
     )
 
@@ -306,7 +306,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         outcome=lambda L: "parallel" if (how := whether_zero(tidied(Cross(omega.value, L)))) == "zero" else how,
         key=key,
         kind="angular momentum",
-        telling=Telling(words=words),
+        phrase_data=PhraseData(words=words),
         facts=[inertia.needed(AboutPoint), RateOfTurning(inertia, omega)],
     )
 
@@ -405,7 +405,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
         {},
         lines=Lines(arranged=_angle_itself),
         parents=[cosine, a, b],
-        telling=Telling(points_to={"a": a, "b": b}),
+        phrase_data=PhraseData(points_to={"a": a, "b": b}),
         routes={
             "tangent": lambda theta: (sin(theta) * along, cos(theta) * across),
             "sine": lambda theta: (sin(theta) * lengths, across),

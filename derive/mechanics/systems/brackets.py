@@ -15,7 +15,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import PhaseSpace, kind_of_momentum, letter_of_momentum
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Form, Level, Quantity, value_behind
 
 __all__ = ["poisson_bracket"]
@@ -88,7 +88,9 @@ def poisson_bracket(
             **(flow.lagrangian.needed(Matter).named({"along_the_motion": along_the_motion}) if flow else {}),
         },
         outcome=outcome,
-        telling=Telling(judged_by={"momenta": tuple(p for _, p in pairs), "coordinates": tuple(q for q, _ in pairs)}),
+        phrase_data=PhraseData(
+            outcome_data={"momenta": tuple(p for _, p in pairs), "coordinates": tuple(q for q, _ in pairs)}
+        ),
         key=key or f"bracket_{_called(f)}_{_called(g)}",
         parents=list(among),
         facts=known[:1],

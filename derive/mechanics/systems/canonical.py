@@ -28,7 +28,7 @@ from derive.mechanics.systems.phase_space import (
     part_of_degree,
     rates_by_momenta,
 )
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter
 from derive.steps.step import Level, Quantity, is_zero, lettered
 
@@ -100,7 +100,7 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
             **matter.named({"canonical": canonical}),
         },
         outcome=outcome_of_energy(h, of),
-        telling=Telling(formulas=told_of_excess(h, of, [q.rate for q in moving]), points_to={"whole": of}),
+        phrase_data=PhraseData(formulas=told_of_excess(h, of, [q.rate for q in moving]), points_to={"whole": of}),
         key=key,
         kind=of.step.kind,
         facts=[space],
@@ -147,7 +147,7 @@ def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
         lines=Lines(put_in=None, arranged=lambda found: Relation(found.left, found.mark, solved.value)),
         routes={"momenta": by_momenta},
         outcome="rate",
-        telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
+        phrase_data=PhraseData(outcome_data={"coordinate": q.symbol, "momentum": p}),
         key=f"canonical_{q.symbol.name}",
         facts=[space, OfCoordinate(q)],
     )
@@ -186,7 +186,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
         lines=Lines(put_in=None, arranged=lambda found: _by_terms(found, [p for _, p in space.pairs])),
         routes=matter.named({"virtual_work": by_virtual_work}),
         outcome="applied" if pushes or held else "cyclic" if cyclic else "force",
-        telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
+        phrase_data=PhraseData(outcome_data={"coordinate": q.symbol, "momentum": p}),
         key=f"canonical_{p.name}",
         facts=[space, OfCoordinate(q)],
         scope=Scope(coordinates={c.force: c.kind_of_force or "" for c in (kept.constraints if kept else ())}),

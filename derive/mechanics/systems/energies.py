@@ -42,7 +42,7 @@ from derive.mechanics.systems.rigid import (
     turning_rate_of,
 )
 from derive.mechanics.systems.system import HALF, ZERO, Eliminated, System
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import assumed, free_letter
 from derive.steps.step import Form, Level, Quantity, compared_with, lettered, value_behind
 from derive.steps.subject import EVERYTHING, Subject
@@ -323,9 +323,9 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
         ),
         facts=[replace(matter, points=(), fields=()), *acting_on(system), system.described],
         parents=lengths,
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"seen": "stretched" if kept else "any"},
-            judged_by={"branches": tuple(each.branch for each in system.between if each.branch is not None)},
+            outcome_data={"branches": tuple(each.branch for each in system.between if each.branch is not None)},
         ),
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
@@ -370,7 +370,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         routes={"deflection": deflection},
         outcome="several" if len(matter.fields) > 1 else "alone",
         lines=Lines(put_in=None, arranged=lambda value: _with_common_factor(by_rates(value, moving))),
-        telling=Telling(judged_by={"fields": len(matter.fields)}),
+        phrase_data=PhraseData(outcome_data={"fields": len(matter.fields)}),
         facts=[matter],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )

@@ -22,7 +22,7 @@ from derive.mechanics.systems.forced import ActedOn, applied_force
 from derive.mechanics.systems.given_lagrangian import Varied, energy_of, rate_of_energy
 from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
 from derive.mechanics.systems.phase_space import beside_potential, kinetic_first, part_of_degree
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter
 from derive.steps.step import Form, Quantity, is_zero
 
@@ -122,7 +122,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
         if energies is not None
         else {"energy_identity": identity, "stretched": stretched},
         outcome=lambda value: outcome_of_energy(value, of),
-        telling=Telling(formulas=told_of_excess(plain, of, rates)),
+        phrase_data=PhraseData(formulas=told_of_excess(plain, of, rates)),
         key=key,
         kind=of.step.kind,
         facts=[FromLagrangian(of)],
@@ -177,7 +177,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
         ),
         routes=matter.named({"along_the_motion": along_the_motion}),
         outcome=_sort_of_rate(rate_of_it, in_time, moving),
-        telling=Telling(judged_by={"moving": tuple(moving)}),
+        phrase_data=PhraseData(outcome_data={"moving": tuple(moving)}),
         key=key or f"{of.key}_rate",
         parents=[of, L],
         facts=[FromLagrangian(L)],

@@ -16,7 +16,7 @@ from derive.mechanics.systems.constraint import Constraint, Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter
 from derive.mechanics.systems.forces import Damper, GivenForce
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Fact, Quantity, compared_with
 from derive.steps.subject import Subject
 
@@ -164,7 +164,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
         lines=Lines(put_in=None, arranged=lambda value: _by_rates_or_terms(value, moving)),
         routes={"power": compared_with(by_power)},
         outcome=lambda value: "zero" if value == 0 else "generic",
-        telling=Telling(judged_by={"coordinate": q.symbol}),
+        phrase_data=PhraseData(outcome_data={"coordinate": q.symbol}),
         key=key or f"applied_force_{q.symbol.name}",
         scope=Scope(coordinates={**of.coordinates, **held}, about=Subject(body=acted.system)),
     )
@@ -225,11 +225,11 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         lines=Lines(put_in=None, arranged=lambda found: _sides(found, moving, constraints)),
         routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
-        telling=Telling(
+        phrase_data=PhraseData(
             words={"between": _between(constraints)},
             formulas=_functions_told(kept.constraints if kept else ()),
             named={"coordinate": q.symbol},
-            judged_by={"letters": tuple(c.force for c in constraints)},
+            outcome_data={"letters": tuple(c.force for c in constraints)},
         ),
         key=key,
         parents=[*derivatives, *([applied] if applied is not None else [])],

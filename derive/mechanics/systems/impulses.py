@@ -18,11 +18,11 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.solving import solved_for
 from derive.mechanics.equations.substitution import put_in
-from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.equations.unknowns import presented
 from derive.mechanics.systems.blow import Blow
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.systems.dalembert import Matter
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import EVERYTHING, Subject
 
@@ -69,9 +69,9 @@ def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None 
         lines=Lines(put_in=None, arranged=lambda found: _jump(found, blow)),
         routes={"particles": by_particles},
         outcome="struck" if shares else "free",
-        telling=Telling(
+        phrase_data=PhraseData(
             named={"coordinate": symbol},
-            judged_by={"slope": diff(blow.power(), q.rate), "at": tuple(blow.at.items())},
+            outcome_data={"slope": diff(blow.power(), q.rate), "at": tuple(blow.at.items())},
         ),
         key=key or f"jump_{symbol.name}",
         facts=[OfCoordinate(q), blow.described],
@@ -122,7 +122,9 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
         ),
         routes={"functions_of_time": by_time},
         outcome=meeting.what,
-        telling=Telling(named={"impulse": meeting.letter}, judged_by={"restitution": part, "power": blow.power()}),
+        phrase_data=PhraseData(
+            named={"impulse": meeting.letter}, outcome_data={"restitution": part, "power": blow.power()}
+        ),
         key=key or f"meeting_{number + 1}",
         scope=Scope(coordinates=blow.system.coordinates, about=Subject(body=blow.system)),
     )
@@ -192,7 +194,7 @@ def work_of_impulses(
         scalar(symbol),
         lambda T: Terms(T, -before) if before != 0 else T,
         {"energy": energy},
-        lines=Lines(arranged=lambda value: lecture_form(explicit(value))),
+        lines=Lines(arranged=lambda value: presented(explicit(value))),
         routes={"impulses": by_impulses},
         outcome=_gain,
         key=key,

@@ -18,7 +18,7 @@ from derive.mechanics.bodies.regions import Point
 from derive.mechanics.equations.euler_equations import RigidBody
 from derive.mechanics.rotation.inertia import moment_of_inertia
 from derive.mechanics.rotation.tensors import seen_particles
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import Subject
 
@@ -107,7 +107,7 @@ def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantit
         routes={"balance": lambda l: (sum((m * (r[2] - l) for m, r in seen_particles(body, point)), Integer(0)), 0)},
         kind="length",
         key="centre_distance",
-        telling=Telling(words={"about": point.name}),
+        phrase_data=PhraseData(words={"about": point.name}),
         lines=Lines(put_in=Level.FULL if mass is not None else None),
         scope=Scope(about=Subject(body=body, point=point)),
     )

@@ -11,7 +11,7 @@ from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import OfCoordinate, by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity
 
@@ -75,7 +75,7 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
             after=[Form(found, "divided", nonzero=(common,))],
         ),
         routes=matter.named({"along_the_motion": along_the_motion}),
-        telling=Telling(judged_by={"coordinate": q.symbol}),
+        phrase_data=PhraseData(outcome_data={"coordinate": q.symbol}),
         key=key,
         facts=[OfCoordinate(q), KeptMomentum(momentum.symbol, explicit(value), q.symbol, turning)],
     )

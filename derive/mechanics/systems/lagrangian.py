@@ -24,7 +24,7 @@ from derive.mechanics.systems.energies import kinetic_energy_of, magnetic_term_o
 from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
 from derive.mechanics.systems.given_lagrangian import Varied
 from derive.mechanics.systems.system import System
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import changes, free_letter
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
@@ -187,7 +187,7 @@ def equation_of_motion(
         ),
         routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome="cyclic" if is_zero(slope(explicit(of.value), q.symbol)) else "generic",
-        telling=Telling(named={"coordinate": q.symbol}),
+        phrase_data=PhraseData(named={"coordinate": q.symbol}),
         key=key,
         parents=found,
         facts=[FromLagrangian(of), OfCoordinate(q), matter],
@@ -298,7 +298,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
             }
         ),
         outcome=lambda value: "zero" if value == 0 else "generic",
-        telling=Telling(named={"coordinate": q.symbol}),
+        phrase_data=PhraseData(named={"coordinate": q.symbol}),
         key=key or _key_of(of, f"force_{q.symbol.name}"),
     )
 

@@ -12,7 +12,7 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import KnownCoordinate
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in
 from derive.steps.step import Level, Quantity
 
@@ -49,7 +49,7 @@ def integrated(condition: Quantity, key: str | None = None) -> Quantity:
         routes={"differentiated": differentiated, "start": lambda found: (found.subs(at_zero), 0 * q)},
         key=key or q.name,
         kind=moving.get(q),
-        telling=Telling(points_to={"condition": condition}),
+        phrase_data=PhraseData(points_to={"condition": condition}),
         parents=[condition],
         facts=[known],
     )
@@ -109,7 +109,7 @@ def _component(
         lines=Lines(put_in=Level.STANDARD, arranged=explicit),
         routes={"velocity": same_velocity, "start": at_zero},
         outcome="place" if body is None else "centre",
-        telling=Telling(judged_by=centre),
+        phrase_data=PhraseData(outcome_data=centre),
         key=name,
         kind="length",
         scope=Scope(coordinates=coordinates_in(component.subs(values))),

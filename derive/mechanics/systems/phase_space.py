@@ -42,7 +42,7 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, coord
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.inverted_momenta import by_quadratic_form, roots_together
 from derive.mechanics.systems.lagrangian import FromLagrangian, coordinates_of, energies_of
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import told_of_divisors
 from derive.steps.step import Fact, Form, Quantity, compared_with, lettered
 
@@ -183,7 +183,7 @@ def rates_by_momenta(
             lines=Lines(put_in=None, result=False, arranged=explicit),
             routes={"put_back": lambda found: put_back(q, found)},
             outcome="alone" if len(own) == 1 else "together",
-            telling=Telling(formulas=divisors),
+            phrase_data=PhraseData(formulas=divisors),
             key=f"{key}_{q.symbol.name}" if varying else f"{key}_{q.symbol.name}_by_{by}",
             kind=kind_of_dimension(dimension_of_kind(q.kind) / dimension_of_kind("time")),
             scope=Scope(coordinates=moving),

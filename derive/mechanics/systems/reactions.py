@@ -25,7 +25,7 @@ from derive.mechanics.systems.forced import ForcedMotion
 from derive.mechanics.systems.gradients import gradient_length
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.mechanics.systems.rigid import by_squares
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import told_of_divisors
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
@@ -205,7 +205,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "in_coordinates",
-        telling=Telling(formulas={"constraint": (each.relation, Relation(each.residual, "=", ZERO))}),
+        phrase_data=PhraseData(formulas={"constraint": (each.relation, Relation(each.residual, "=", ZERO))}),
         key=key or f"constraint_{each.force.name}",
         parents=[of],
     )
@@ -225,7 +225,7 @@ def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Qu
             "constraint": lambda value: _keeps_holding(problem, {**found, rate(q, 2): value}),
         },
         outcome=lambda value: "zero" if value == 0 else "generic",
-        telling=Telling(formulas=told_of_divisors([found[rate(p, 2)] for p in problem.moving])),
+        phrase_data=PhraseData(formulas=told_of_divisors([found[rate(p, 2)] for p in problem.moving])),
         key=f"acceleration_{q.name}",
         kind=_kind_of_acceleration(coordinate.kind),
         parents=[*problem.equations, *rates],
@@ -246,9 +246,9 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
         lines=Lines(put_in=None, arranged=lambda value: value),
         routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
         outcome=lambda value: "zero" if value == 0 else "generic" if is_force else "multiplier",
-        telling=Telling(
+        phrase_data=PhraseData(
             formulas={**told_of_divisors([found[each.force]]), **shown},
-            judged_by={"condition": each.residual, "place": _places(problem) if length is not None else ()},
+            outcome_data={"condition": each.residual, "place": _places(problem) if length is not None else ()},
         ),
         key=each.force.name,
         kind=each.kind_of_force,

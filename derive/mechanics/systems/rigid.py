@@ -16,7 +16,7 @@ from derive.mechanics.bodies.placed import XYZ, PlacedBody, after
 from derive.mechanics.rotation.inertia import inertia_tensor, moment_seen
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.places import Axes, space
-from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in, established
 from derive.steps.step import Quantity, compared_with, is_zero
 from derive.steps.subject import NOTHING, Subject
@@ -73,7 +73,7 @@ def angular_velocity(
         lines=Lines(put_in=None, arranged=lambda value: ImmutableDenseMatrix(explicit(value).applyfunc(by_squares))),
         routes={"rotation_matrix": compared_with(by_rotation_matrix)},
         outcome="space" if count == 0 else "body" if count == len(axes.turns) else "following",
-        telling=Telling(judged_by={"in_space": axes.in_space, "frame": after(axes.turns[:count])}),
+        phrase_data=PhraseData(outcome_data={"in_space": axes.in_space, "frame": after(axes.turns[:count])}),
         key=key,
         kind="angular speed",
         scope=Scope(

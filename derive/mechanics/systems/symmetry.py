@@ -20,7 +20,7 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.given_lagrangian import Varied
 from derive.mechanics.systems.lagrangian import FromLagrangian, coordinates_of
 from derive.mechanics.systems.phase_space import conjugate_momentum, written_momentum
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["noether"]
@@ -76,7 +76,7 @@ def noether(
         lines=Lines(put_in=None, arranged=lambda value: written_momentum(value, of)),
         routes=matter.named({"along_the_shift": along_the_shift, "carried": carried}),
         outcome="with_gain" if gain != 0 else "symmetry",
-        telling=Telling(judged_by={"gain": gain}, points_to={"change": changed}),
+        phrase_data=PhraseData(outcome_data={"gain": gain}, points_to={"change": changed}),
         key=key,
         parents=[of, changed],
         facts=[FromLagrangian(of)],
@@ -150,7 +150,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         lines=Lines(put_in=None, result=False, arranged=explicit, after=_worked(L, ways, gain, moving)),
         routes=matter.named({"places": by_places}),
         outcome="none" if explicit(TimeRate(gain, *moving)) == 0 else "gain",
-        telling=Telling(judged_by={"moved": tuple(ways)}),
+        phrase_data=PhraseData(outcome_data={"moved": tuple(ways)}),
         key=f"{key}_change",
     )
 

@@ -9,10 +9,10 @@ from sympy import cos, pi, sin, symbols
 
 from derive.algebra.expressions import TIME
 from derive.figures import sketch
+from derive.figures.completeness import is_whole
 from derive.figures.marks import Drawing
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, WheelMark
 from derive.figures.surroundings import FixedEnd, WayMark
-from derive.figures.wholeness import is_whole
 from derive.mechanics import (
     Disc,
     Hoop,
