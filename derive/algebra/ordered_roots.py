@@ -30,7 +30,7 @@ class OrderedRoot(ScalarNode):
 
     @property
     def name(self) -> Symbol:
-        """A letter for it, with its place among all frequencies."""
+        """A letter for it, with its place among the roots of this polynomial."""
         return self.args[2]
 
     @property

@@ -357,6 +357,26 @@ def test_frequencies_without_a_formula_are_those_of_an_eigenvalue_routine(
     assert {q.step.outcome for q in found} == {"ordered"}
 
 
+def test_the_sentence_introduces_the_smallest_root_whichever_frequency_is_asked_for() -> None:
+    for found in chain_in_numbers((1, 1, 1), (2, 3, 4, 5)):
+        assert str(dict(found.step.roles)["root"]) == "lambda_1"
+
+
+def test_of_a_factor_the_roots_are_numbered_among_themselves_and_come_last() -> None:
+    stiff = symbols("k_1:4", positive=True)
+    numbers = dict(zip((m, *stiff), map(Integer, (1, 3, 4, 5)), strict=True))
+    with recorded(Run(numbers=numbers)):
+        moving = [coordinate(f"x_{i}", "length") for i in (1, 2, 3, 4)]
+        joints = [point(i * l + q.symbol, 0) for i, q in enumerate(moving)]
+        joined = [spring(each, u, v, natural=l) for each, u, v in zip(stiff, joints, joints[1:], strict=False)]
+        equations = motion(*(Particle(m, at) for at in joints), *joined)
+        found = [q for q in normal_modes(linearised(equations, at=dict.fromkeys(moving, 0))) if "frequency" in q.key]
+    assert [q.step.outcome for q in found] == ["free", *["ordered_part"] * 3]
+    wanted = np.linalg.eigvalsh([[3, -3, 0, 0], [-3, 7, -4, 0], [0, -4, 9, -5], [0, 0, -5, 5]])[1:]
+    values = [float(explicit(explicit(q.value).xreplace(numbers)).evalf()) for q in found[1:]]
+    assert np.allclose(values, np.sqrt(wanted))
+
+
 def test_roots_of_another_polynomial_or_in_another_order_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     def of_another(coefficients: Sequence[Expr], number: int, name: Any) -> Any:
         return OrderedRoot([*coefficients[:-1], 2 * coefficients[-1]], number, name)
@@ -365,8 +385,11 @@ def test_roots_of_another_polynomial_or_in_another_order_are_refused(monkeypatch
         patched.setattr(characteristic, "OrderedRoot", of_another)
         with pytest.raises(Unverified, match="put_back"):
             chain_in_numbers((1, 1, 1), (2, 3, 4, 5))
-    size = characteristic._size
-    monkeypatch.setattr(characteristic, "_size", lambda value: (-size(value)[0], ""))
+
+    def misnamed(coefficients: Sequence[Expr], number: int, name: Any) -> Any:
+        return OrderedRoot(coefficients, len(coefficients) - number, name)
+
+    monkeypatch.setattr(characteristic, "OrderedRoot", misnamed)
     with pytest.raises(Unverified, match="the sentence for this result could not be confirmed"):
         chain_in_numbers((1, 1, 1), (2, 3, 4, 5))
 

@@ -6,9 +6,10 @@ lambda a letter, modulo the irreducible factor that it is a root of: whether a p
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 from sympy import (
     Add,
@@ -80,7 +81,10 @@ class Root:
 
 @dataclass(frozen=True)
 class Pencil:
-    """K - lambda M, of symmetric matrices, where a condition holds; without formulas roots have that name, in order."""
+    """K - lambda M, of symmetric matrices, where a condition holds.
+
+    name   of the roots of a factor without formulas, which are numbered; without a name they are refused
+    """
 
     stiffness: MatrixBase
     mass: MatrixBase
@@ -126,26 +130,33 @@ class Pencil:
 
     @cached_property
     def roots(self) -> tuple[Root, ...]:
-        """From the least to the greatest, where the letters have middling values."""
+        """From the least to the greatest, where the letters have middling values; those without a formula come last."""
         found = [root for part, times in self.factors for root in self._roots_of(part, times)]
-        in_order = sorted(found, key=lambda root: _size(root.value))
-        return tuple(root if root.has_formula else self._numbered(root, n + 1) for n, root in enumerate(in_order))
-
-    def _numbered(self, root: Root, place: int) -> Root:
-        """A root without a formula, named by its place among all."""
-        return replace(root, value=root.value.xreplace({scalar(self.name): scalar(f"{self.name}_{place}")}))
+        return tuple(sorted(found, key=lambda root: (not root.has_formula, _size(root.value))))
 
     def _roots_of(self, part: Poly, times: int) -> list[Root]:
         values = _roots_of(part)
         if values is not None:
             return [self._root(part, value, times) for value in values]
         degree = part.degree()
-        if not self.name or times > 1 or not self._is_positive:
+        whole = Poly(tidied(part.as_expr().xreplace({_LAMBDA: _LAMBDA / self.scale}) * self.scale**degree), _LAMBDA)
+        coefficients = whole.all_coeffs()
+        alone = [other.degree() for other, _ in self.factors if _roots_of(other) is None] == [degree]
+        if not self.name or times > 1 or not alone or not self._are_positive(coefficients):
             message = f"the squares of {degree} frequencies are the roots of a polynomial that does not factor"
             help_ = "give equal masses and springs one letter, or give all of them numbers"
+            if self.name:
+                help_ = "numbers help for small oscillations about a stable equilibrium, of one such polynomial"
             raise Rejected(Complaint("no-closed-form", message, help=help_))
-        whole = Poly(tidied(part.as_expr().xreplace({_LAMBDA: _LAMBDA / self.scale}) * self.scale**degree), _LAMBDA)
-        return [Root(OrderedRoot(whole.all_coeffs(), n + 1, scalar(self.name)), (), 1) for n in range(degree)]
+        names = [scalar(f"{self.name}_{n + 1}") for n in range(degree)]
+        return [Root(OrderedRoot(coefficients, n + 1, name), (), 1) for n, name in enumerate(names)]
+
+    def _are_positive(self, coefficients: Sequence[Expr]) -> bool:
+        """Whether all roots of that factor are: they are real where M is positive, and by Descartes' rule none that is
+        real is negative or zero where the signs of the coefficients alternate."""
+        signs = [sign_by_factors(tidied(each)) for each in coefficients]
+        alternate = None not in signs and 0 not in signs and all(u == -v for u, v in pairwise(signs))  # type: ignore[operator]
+        return alternate and self._has_positive_minors(self.mass)
 
     def _root(self, part: Poly, value: Expr, times: int) -> Root:
         stiffness, mass = self._reduced
@@ -167,8 +178,11 @@ class Pencil:
 
     @cached_property
     def _is_positive(self) -> bool:
-        matrices = (self.stiffness, self.mass)
-        minors = (determinant_of(each[:n, :n]) for each in matrices for n in range(1, each.shape[0] + 1))
+        return self._has_positive_minors(self.stiffness) and self._has_positive_minors(self.mass)
+
+    @staticmethod
+    def _has_positive_minors(matrix: MatrixBase) -> bool:
+        minors = (determinant_of(matrix[:n, :n]) for n in range(1, matrix.shape[0] + 1))
         return all(sign_by_factors(tidied(minor)) == 1 for minor in minors)
 
 

@@ -70,7 +70,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
     the letters); where two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
-    conditional_repeated; ordered (no formula: the root of that place); of shapes: in_phase, opposite,
+    conditional_repeated; ordered, ordered_part (no formula: a root by its place); of shapes: in_phase, opposite,
     alone (the other is at rest), generic, uniform (free motion), departing (growing), any_of_several (repeated); of the
     determinant: several, one (coordinate).
     Errors: the roots have no closed form, and letters have no numbers; with drag the modes do not separate; too many
@@ -200,7 +200,7 @@ def _frequency(
 
     outcome = _OF_SIGN[root.sign] + ("_repeated" if root.multiplicity > 1 else "")
     drift = _drift(linear, together, root)
-    named = {} if root.has_formula else {"root": root.value.name}
+    named = {} if root.has_formula else {"root": scalar(f"{pencil.name}_1")}  # the sentence introduces the first
     return establish(
         "modes.frequency",
         scalar(name),
@@ -208,10 +208,10 @@ def _frequency(
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"put_back": put_back, **({"rayleigh": rayleigh} if root.has_formula else {}), "trace": trace},
-        outcome=outcome if root.has_formula else "ordered",
+        outcome=outcome if root.has_formula else _of_polynomial(root, together),
         phrase_data=PhraseData(
             points_to={"characteristic": characteristic},
-            outcome_data={**_judged_by(together), "left": drift.pop("left", ()), "place": n + 1},
+            outcome_data={**_judged_by(together), "left": drift.pop("left", ())},
             formulas=told_where_positive(root.value) if root.sign is None else {},
             named={**drift, **named},
         ),
@@ -220,6 +220,11 @@ def _frequency(
         parents=[characteristic],
         facts=[Mode(root)],
     )
+
+
+def _of_polynomial(root: RootOfPencil, together: Linear) -> str:
+    """Whether all frequencies are roots of one polynomial, or some of a factor."""
+    return "ordered" if len(root.value.args[0]) - 1 == len(together.displacements) else "ordered_part"
 
 
 def _judged_by(together: Linear) -> dict[str, Any]:

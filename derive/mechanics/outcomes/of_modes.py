@@ -14,6 +14,7 @@ from sympy import Abs, Dummy, Expr, I, ImmutableDenseMatrix, Integer, Poly, Rati
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import explicit, rate
+from derive.algebra.ordered_roots import OrderedRoot
 from derive.algebra.ranges import rational_in_range
 from derive.mechanics.outcomes.signs import always_sign, lasts, turned, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
@@ -93,14 +94,25 @@ def _frequency(sign: int | None, repeated: bool) -> Predicate:
     return is_so
 
 
-def _is_in_order(facts: Judged) -> bool:
-    """Whether as many roots lie below its square as its number says, by Sturm's theorem."""
-    square, place = facts.result**2, facts.inputs["place"]
-    for numbers in _numbers(facts):
-        below = Rational(str(explicit(square.xreplace(numbers)).evalf(40) * (1 - LITTLE)))
-        if _polynomial(facts, numbers).count_roots(sup=below) != place - 1:
+def _is_in_order(whole: bool) -> Predicate:
+    """Whether it is a root of the determinant, and the number of its letter is that of its place, by Sturm's theorem,
+    among all roots, or among those of a factor of lower degree."""
+
+    def is_so(facts: Judged) -> bool:
+        square = facts.result**2
+        if not isinstance(square, OrderedRoot):
             return False
-    return _is_root(square, facts, 1) and _sign_everywhere(square, facts) == 1
+        place, size = int(str(square.name).rpartition("_")[2]), facts.inputs["stiffness"].shape[0]
+        unknown = Dummy("lambda")
+        for numbers in _numbers(facts):
+            factor = Poly([each.xreplace(numbers) for each in square.args[0]], unknown)
+            below = Rational(str(explicit(square.xreplace(numbers)).evalf(40) * (1 - LITTLE)))
+            own = _polynomial(facts, numbers) if whole else factor
+            if own.count_roots(sup=below) != place - 1 or (factor.degree() == size) != whole:
+                return False
+        return _is_root(square, facts, 1) and _sign_everywhere(square, facts) == 1
+
+    return is_so
 
 
 def _is_not_negative(facts: Judged) -> bool:
@@ -177,7 +189,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         for word, sign in (("oscillating", 1), ("growing", -1), ("free", 0), ("conditional", None))
         for suffix, repeated in (("", False), ("_repeated", True))
     }
-    | {"ordered": _is_in_order},
+    | {"ordered": _is_in_order(whole=True), "ordered_part": _is_in_order(whole=False)},
     "modes.shape": {
         "in_phase": _of_pair(same=True),
         "opposite": _of_pair(same=False),

@@ -189,8 +189,9 @@ def _nothing_is_left(facts: Judged, drift: Any) -> bool:
 
 
 def _root_under_the_sign(facts: Judged, name: Any) -> bool:
-    """The square of the result is that root and nothing else."""
-    return [each.name for each in (facts.result**2,) if isinstance(each, OrderedRoot)] == [name]
+    """The square of the result is a root of that letter, and the sentence names the smallest, whose number is 1."""
+    square = facts.result**2
+    return isinstance(square, OrderedRoot) and str(name) == f"{str(square.name).rpartition('_')[0]}_1"
 
 
 def _slope_vanishes_by(facts: Judged, letter: Any) -> bool:
