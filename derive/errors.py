@@ -6,8 +6,8 @@
     ├── BuildFailed             TeX, the disk, a time limit: the outside world
     └── Misused                 the command line itself was wrong (exit code 2)
 
-A `Complaint` carries data; `shown()` is the only place where it becomes text. `OutOfTime` is no error of the work that
-it ends, so that nothing takes it for a refusal and goes on.
+A `Complaint` carries data; `shown()` is the only place where it becomes text. `OutOfTime` is not a
+`DeriveError`: code that handles refusals must not catch it and go on.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ def load(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
     if derives and set_id:
         from derive.course.reference.statements import reference_of_set
 
-        with suppress(DeriveError):  # which each problem tells
+        with suppress(DeriveError):  # each problem shows the complaint itself
             reference_of_set(root, set_id)
     with suppress(DeriveError):  # each problem has its complaint of them
         phrases(template_folder(root))

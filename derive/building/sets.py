@@ -261,10 +261,11 @@ class _Build:
     def _derive(self, names: Sequence[str]) -> None:
         if not names:
             return
-        if self.anew:  # TeX takes it in while this process loads what derives problems
+        if self.anew:  # TeX reads the preamble while this process loads the modules that derive problems
             self._prepare()
         several, again = len(names) > 1, bool(self.edits)
-        load(self.root, several or again, self.anew or again, self.set_id if several else "")
+        read = self.set_id if several else ""
+        load(self.root, derives=several or again, draws=self.anew or again, set_id=read)
         from derive.building.solution import rendered
 
         self._prepare()

@@ -20,7 +20,7 @@ __all__ = ["ended_by_limit", "limited"]
 
 GRACE = 2.0  # seconds of the processor in which `OutOfTime` may leave the work
 IDLE = 0.02  # share of the processor below which work only waits
-PATIENCE = 10  # times the limit by the clock, after which even a busy machine is no excuse
+PATIENCE = 10  # times the limit, by the clock: work that takes longer is stopped, however busy the machine is
 _WATCHDOG = "Timeout ("  # with this `faulthandler` begins what it writes then
 
 
