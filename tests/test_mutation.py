@@ -104,14 +104,14 @@ def test_a_second_solution_calls_every_function_that_the_first_has_called() -> N
 
 
 def test_a_mutant_is_seen_in_a_function_that_is_called_only_while_the_problem_is_read() -> None:
-    module, where = "mechanics.equations.euler_equations", "RigidBody.__post_init__"
+    module, where = "mechanics.rotation.euler_equations", "RigidBody.__post_init__"
     found = verdicts_on("own/free_top", [module], lambda m: m.where == where and m.change == "comparison")
     assert found
     assert {tried.verdict for tried in found} <= {Verdict.REFUSED, Verdict.CRASHED}
 
 
 def test_the_rate_that_follows_from_a_kept_momentum_is_compared_with_the_momentum() -> None:
-    found = verdicts_on("own/kept_momentum", ["mechanics.systems.kept_momentum"], lambda m: "bound(p" in m.old)
+    found = verdicts_on("own/kept_momentum", ["mechanics.lagrange.kept_momentum"], lambda m: "bound(p" in m.old)
     wrong = [tried for tried in found if tried.verdict is not Verdict.REFUSED and "order" not in tried.id]
     assert len(found) >= 4
     assert wrong == []
@@ -121,29 +121,29 @@ PRINTED_SOMETHING_FALSE = {  # on which run, and how the ids begin
     "block": ["steps.numeric:_outcome: outcome: 'exact' -> 'integrated'"],
     "slab": [
         "mechanics.bodies.placed:_across: comparison: getattr(body, 'filling', '') == 'length'",
-        "mechanics.equations.stability:extreme_value: mark: '=' -> '>'",
-        "mechanics.equations.conditions:where: role: {'quantity': of, 'bound': bound}",
+        "mechanics.rest.potentials:extreme_value: mark: '=' -> '>'",
+        "mechanics.answers.conditions:where: role: {'quantity': of, 'bound': bound}",
     ],
-    "springs": ["mechanics.systems.system:Central.length: mark: '>' -> '<'"],
+    "springs": ["mechanics.model.system:Central.length: mark: '>' -> '<'"],
     "top-rates": [
-        "mechanics.equations.quadratics:real_where: mark: '>' -> '<'",
-        "mechanics.equations.quadratics:_coefficients: comparison: x not in f.free_symbols",
+        "mechanics.answers.quadratics:real_where: mark: '>' -> '<'",
+        "mechanics.answers.quadratics:_coefficients: comparison: x not in f.free_symbols",
     ],
     "library/ball_with_hole": ["mechanics.rotation.assembly:_share_of_mass: word: part.body.called"],
     "library/clock_pendulum": ["mechanics.bodies.parts:PlacedPart.turned: sign: turn * self.turn"],
-    "library/cue_ball": ["mechanics.equations.roots:_step: role: {'equation': equation, 'unknown': unknown}"],
-    "library/damped_oscillator": ["mechanics.equations.linear_motion:_sort: dropped: b ** 2 -> b"],
-    "library/drift": ["mechanics.systems.forces:Charge.stored: sign: -self.charge -> self.charge"],
-    "library/kepler": ["mechanics.equations.sides:_sides_taken: and/or"],
+    "library/cue_ball": ["mechanics.answers.roots:_step: role: {'equation': equation, 'unknown': unknown}"],
+    "library/damped_oscillator": ["mechanics.vibrations.linear_motion:_sort: dropped: b ** 2 -> b"],
+    "library/drift": ["mechanics.model.forces:Charge.stored: sign: -self.charge -> self.charge"],
+    "library/kepler": ["mechanics.rest.sides:_sides_taken: and/or"],
     "library/power_law": [
-        "mechanics.equations.steady:frequency_squared_about: role: {'potential': about.potential",
-        "mechanics.equations.oscillations:_rate: outcome: 'unstable' -> 'conditional'",
+        "mechanics.motion.steady:frequency_squared_about: role: {'potential': about.potential",
+        "mechanics.vibrations.oscillations:_rate: outcome: 'unstable' -> 'conditional'",
     ],
-    "library/spherical_pendulum": ["mechanics.equations.roots:_excluded: condition: f not in"],
+    "library/spherical_pendulum": ["mechanics.answers.roots:_excluded: condition: f not in"],
     "library/thrown_plate": ["mechanics.rotation.steady:_given: outcome: 'momentary' -> 'generic'"],
-    "library/turning_parabola": ["mechanics.equations.equilibria:_level_where: index: 0 -> 1 (2)"],
-    "library/yoyo": ["mechanics.systems.no_slip:_slips: dropped: own / each.factor"],
-    "own/damped_carts": ["mechanics.equations.damped:_frequency: sign: Root(turned * square)"],
+    "library/turning_parabola": ["mechanics.rest.equilibria:_level_where: index: 0 -> 1 (2)"],
+    "library/yoyo": ["mechanics.model.no_slip:_slips: dropped: own / each.factor"],
+    "own/damped_carts": ["mechanics.vibrations.damped:_frequency: sign: Root(turned * square)"],
     "own/solids": [
         "mechanics.bodies.edged_bodies:Triangle.on_base: order: (base, ZERO) -> [ZERO, base]",
         "mechanics.bodies.edged_bodies:Triangle.equilateral: dropped: side * sqrt(3) / 2 -> side",

@@ -17,8 +17,8 @@ from derive.figures.recognition import Link, carrier_of, is_fixed, is_rod, kept_
 from derive.figures.rollers import roller_of
 from derive.figures.surroundings import AngleBetween, FieldMark, GravityMark
 from derive.figures.touching import Touching
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import System
 
 ALONE = (ParticleMark, PointMark, ThickBar, AngleBetween, ConnectionMark, FieldMark, GravityMark)
 

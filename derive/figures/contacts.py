@@ -16,9 +16,9 @@ from derive.figures.recognition import Link, is_fixed, link_from_fixed, moving_i
 from derive.figures.surfaces import Circle
 from derive.figures.surroundings import UprightAngle, WayMark
 from derive.figures.turning import angle_marks
-from derive.mechanics.systems.no_slip import Rolling
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.no_slip import Rolling
+from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)

@@ -31,7 +31,7 @@ from derive.figures.parts import (
 )  # fmt: skip
 from derive.figures.positions import SIDES, name_of, towards, value_and_keys, vector_of, vectors_of
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GravityMark, GroundMark, WayMark
-from derive.mechanics.systems.coordinates import Coordinate
+from derive.mechanics.kinematics.coordinates import Coordinate
 
 __all__ = [
     "angle_mark",

@@ -15,7 +15,7 @@ from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import name_of
 from derive.figures.space import Vector
-from derive.mechanics.systems.system import System
+from derive.mechanics.model.system import System
 
 __all__ = ["dashed_at"]
 

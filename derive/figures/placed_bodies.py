@@ -30,9 +30,9 @@ from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.bodies.solids import HalfCylinder, Tube
 from derive.mechanics.bodies.thin_bodies import Annulus, HalfDisc
-from derive.mechanics.systems.no_slip import Rolling
-from derive.mechanics.systems.places import Axes, Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.model.no_slip import Rolling
+from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)

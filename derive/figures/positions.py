@@ -14,8 +14,8 @@ from derive.algebra.equality import Grade
 from derive.algebra.expressions import scalar
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.systems.coordinates import Coordinate
-from derive.mechanics.systems.places import Location
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.kinematics.places import Location
 from derive.steps.step import Quantity
 
 SIDES = {"down": (0, -1), "up": (0, 1), "right": (1, 0), "left": (-1, 0)}

@@ -14,8 +14,8 @@ from derive.figures.parts import BLOCK, BarMark, BlockMark, RopeMark, WheelMark
 from derive.figures.positions import column_of
 from derive.figures.recognition import Track, is_fixed, moving_in, numeric, same, track_of
 from derive.figures.surroundings import DistanceMark, FixedEnd
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import System
 
 ZERO, HALF = Integer(0), Rational(1, 2)
 DOWN = ImmutableDenseMatrix([0, -1])

@@ -15,8 +15,8 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import Central, System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import Central, System
 
 ZERO = Integer(0)
 SAMPLES = (0.37, 0.83)

@@ -21,8 +21,8 @@ from derive.figures.positions import column_of
 from derive.figures.recognition import Link, angle_of_link, is_fixed, moving_in, numeric
 from derive.figures.surroundings import WayMark
 from derive.figures.turning import angle_marks
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import Particle, System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import Particle, System
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)

@@ -45,8 +45,8 @@ from derive.figures.tops import stance_values
 from derive.figures.touching import Touching
 from derive.figures.turning import angle_marks, downwards, turning_marks
 from derive.figures.velocities import Moment, blow_marks, is_of_the_moment, launch_marks, moment_drawn
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import Central, Particle, System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import Central, Particle, System
 
 __all__ = ["sketch"]
 

@@ -38,8 +38,8 @@ from derive.figures.recognition import (
     track_of,
 )
 from derive.figures.surroundings import ROOM, AngleBetween, DistanceMark, FixedEnd, FloorMark
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import System
 
 ZERO = Integer(0)
 PAST = Rational(8, 5)  # how far a slope goes past what slides on it, in terms of its coordinate

@@ -18,8 +18,8 @@ from derive.figures.recognition import moving_in
 from derive.figures.surroundings import AngleBetween, UprightAngle
 from derive.mechanics.bodies.body import RoundBody
 from derive.mechanics.bodies.placed import after
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing

@@ -34,10 +34,10 @@ from derive.figures.surfaces import Circle
 from derive.figures.surroundings import FixedEnd, FloorMark, GroundMark
 from derive.figures.turning import angle_marks, bound_place, downwards
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.systems.constraint import Constraint
-from derive.mechanics.systems.no_slip import Rolling, contact_velocity
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.no_slip import Rolling, contact_velocity
+from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)

@@ -16,8 +16,8 @@ from derive.figures.parts import COIL, BarMark, ConnectionMark, ParticleMark
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, angle_of_link, is_spring, kept_length, moving_in, same
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, WayMark
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import Particle, System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import Particle, System
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)

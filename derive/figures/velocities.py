@@ -14,8 +14,8 @@ from derive.figures.marks import Mark
 from derive.figures.positions import column_of
 from derive.figures.recognition import is_fixed, moving_in, numeric, same
 from derive.figures.surroundings import AngleBetween, DistanceMark
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)

@@ -20,9 +20,9 @@ from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
 from derive.errors import DeriveError, Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
-from derive.mechanics.systems.coordinates import kind_of_rate
-from derive.mechanics.systems.phase_space import kind_of_momentum
-from derive.mechanics.systems.places import Location
+from derive.mechanics.kinematics.coordinates import kind_of_rate
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.lagrange.momenta import kind_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.answering.moments import started, struck
 from derive.stock.answering.of_systems import Answers, constant

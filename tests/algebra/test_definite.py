@@ -6,7 +6,7 @@ import pytest
 from sympy import Matrix, diag, symbols
 
 from derive.algebra.definite import is_positive_definite, leading_minors, principal_minors, sign_of_form
-from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.solving.signs import sign_by_factors
 
 k = symbols("k", positive=True)
 c = symbols("c", real=True)

@@ -35,7 +35,7 @@ from derive.mechanics import (
     weight,
 )
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.systems.places import Location
+from derive.mechanics.kinematics.places import Location
 from derive.render.drawing.camera import Numbers
 from derive.render.drawing.picture import picture
 from derive.steps.record import recorded

@@ -40,7 +40,7 @@ from derive.mechanics import (
     weight,
     where,
 )
-from derive.mechanics.equations import roots as roots_module
+from derive.mechanics.answers import roots as roots_module
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 
@@ -626,8 +626,8 @@ def test_a_wrong_law_is_refused(
 
 
 def test_a_wrong_root_and_a_wrong_bound_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    from derive.mechanics.equations import conditions
-    from derive.mechanics.equations.roots import RootOf
+    from derive.mechanics.answers import conditions
+    from derive.mechanics.answers.roots import RootOf
 
     x = along()
     right = conditions.solved_for_unknown

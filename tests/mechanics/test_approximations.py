@@ -29,7 +29,8 @@ from derive.mechanics import (
     spring,
     weight,
 )
-from derive.mechanics.equations import approximate, leading
+from derive.mechanics.answers import approximate
+from derive.solving import leading
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 

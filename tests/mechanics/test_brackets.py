@@ -161,6 +161,6 @@ def test_what_has_no_bracket_is_refused(wrong: Callable[..., Any], said: str) ->
 def test_a_wrong_law_is_refused(name: str, wrong: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
     (x,) = lengths("x")
     p = conjugate(x)
-    monkeypatch.setattr(f"derive.mechanics.systems.brackets.{name}", wrong)
+    monkeypatch.setattr(f"derive.mechanics.hamilton.brackets.{name}", wrong)
     with pytest.raises(Unverified):
         poisson_bracket(x**2 * p.symbol, p.symbol, x)

@@ -13,8 +13,8 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import TimeRate, explicit, rate, scalar
 from derive.errors import Rejected
 from derive.mechanics import equation_of_motion, rate_of, slope
-from derive.mechanics.systems.coordinates import T as time
-from derive.mechanics.systems.coordinates import by_functions_of_time, changing, kind_of_rate, letters_of, unchanging
+from derive.mechanics.kinematics.coordinates import T as time
+from derive.mechanics.kinematics.coordinates import by_functions_of_time, changing, kind_of_rate, letters_of, unchanging
 from tests.mechanics.motion import THETA, X, of_system, position
 from tests.mechanics.slab import known_slab
 

@@ -222,6 +222,6 @@ def test_a_wrong_law_is_refused(
 ) -> None:
     L, _, phi = planet()
     given = phi if verb is conserved else conserved(L, phi)
-    monkeypatch.setattr(f"derive.mechanics.systems.effective.{name}", wrong)
+    monkeypatch.setattr(f"derive.mechanics.hamilton.effective.{name}", wrong)
     with pytest.raises(Unverified):
         verb(L, given)

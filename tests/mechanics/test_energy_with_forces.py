@@ -32,7 +32,8 @@ from derive.mechanics import (
     t,
     weight,
 )
-from derive.mechanics.systems import canonical, energy
+from derive.mechanics.hamilton import canonical
+from derive.mechanics.lagrange import energy_function as energy
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 

@@ -31,9 +31,9 @@ from derive.mechanics import (
     stability,
     weight,
 )
-from derive.mechanics.equations import equilibria as equilibria_module
-from derive.mechanics.equations import minima
-from derive.mechanics.equations.zeros import Unsolved, Zero, different_from_zero, positive, sign_where, zeros_of
+from derive.mechanics.rest import equilibria as equilibria_module
+from derive.mechanics.rest import stability as minima
+from derive.solving.zeros import Unsolved, Zero, different_from_zero, positive, sign_where, zeros_of
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 from derive.witness.facts import Rest

@@ -32,11 +32,11 @@ from derive.mechanics import (
     routhian,
     stability,
 )
-from derive.mechanics.equations import equilibria as equilibria_module
-from derive.mechanics.equations.zeros import Zero
-from derive.mechanics.systems import energy as energy_module
-from derive.mechanics.systems import lagrangian as lagrangian_module
-from derive.mechanics.systems.given_lagrangian import Varied
+from derive.mechanics.lagrange import energy_function as energy_module
+from derive.mechanics.lagrange import lagrangian as lagrangian_module
+from derive.mechanics.lagrange.given_lagrangian import Varied
+from derive.mechanics.rest import equilibria as equilibria_module
+from derive.solving.zeros import Zero
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 

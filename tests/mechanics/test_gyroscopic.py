@@ -32,8 +32,10 @@ from derive.mechanics import (
     stability,
     weight,
 )
-from derive.mechanics.equations import gyroscopic, turning_modes, turning_stability
-from derive.mechanics.equations.turning_modes import GyroscopicPencil
+from derive.mechanics.vibrations import gyroscopic
+from derive.mechanics.vibrations import gyroscopic_stability as turning_stability
+from derive.solving import gyroscopic as turning_modes
+from derive.solving.gyroscopic import GyroscopicPencil
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from sympy import Integer, Rational, Symbol, cos, pi, sin, symbols
 
-import derive.mechanics.systems.impulses as impulses
+import derive.mechanics.impacts.impulses as impulses
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation
 from derive.algebra.ranges import Range, within

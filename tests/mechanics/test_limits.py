@@ -25,7 +25,8 @@ from derive.mechanics import (
     principal_moments,
     put_in,
 )
-from derive.mechanics.equations import leading, limits
+from derive.mechanics.answers import limits
+from derive.solving import leading
 from derive.steps.record import Run, recorded
 from derive.steps.step import Form, Quantity
 

@@ -40,8 +40,8 @@ from derive.mechanics import (
     steady_amplitude,
     weight,
 )
-from derive.mechanics.equations import linearised as linearised_module
-from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.vibrations import linearised as linearised_module
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 

@@ -28,8 +28,8 @@ from derive.mechanics import (
     point,
     potential_energy_of,
 )
-from derive.mechanics.systems import dalembert, forces
-from derive.mechanics.systems.lagrangian import Energies
+from derive.mechanics.lagrange.lagrangian import Energies
+from derive.mechanics.model import dalembert, forces
 from derive.steps.record import Run, recorded
 
 m, q, B, E, ell = symbols("m q B E ell", positive=True)

@@ -11,7 +11,7 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import rate
 from derive.mechanics import Particle, RigidBody, System, Z, euler_angles, point, space
 from derive.mechanics import X as ACROSS
-from derive.mechanics.systems.dalembert import Load, MassPoint, Matter
+from derive.mechanics.model.dalembert import Load, MassPoint, Matter
 from derive.steps.record import coordinate_named, recorded
 from tests.mechanics.motion import THETA, X, b, g, l, m
 from tests.mechanics.slab import I

@@ -34,8 +34,9 @@ from derive.mechanics import (
     spring,
     weight,
 )
-from derive.mechanics.equations import characteristic, modes
-from derive.mechanics.equations.characteristic import Pencil
+from derive.mechanics.vibrations import modes
+from derive.solving import characteristic
+from derive.solving.characteristic import Pencil
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 
@@ -297,7 +298,7 @@ def test_a_wrong_law_of_modes_is_refused(slip: str, monkeypatch: pytest.MonkeyPa
 
 
 def test_a_wrong_linear_equation_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    from derive.mechanics.equations import linearised as module
+    from derive.mechanics.vibrations import linearised as module
 
     right = module._coefficients
     monkeypatch.setattr(module, "_coefficients", lambda *given: (1 + (given[-1] == 0)) * right(*given))

@@ -29,10 +29,10 @@ from derive.mechanics import (
     point,
 )
 from derive.mechanics.arguments import checked
-from derive.mechanics.equations.oscillations import SquareOf
-from derive.mechanics.equations.stability import LowestOrder
-from derive.mechanics.systems.forces import Charge, GivenForce
-from derive.mechanics.systems.kept_momentum import KeptMomentum
+from derive.mechanics.lagrange.kept_momentum import KeptMomentum
+from derive.mechanics.model.forces import Charge, GivenForce
+from derive.mechanics.rest.potentials import LowestOrder
+from derive.mechanics.vibrations.oscillations import SquareOf
 from derive.steps.outcomes import Judged, wrongly_handed_on, wrongly_named
 from derive.steps.record import recorded
 from derive.steps.step import Quantity

@@ -21,10 +21,10 @@ from derive.mechanics import (
     spring,
     weight,
 )
-from derive.mechanics.equations import equilibria as equilibria_module
-from derive.mechanics.equations import zeros
-from derive.mechanics.equations.zeros import Zero
 from derive.mechanics.outcomes.searched import none_is_missing
+from derive.mechanics.rest import equilibria as equilibria_module
+from derive.solving import zeros
+from derive.solving.zeros import Zero
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 

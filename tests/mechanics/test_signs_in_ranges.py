@@ -33,7 +33,9 @@ from derive.mechanics import (
     weight,
     where,
 )
-from derive.mechanics.equations import conditions, leaving, oscillations
+from derive.mechanics.answers import conditions
+from derive.mechanics.motion import leaving
+from derive.mechanics.vibrations import oscillations
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 from tests.stock.described import edited, messages, solved

@@ -38,7 +38,7 @@ from derive.mechanics import (
     weight,
     where,
 )
-from derive.mechanics.equations import steady as steady_module
+from derive.mechanics.motion import steady as steady_module
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 

@@ -26,7 +26,7 @@ from derive.mechanics import (
     point,
     potential,
 )
-from derive.mechanics.equations import superposition
+from derive.mechanics.vibrations import superposition
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 from tests.stock.described import messages, solved

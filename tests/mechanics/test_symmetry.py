@@ -140,7 +140,7 @@ def test_what_is_no_symmetry_is_refused(shift: Callable[..., Any], said: str) ->
 )
 def test_a_wrong_law_is_refused(name: str, wrong: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
     L, x, y = oscillator()
-    monkeypatch.setattr(f"derive.mechanics.systems.symmetry.{name}", wrong)
+    monkeypatch.setattr(f"derive.mechanics.lagrange.symmetry.{name}", wrong)
     shift: dict[Coordinate, Any] = {x: y, y: x} if name == "vanishes" else {x: -y, y: x}
     with pytest.raises(Unverified):
         noether(L, shift)

@@ -39,8 +39,9 @@ from derive.mechanics import (
     t,
     weight,
 )
-from derive.mechanics.systems import energies, rigid
-from derive.mechanics.systems import no_slip as rolling_module
+from derive.mechanics.lagrange import energies
+from derive.mechanics.model import no_slip as rolling_module
+from derive.mechanics.model import rigid
 from derive.steps.record import Run, recorded
 
 m, M, g, l, R, a, h, k, w = symbols("m M g l R a h k omega", positive=True)

@@ -42,8 +42,9 @@ from derive.mechanics import (
     t,
     weight,
 )
-from derive.mechanics.systems import constraint as constraint_module
-from derive.mechanics.systems import forced, forces
+from derive.mechanics.lagrange import applied_forces as forced
+from derive.mechanics.model import constraint as constraint_module
+from derive.mechanics.model import forces
 from derive.steps.record import Run, recorded
 
 m, M, g, l, R, k, c, w, q, B, E, F_0, tau = symbols("m M g l R k c omega q B E F_0 tau", positive=True)

@@ -25,9 +25,9 @@ from derive.mechanics import (
     stability,
     stable_where,
 )
-from derive.mechanics.equations import quadratics
-from derive.mechanics.equations import stable_where as border
-from derive.mechanics.systems import kept_momentum
+from derive.mechanics.answers import quadratics
+from derive.mechanics.lagrange import kept_momentum
+from derive.mechanics.rest import stable_where as border
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import Run, recorded
 from tests.mechanics.spinning_top import S, a, g, m, motion_of, rates_of, sleeping
@@ -257,7 +257,7 @@ def test_a_moment_without_a_part_is_refused(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_what_is_constant_is_put_in_at_all_times(upright: SimpleNamespace) -> None:
-    from derive.mechanics.systems.coordinates import AtOneMoment
+    from derive.mechanics.kinematics.coordinates import AtOneMoment
 
     assert upright.V.fact(AtOneMoment) is None
     with recorded(Run()):

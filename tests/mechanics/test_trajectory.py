@@ -7,7 +7,7 @@ from sympy import Expr, Integer, Rational, cos, sin, sqrt, symbols
 
 from derive.algebra.equality import Grade
 from derive.algebra.expressions import TIME, rate, scalar
-from derive.mechanics.equations.trajectory import followed
+from derive.mechanics.motion.trajectory import followed
 
 theta, phi, x = scalar("theta"), scalar("phi"), scalar("x")
 g, l = symbols("g l", positive=True)

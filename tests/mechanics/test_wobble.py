@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from sympy import Expr, Rational, pi, sqrt, symbols
 
-import derive.mechanics.equations.wobble as wobble
+import derive.mechanics.rotation.perturbed_rotation as wobble
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
 from derive.errors import Rejected, Unverified

@@ -231,4 +231,4 @@ def test_an_outcome_that_belies_the_result_is_refused(outcome: str, zero: bool) 
 
 def test_a_step_knows_the_line_at_which_a_verb_of_the_package_hands_over_its_law() -> None:
     assert sum_of_squares().step.law_at == ""  # this file is none of the package
-    assert let("s", lambda: a + b).step.law_at.startswith("derive/mechanics/equations/values.py:")
+    assert let("s", lambda: a + b).step.law_at.startswith("derive/mechanics/answers/values.py:")

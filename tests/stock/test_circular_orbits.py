@@ -9,7 +9,7 @@ from sympy import Expr, pi, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
-from derive.mechanics.equations import zeros
+from derive.solving import zeros
 from tests.stock.described import complaints, edited, messages, solved
 
 ORBIT = """\

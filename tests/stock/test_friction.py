@@ -9,7 +9,7 @@ from sympy import Symbol, cos, sin, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import explicit
-from derive.mechanics.systems import reactions
+from derive.mechanics.lagrange import constraint_forces as reactions
 from tests.stock.described import edited, messages, solved
 
 INCLINE = """\

@@ -19,7 +19,7 @@ from derive.algebra.expressions import TIME, as_expr, column, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.systems.places import Axes, Location, turn_about
+from derive.mechanics.kinematics.places import Axes, Location, turn_about
 from derive.steps.record import coordinates_in
 
 __all__: list[str] = []

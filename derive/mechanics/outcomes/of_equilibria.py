@@ -33,11 +33,11 @@ from sympy.matrices import MatrixBase
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.ranges import fulfilling, has_meaning, rational_in_range
-from derive.mechanics.equations.counting import is_countable
 from derive.mechanics.outcomes.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
 from derive.mechanics.outcomes.on_constraints import signs_on_constraints
 from derive.mechanics.outcomes.searched import none_is_missing
 from derive.mechanics.outcomes.signs import always_sign, lasts, may_be_negative, same_equation, vanishes
+from derive.mechanics.rest.counting import is_countable
 from derive.steps.known_numbers import sign_known
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.record import assumed, assumed_in_words

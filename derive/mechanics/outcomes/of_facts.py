@@ -14,21 +14,20 @@ from derive.algebra.expressions import Partial, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, SamplePoint, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.mechanics.bodies.facts import CountedFrom
-from derive.mechanics.equations.linearised import Linear
-from derive.mechanics.equations.modes import Mode
-from derive.mechanics.equations.oscillations import SquareOf
-from derive.mechanics.equations.root_of_factor import RootOf
-from derive.mechanics.equations.stability import DerivativeOf, LowestOrder, Shape
-from derive.mechanics.equations.stable_where import StableWhere
-from derive.mechanics.equations.steady import Steady
-from derive.mechanics.equations.substitution import WithMomenta
-from derive.mechanics.equations.turning_points import ByEnergy
-from derive.mechanics.equations.wobble import Disturbed
+from derive.mechanics.hamilton.effective import Constant
+from derive.mechanics.kinematics.coordinates import OfCoordinate
+from derive.mechanics.lagrange.constraint_forces import ForceOf
+from derive.mechanics.lagrange.kept_momentum import KeptMomentum, WithMomenta
+from derive.mechanics.motion.steady import Steady
+from derive.mechanics.motion.turning_points import ByEnergy
 from derive.mechanics.outcomes.signs import is_so, same_equation
-from derive.mechanics.systems.coordinates import OfCoordinate
-from derive.mechanics.systems.effective import Constant
-from derive.mechanics.systems.kept_momentum import KeptMomentum
-from derive.mechanics.systems.reactions import ForceOf
+from derive.mechanics.rest.potentials import DerivativeOf, LowestOrder, Shape
+from derive.mechanics.rest.stable_where import StableWhere
+from derive.mechanics.rotation.perturbed_rotation import Disturbed
+from derive.mechanics.vibrations.linearised import Linear
+from derive.mechanics.vibrations.modes import Mode
+from derive.mechanics.vibrations.oscillations import SquareOf
+from derive.solving.root_of_factor import RootOf
 from derive.steps.numeric import Extreme
 from derive.steps.outcomes import Judged, Naming, handed_on_by
 from derive.steps.record import assumed

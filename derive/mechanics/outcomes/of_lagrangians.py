@@ -6,12 +6,12 @@ from sympy import Add, Dummy, Expr, Integer, Symbol, diff
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, bound, explicit, rate
+from derive.mechanics.hamilton.phase_space import PhaseSpace
+from derive.mechanics.kinematics.coordinates import by_functions_of_time
+from derive.mechanics.lagrange.lagrangian import Energies, energies_of
+from derive.mechanics.model.constraint import Kept
+from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.outcomes.signs import lasts, vanishes
-from derive.mechanics.systems.constraint import Kept
-from derive.mechanics.systems.coordinates import by_functions_of_time
-from derive.mechanics.systems.dalembert import Matter
-from derive.mechanics.systems.lagrangian import Energies, energies_of
-from derive.mechanics.systems.phase_space import PhaseSpace
 from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
 from derive.steps.step import Quantity, is_zero
 

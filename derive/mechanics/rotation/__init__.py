@@ -1,1 +1,1 @@
-"""Tensors of inertia, principal axes, and the vectors of a body that turns."""
+"""Inertia tensors, principal axes, rotation vectors, Euler's equations, perturbed rotations."""

@@ -6,7 +6,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Pow, Rational, acos, atan2, cos, pi, sin
+from sympy import (
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Pow,
+    Rational,
+    acos,
+    atan2,
+    cos,
+    pi,
+    sin,
+)
 
 from derive.algebra.expressions import (
     BodyRate,
@@ -423,3 +434,10 @@ def _angle_itself(angle: Expr) -> Expr:
         return tidied(angle)
     within = (inner.args[0], pi - inner.args[0])
     return inner.args[0] if all(strict_sign_within(each) == 1 for each in within) else tidied(angle)
+
+
+@dataclass(frozen=True)
+class Acting(Fact):
+    """The torque on a body in its equations of motion, column (3), N m."""
+
+    torque: Any

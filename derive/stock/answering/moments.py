@@ -8,7 +8,7 @@ from sympy import Expr, Integer, Symbol
 
 from derive.figures.velocities import Moment
 from derive.mechanics import System
-from derive.mechanics.systems.places import Location
+from derive.mechanics.kinematics.places import Location
 from derive.stock.keys.blows import DescribedBlow
 from derive.stock.keys.results import Result
 

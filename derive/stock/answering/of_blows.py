@@ -17,7 +17,7 @@ from derive.mechanics import (
     rates_after,
     work_of_impulses,
 )
-from derive.mechanics.systems.acted_on import ActsOnNothing
+from derive.mechanics.model.acted_on import ActsOnNothing
 from derive.steps.step import Quantity
 from derive.stock.keys.blows import DescribedBlow
 

@@ -41,7 +41,7 @@ from derive.mechanics import (
     stability,
     weight,
 )
-from derive.mechanics.systems.acted_on import ActsOnNothing, check_ground
+from derive.mechanics.model.acted_on import ActsOnNothing, check_ground
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero

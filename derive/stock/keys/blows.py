@@ -18,7 +18,7 @@ from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
 from derive.errors import Place, did_you_mean, rejected
 from derive.mechanics import angular_impulse, collision, impulse
-from derive.mechanics.systems.coordinates import kind_of_rate
+from derive.mechanics.kinematics.coordinates import kind_of_rate
 from derive.stock.keys.parts import list_of_parts
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
 

@@ -27,7 +27,7 @@ from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.mechanics import Particle, central, charge, constraint, couple, damping, force, potential, spring
-from derive.mechanics.systems.material import GROUND, MASSLESS
+from derive.mechanics.model.material import GROUND, MASSLESS
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
 
 ONE_OR_MORE_COMPONENTS = as_written(

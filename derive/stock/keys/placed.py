@@ -14,7 +14,7 @@ from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Faults, did_you_mean, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
-from derive.mechanics.systems.places import Axes, Location
+from derive.mechanics.kinematics.places import Axes, Location
 from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.parts import Part, force_letter, list_of_parts
 from derive.stock.keys.places import PLACE, Places, WrittenPlace

@@ -30,8 +30,8 @@ from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Complaint, Faults, Place, Rejected, did_you_mean, rejected
 from derive.mechanics import X, Y, Z, point, space
-from derive.mechanics.systems.coordinates import kind_of_rate
-from derive.mechanics.systems.places import Axes, Location
+from derive.mechanics.kinematics.coordinates import kind_of_rate
+from derive.mechanics.kinematics.places import Axes, Location
 
 ANGLE, LENGTH, CHARGE = "angle", "length", "charge"
 

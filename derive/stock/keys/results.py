@@ -39,9 +39,9 @@ from derive.mechanics import (
     unknown,
     where,
 )
-from derive.mechanics.systems.coordinates import kind_of_rate
-from derive.mechanics.systems.dalembert import Matter
-from derive.mechanics.systems.phase_space import letter_of_momentum
+from derive.mechanics.kinematics.coordinates import kind_of_rate
+from derive.mechanics.lagrange.momenta import letter_of_momentum
+from derive.mechanics.model.dalembert import Matter
 from derive.steps.step import Quantity
 from derive.stock.keys.bodies import ENDS
 from derive.stock.keys.chosen_root import chosen_root

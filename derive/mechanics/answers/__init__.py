@@ -1,0 +1,1 @@
+"""Quantities computed from results: substitution, solving, roots, conditions, limits, extrema, combinations."""

@@ -1,0 +1,93 @@
+"""An equation where a letter is small, large, or near a value: what is left of it to an order in what is small.
+
+Coordinates, rates and accelerations stand in it as they are: only the letter is taken to be small.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Function, Integer, Rational, oo
+from sympy.core.symbol import Str
+
+from derive.algebra.expansion import small_of, tidied_terms
+from derive.algebra.expressions import TIME, Relation, explicit
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.answers.substitution import arranged
+from derive.mechanics.kinematics.coordinates import OfCoordinate
+from derive.solving.leading import expansion_of, rest_vanishes
+from derive.solving.unknowns import coordinates_of, letter_of, residual_of, unknown_of
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.step import Quantity, approximations_among, is_zero
+
+__all__ = ["equation_in_limit"]
+
+
+def equation_in_limit(
+    equation: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None
+) -> Quantity:
+    """What an equation becomes where a letter is small, large or near a value: f_0 + f_1 e + ... = 0 of f = 0, with e
+    what is small: x, 1/x or x - a.
+
+    equation   an equation, such as one of motion
+    letter     a constant that is small or large
+    to         0 where it is small, SymPy's `oo` where it is large, else the value that it is near
+    order      the highest power of what is small that is kept; the leading terms alone if none is given
+    Where a sine of the letter times the time is expanded, that is for short times: the sentence says so.
+    Check: numbers; what is left out, divided by the last power that is kept, goes to zero with what is small.
+    Outcomes: small, large, near (the leading terms alone); first_order, to_order; exact (nothing is left out).
+    Errors: the equation does not contain the letter, or the letter changes with the time; it has no such expansion, or
+    begins beyond that order.
+    Source: Taylor, *Classical Mechanics*, sections 9.8 and 9.9 (to the first order in the rate of the Earth).
+    """
+    left = residual_of("equation_in_limit", equation)
+    x = letter_of(unknown_of("equation_in_limit", letter))
+    if x not in left.free_symbols:
+        message = f"`equation_in_limit`: `{equation.key}` does not contain {x.name}"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    if x == TIME or any(x.name in (q.name, f"{q.name}_dot", f"{q.name}_ddot") for q in coordinates_of(equation)):
+        message = f"`equation_in_limit`: {x.name} changes in the motion, so that it is not small all the time"
+        raise Rejected(Complaint("changes", message, help="small motions about rest are those of `linearised`"))
+    place = explicit(to.value if isinstance(to, Quantity) else to)
+    series = expansion_of(equation, left, x, place, order)
+    kept = tidied_terms(series, x, place)
+    found = arranged(Relation(kept, "=", Integer(0)), list(coordinates_of(equation)))
+    power = Rational(order) if order is not None else max(series, default=Rational(0))
+    share = _ratio(found, kept)
+    small = small_of(x, place)
+    told = {"small": small, "power": power}
+    if place not in (oo, -oo):
+        told["place"] = place
+    if kept.has(TIME) and place == 0 and any(f.has(x) and f.has(TIME) for f in left.atoms(Function)):
+        told["short"] = 1 / x  # a sine of Omega t is small with Omega only as long as the time is short
+    return establish(
+        "approximate.equation_in_limit",
+        None,
+        lambda *_: found,
+        {"equation": equation, "letter": x},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"numbers": lambda result: rest_vanishes(left, explicit(result).residual * share, x, place, power)},
+        outcome=_sort_of(place, order, exact=is_zero(left - kept)),
+        phrase_data=PhraseData(
+            named=told,
+            outcome_data={"value": left, "kept": kept, "to": place, "order": Integer(-1 if order is None else order)},
+        ),
+        key=key or f"{equation.key}_limit",
+        facts=[fact] if (fact := equation.fact(OfCoordinate)) is not None else [],
+        parents=approximations_among(to),
+        scope=Scope() if is_zero(left - kept) else Scope(approximates=Str(equation.key)),
+    )
+
+
+def _ratio(found: Relation, kept: Any) -> Any:
+    """The factor that an equation was divided by as it was arranged."""
+    return tidied(kept / explicit(found).residual)
+
+
+def _sort_of(place: Any, order: int | None, exact: bool) -> str:
+    if exact:
+        return "exact"
+    if order is not None:
+        return "first_order" if order == 1 else "to_order"
+    return "small" if place == 0 else "large" if place in (oo, -oo) else "near"

@@ -1,0 +1,76 @@
+"""What is made of several results by arithmetic: a ratio of two frequencies, the difference of two motions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from sympy import Expr, MatrixBase, Mul, Pow, Rational, Symbol, cancel, factor, sqrt
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import Relation, bound, explicit, scalar
+from derive.errors import Complaint, Rejected
+from derive.solving.presentation import presented
+from derive.solving.unknowns import left_over, unknown_of
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.step import Quantity
+from derive.steps.subject import EVERYTHING
+
+__all__ = ["combination"]
+
+HALF = Rational(1, 2)
+LARGEST = 200  # operations of what is cancelled under roots
+
+
+def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, symbol: str | None = None) -> Quantity:
+    """A number made of results, as a formula says it: pi Omega/omega, the angle from one apsis to the next.
+
+    expression   the formula, in letters and in marks for the results
+    values       mark -> the result that stands there; of an equation with a letter alone on its left, what that equals
+    symbol       its letter; without it the key
+    Nothing checks that it is what its letter says: it is a definition, and the page calls it one.
+    Outcomes: generic, named (a formula of letters alone).
+    Errors: a result is no number, such as a vector or an equation that is not solved.
+    Source: none needed: a definition.
+    """
+    inputs = {quantity.key: _number(quantity) for quantity in values.values()}
+
+    def law(*those: Any) -> Expr:
+        return bound(expression, dict(zip(values, those, strict=True)))
+
+    return establish(
+        "combination.combination",
+        scalar(symbol or key),
+        law,
+        inputs,
+        key=key,
+        definition=True,
+        outcome="generic" if values else "named",
+        lines=Lines(arranged=_cancelled),
+        parents=[q for q in values.values() if q not in inputs.values()],
+        scope=Scope(differ=EVERYTHING),
+    )
+
+
+def _cancelled(value: Expr) -> Expr:
+    """As one writes it down, with nothing under a root that cancels."""
+    plain = presented(value)
+    if plain.count_ops() > LARGEST:
+        return plain
+
+    roots = [f for f in Mul.make_args(plain) if isinstance(f, Pow) and abs(f.exp) == HALF]
+    below = factor(cancel(Mul(*(f**2 for f in roots))))
+    rooted = presented(Mul(*(f for f in Mul.make_args(plain) if f not in roots)) * sqrt(below))
+    return rooted if rooted.count_ops() < plain.count_ops() and equal(rooted, plain) else plain
+
+
+def _number(quantity: Quantity) -> Quantity | Expr:
+    """The quantity; or the value of what has no letter: of an equation, or of x_dot^2, whose root is no square."""
+    value = quantity.value
+    if not isinstance(value, Relation | MatrixBase):
+        return quantity if isinstance(quantity.symbol, Symbol) else explicit(value)
+    if isinstance(value, Relation) and value.mark == "=" and isinstance(value.left, Symbol):
+        right = explicit(value.right)
+        if not left_over(right, unknown_of("combination", value.left)):
+            return right
+    raise Rejected(Complaint("wrong-argument", f"`combination`: `{quantity.key}` is no number"))

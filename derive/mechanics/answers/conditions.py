@@ -1,0 +1,233 @@
+"""Where a quantity has a certain sign or value: a relation, worked until what is asked for stands alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import islice
+from typing import Any
+
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, sqrt
+from sympy.core.symbol import Str
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import bound as with_those
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.solving.relations import (
+    TURNED,
+    conditions_told,
+    divided_out,
+    existence,
+    number_of,
+    solved_for_unknown,
+    unsolvable,
+)
+from derive.solving.signs import SIGNS_OF, sign_by_factors
+from derive.solving.unknowns import unknown_of, with_unknown
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.step import Form, Level, Quantity, value_behind
+
+__all__ = ["where"]
+
+WORDS = {
+    "=": "equal_to",
+    "!=": "different_from",
+    ">": "greater_than",
+    "<": "less_than",
+    ">=": "at_least",
+    "<=": "at_most",
+}
+REAL = {("roots.discriminant", mark) for mark in (">=", ">")}  # the quantities that decide whether roots are real
+POINTS = 40
+
+
+def where(
+    of: Quantity,
+    mark: str,
+    bound: Expr | Quantity,
+    letter: Any,
+    key: str = "condition",
+    through: tuple[Relation, Sequence[Quantity]] | None = None,
+    for_real: bool = False,
+) -> Quantity:
+    """Where a quantity is greater than a bound, less, equal to it: v > 0 where R > a/2, solved for one letter.
+
+    of       a scalar, any unit
+    mark     one of =, !=, <, >, <=, >=
+    bound    what it is compared with, of the same unit; 0, or another quantity
+    letter   what stands alone in the end: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
+    in its square; or what was given for a letter, 2b for R, of which one letter is taken
+    through  the same in other letters, told on the way, and the results that these stand for
+    for_real whether it is a discriminant, asked for real roots
+    Check: a little above the solved bound, at it and a little below, the sign of the difference; and at random
+    points both relations are true, or both false.
+    What both sides are divided by must not vanish, which is told where nothing decides it; in an inequality its sign
+    must be known, by the letters, their ranges or their numbers.
+    Outcomes: solved, squared (for the square of the letter only); whatever the letters are: always, never, equal (it is
+    neither greater nor less, where one of the two was asked for).
+    Errors: the relation cannot be solved for that letter; a mark that is none.
+    Source: none needed: algebra of inequalities.
+    """
+    if mark not in TURNED:
+        message = f"`where`: `{mark}` is no mark"
+        raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
+    bound = Integer(bound) if isinstance(bound, int) else bound
+    difference = tidied(explicit(number_of(of)) - explicit(value_behind(bound)))
+    sign = sign_by_factors(difference)
+    if sign is not None:
+        return _of_known_sign(of, mark, bound, difference, sign, key)
+    unknown, (alone, solved, turned) = _solved_for_one_of(of, difference, mark, letter)
+    if _settled_by_its_letter(alone, solved):
+        return _of_known_sign(of, mark, bound, difference, 1 if turned == mark else -1, key)
+    result = Relation(alone, turned, solved)
+    existing, excluded = existence(of, alone, turned, solved), _excluded(difference, result)
+
+    def same_truth(found: Relation) -> Verdict:
+        return _same_truth(found, difference, mark, unknown)
+
+    return establish(
+        "conditions.where",
+        None,
+        lambda v, b: Relation(v, mark, b),
+        {"quantity": of, "bound": bound},
+        lines=Lines(
+            law=Level.FULL,
+            put_in=Level.STANDARD if through is None else Level.FULL,
+            between=_by_way_of(*through, difference) if through is not None else (),
+            after=_in_steps(difference, result, excluded),
+            result=False,
+            arranged=lambda _: result,
+        ),
+        routes={
+            "beside": lambda found: _beside(found, difference, mark),
+            # Where one factor of known sign lies between the two relations, what is so beside the bound is so anywhere.
+            **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
+        },
+        outcome="squared" if alone != unknown else "solved",
+        phrase_data=PhraseData(
+            words={"comparison": WORDS[mark], "seen": "radicand" if (of.step.rule, mark) in REAL else "quantity"},
+            formulas=conditions_told(excluded=excluded, existing=existing),
+            outcome_data={"unknown": unknown, "mark": Str(mark), "difference": difference, "for_real": for_real},
+        ),
+        key=key,
+        parents=through[1] if through is not None else (),
+    )
+
+
+def _by_way_of(criterion: Relation, stands_for: Sequence[Quantity], difference: Expr) -> list[Form]:
+    """The criterion in other letters, whose values are put in next."""
+    residual = explicit(with_those(criterion.residual, {q.symbol: q.value for q in stands_for}))
+    return [Form(criterion, "solved", nonzero=divided_out(difference, residual, Integer(0)))]
+
+
+def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: Expr, sign: int, key: str) -> Quantity:
+    """The relation holds whatever the letters are, or never: what it is in fact."""
+    holds = sign in SIGNS_OF[mark]
+    fact = mark if holds else {1: ">", -1: "<", 0: "="}[sign]
+    return establish(
+        "conditions.where",
+        None,
+        lambda v, b: Relation(v, fact, b),
+        {"quantity": of, "bound": bound},
+        lines=Lines(put_in=Level.STANDARD if sign else None, result=False, arranged=explicit),
+        routes={"points": lambda found: _same_truth(Relation(Integer(1), "=", 1), found.residual, found.mark, None)},
+        outcome="always" if holds else "never" if sign else "equal",
+        phrase_data=PhraseData(
+            words={"comparison": WORDS[mark]},
+            outcome_data={"difference": difference, "sign": Integer(sign), "mark": Str(mark)},
+        ),
+        key=key,
+    )
+
+
+def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, tuple[Expr, Expr, str]]:
+    """The unknown itself, or of what was given for a letter, b of 2b for R, the first letter that will do."""
+    given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
+    if not isinstance(given, Add | Mul):
+        unknown = unknown_of("where", letter)
+        return unknown, solved_for_unknown(of, difference, mark, unknown)
+    for one in sorted(given.free_symbols & difference.free_symbols, key=str):
+        try:
+            return one, solved_for_unknown(of, difference, mark, one)
+        except Rejected:
+            continue
+    raise unsolvable(of, given)
+
+
+def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
+    """Whether a positive letter, or a square, is compared with what cannot be positive: it is always the greater."""
+    return bool(alone.is_positive and solved.is_nonpositive) or bool(alone.is_nonnegative and solved.is_negative)
+
+
+def _excluded(difference: Expr, result: Relation) -> Relation | None:
+    """What must not vanish, since both sides of an equation are divided by it."""
+    if result.mark not in ("=", "!="):
+        return None
+    factor = tidied(difference / result.residual)
+    return None if sign_known(factor) else may_vanish(factor.as_numer_denom()[0])
+
+
+def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> list[Form]:
+    """Solved at once; or for the square of a positive letter, and then for the letter."""
+    alone, solved = result.sides
+    divided = divided_out(difference, alone, solved)
+    if excluded is not None:
+        return [Form(result, "solved", nonzero=(*divided, *Mul.make_args(excluded.left)))]
+    squares = Relation(alone**2, result.mark, tidied(solved**2))
+    if divided or not (alone.is_positive and solved.is_positive):
+        return [Form(result, "solved", nonzero=divided)]
+    return [Form(squares, "solved", nonzero=divided_out(difference, *squares.sides)), Form(result, "solved")]
+
+
+def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
+    """The difference a little above the bound and at it, and what the solved relation says of its sign there."""
+    alone, place = found.sides
+    d = Dummy("d", positive=True)
+    if alone.is_positive and sign_known(place) == -1:  # of x^2 > a the other root, which a positive letter never has
+        return Integer(1), Integer(0)
+    unknown, power = (alone.base, 2) if alone.is_Pow else (alone, 1)
+    above = tidied(with_unknown(difference, unknown, _nth(place + d, power)))
+    at_place = tidied(with_unknown(difference, unknown, _nth(place, power)))
+    sign = sign_known(above)
+    if sign is None:
+        return at_place, Integer(0)
+    says = [Integer(_truth(found.mark, side)) for side in (1, 0, -1)]
+    is_so = [Integer(_truth(mark, side * sign)) for side in (1, 0, -1)]  # it changes its sign at the bound
+    there, expected = [at_place, above, *says], [Integer(0), sign * Abs(above), *is_so]
+    return ImmutableDenseMatrix(there), ImmutableDenseMatrix(expected)
+
+
+def _nth(value: Expr, power: int) -> Expr:
+    return value if power == 1 else sqrt(value)
+
+
+def _truth(mark: str, sign: int) -> int:
+    return int(sign in SIGNS_OF[mark])
+
+
+def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | None) -> Verdict:
+    """At random points both relations hold, or both do not."""
+    seen = 0
+    difference, residual = with_numbers(difference), with_numbers(found.residual)
+    letters = letters_of(difference) | letters_of(residual)
+    for point in islice(points(letters, seed_of(difference)), POINTS):
+        try:
+            here = _sign_of_number(value_at(difference, point))
+            there = _sign_of_number(value_at(residual, point)) if unknown is not None else 0
+        except (Undefined, NoNumber, TypeError):
+            continue
+        seen += 1
+        solved = there in SIGNS_OF[found.mark] if unknown is not None else True
+        if (here in SIGNS_OF[mark]) != solved:
+            where_apart = tuple((str(name), str(value)) for name, value in point.items())
+            return Verdict(Grade.REFUTED, "one of the relations holds and the other does not", where_apart)
+    if not seen:
+        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    return Verdict(Grade.SAMPLED, f"{seen} points")
+
+
+def _sign_of_number(value: Expr) -> int:
+    return 0 if value == 0 else 1 if value > 0 else -1

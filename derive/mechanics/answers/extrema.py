@@ -1,0 +1,325 @@
+"""The greatest and the least value of a result: where its slope vanishes, what it is there, and which of the two."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+from typing import Any
+
+from sympy import Abs, Add, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
+from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR8
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import At, Relation, explicit, scalar
+from derive.algebra.normal_form import vanishes
+from derive.algebra.ranges import ends_within, range_of, strict_sign_within
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.solving.presentation import presented
+from derive.solving.unknowns import coordinates_of, kind_of_unknown, letter_of, unknown_of
+from derive.solving.zeros import Unsolved, positive, zeros_of
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.record import assumed
+from derive.steps.step import Level, Quantity
+
+__all__ = ["maximum", "minimum"]
+
+POINTS, BESIDE = 6, 9
+Within = tuple[Expr, Expr]
+
+
+def maximum(of: Quantity, letter: Any, within: Within | None = None, key: str = "maximum") -> tuple[Quantity, Quantity]:
+    """Where a result is greatest, and how great it is: f'(x) = 0 and f''(x) < 0.
+
+    of       a scalar, any unit
+    letter   what may be chosen: an angle, a frequency, a length
+    within   the interval from which it is chosen; else all values that the letter can have
+    Check: the value there against those at many other places of the interval.
+    Outcomes: greatest, least; their condition is told, where the place exists for some values of the letters only.
+    Errors: no place, or several, where the slope vanishes and the curvature has that sign.
+    Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
+    """
+    return _extremum(of, letter, within, key, "maximum", -1)
+
+
+def minimum(of: Quantity, letter: Any, within: Within | None = None, key: str = "minimum") -> tuple[Quantity, Quantity]:
+    """Where a result is least, and how great it is there: f'(x) = 0 and f''(x) > 0.
+
+    of       a scalar, any unit
+    letter   what may be chosen: an angle, a frequency, a length
+    within   the interval from which it is chosen; else all values that the letter can have
+    Check: as `maximum`.
+    Errors: no place, or several, where the slope vanishes and the curvature has that sign.
+    Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
+    """
+    return _extremum(of, letter, within, key, "minimum", 1)
+
+
+def _extremum(
+    of: Quantity, letter: Any, within: Within | None, key: str, verb: str, curved: int
+) -> tuple[Quantity, Quantity]:
+    value, x = explicit(of.value), letter_of(unknown_of(verb, letter))
+    if not isinstance(value, Expr) or isinstance(value, Relation) or x not in value.free_symbols:
+        raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{of.key}` is no value that depends on {x.name}"))
+    slope, curvature = tidied(value.diff(x)), value.diff(x, 2)
+    within = (explicit(within[0]), explicit(within[1])) if within else _range_as_interval(x)
+    inside = [(place, real, _inside(place, real, within, x)) for place, real in _places(slope, x)]
+    found = [(place, _conditions(real, room)) for place, real, room in inside if room is not None]
+    signs = [sign_known(curvature.subs(x, place)) for place, _ in found]
+    sure = [pair for pair, sign in zip(found, signs, strict=True) if sign == curved]
+    fitting = sure or [pair for pair, sign in zip(found, signs, strict=True) if sign is None]
+    fitting = [pair for pair in fitting if not pair[1]] or fitting  # a place that is there whatever the letters are
+    if len(fitting) != 1:
+        raise _not_one(of, x, verb, len(fitting), bool(inside) and not found)
+    ((place, conditions),) = fitting
+    name = scalar(f"{x.name}_{verb[:3]}", **({"positive": True} if x.is_positive else {}))
+    at = establish(
+        "extrema.place",
+        name,
+        lambda *_: place,
+        {"quantity": of},
+        lines=Lines(put_in=None, law=Level.BRIEF, arranged=lambda _: place),
+        routes={
+            "slope": lambda p: (slope.subs(x, p), Integer(0)),
+            "beside": lambda p: _not_exceeded(value, x, value.subs(x, p), within, conditions, curved, p),
+        },
+        outcome="greatest" if curved < 0 else "least",
+        key=f"{key}_{x.name}",
+        kind=kind_of_unknown(x, coordinates_of(of)),
+        phrase_data=PhraseData(
+            formulas={role: (_apart(each), each) for role, each in conditions.items()},
+            named={"letter": x},
+            outcome_data={"value": value, "place": place, **({"within": within} if within else {})},
+        ),
+        scope=Scope(coordinates={}),
+    )
+    top = establish(
+        "extrema.value",
+        scalar(f"{of.symbol.name}_{verb[:3]}") if isinstance(of.symbol, Symbol) else scalar(key),
+        lambda f, p: At(f, x, p),
+        {"quantity": of, "place": at},
+        lines=Lines(put_in=Level.FULL, law=Level.FULL, arranged=presented),
+        routes={"beside": lambda top: _not_exceeded(value, x, top, within, conditions, curved, place)},
+        outcome="greatest" if curved < 0 else "least",
+        key=key,
+        kind=of.step.kind,
+        phrase_data=PhraseData(outcome_data={"value": value, "letter": x, "place": place, **conditions}),
+    )
+    return at, top
+
+
+def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
+    """Why there is not one place."""
+    many = "no place" if not count else f"{count} places"
+    message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
+    help_line = "give the interval with `within=(..., ...)`"
+    if not count and elsewhere:
+        message = f"`{verb}`: `{of.key}` is not stationary for any {x.name} that is allowed"
+        help_line = f"the {verb} is at an end of the interval, or there is none: `put_in` gives the value at an end"
+    return Rejected(Complaint("no-extremum", message, help=help_line))
+
+
+def _range_as_interval(x: Symbol) -> Within | None:
+    """The interval in which the letter is known to lie."""
+    known = range_of(x)
+    is_bounded = known is not None and known.least.is_finite and known.greatest.is_finite
+    return (known.least, known.greatest) if known is not None and is_bounded else None
+
+
+def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
+    """Role -> condition: that the place is real, and that it lies between the ends."""
+    found = {} if real is None else {"condition": real}
+    return {**found, **{f"inside_{n}": each for n, each in enumerate(dict.fromkeys(room), 1)}}
+
+
+def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
+    """Under which conditions the place lies between the ends, none if it always does; nothing where it never does."""
+    if within is None and not x.is_positive:
+        return []
+    if within is None and real is not None:  # a root that is positive where it is real
+        return None if place.could_extract_minus_sign() else []
+    low, high = within or (Integer(0), None)
+    found = []
+    for ahead in (place - low, *([] if high is None else [high - place])):
+        sure = _sign_by_letters(ahead, Integer(1) if high is None else high - low)
+        if sure in (0, -1) or sure is None and sign_known(ahead) in (0, -1):
+            return None
+        if sure is None:
+            found.append(positive(ahead))
+    return found
+
+
+def _sign_by_letters(ahead: Expr, width: Expr) -> int | None:
+    """The sign of a distance from an end, by the letters alone; the interval itself has a positive width."""
+    share = tidied(ahead / width)
+    for part in (tidied(ahead), share):
+        if vanishes(part):
+            return 0
+        ends, sign = ends_within(part), strict_sign_within(part)
+        if sign is None and ends is not None:
+            sign = 1 if ends[0].is_nonnegative else -1 if ends[1].is_nonpositive else None
+        if sign is not None:
+            return sign
+    return None
+
+
+def _apart(condition: Relation) -> Relation:
+    """b^2 < 2 k m of (k m - b^2/2)/m^2 > 0: what is taken away stands on the other side."""
+    above, below = condition.left.as_numer_denom()
+    terms = Add.make_args((above / abs(above.as_content_primitive()[0])).expand())
+    away = [-term for term in terms if term.could_extract_minus_sign()]
+    if not below.is_positive or not away or len(away) == len(terms):
+        return condition
+    return Relation(Add(*away), "<", Add(*(term for term in terms if -term not in away)))
+
+
+def _root_of(inside: Expr) -> Expr:
+    """sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m)."""
+    drawn = tidied(sqrt(inside))
+    numbers = [f for f in Mul.make_args(drawn) if f.is_number and not f.is_Rational]
+    return sqrt(inside.expand()) if numbers and inside.expand().is_Add else drawn
+
+
+# --- where the slope vanishes ---
+
+
+def _places(slope: Expr, x: Symbol) -> Iterator[tuple[Expr, Relation | None]]:
+    """The zeros of each factor of the slope, with the condition under which they are real."""
+    numerator = slope.as_numer_denom()[0]
+    for form in dict.fromkeys((numerator, tidied(TR8(numerator.expand())))):
+        factors = [factor.as_base_exp()[0] for factor in Mul.make_args(form) if factor.has(x)]
+        found = [pair for factor in factors for pair in _zeros(factor, x) or _in_closed_form(factor, x)]
+        if found:
+            yield from found
+            return
+
+
+def _zeros(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
+    if not factor.has(x):
+        return []
+    if isinstance(factor, sin | cos):
+        return [(p, None) for p in _of_angle(factor, x)]
+    angles = {f.args[0] for f in factor.atoms(sin, cos) if f.has(x)}
+    if not angles:
+        return _of_polynomial(factor, x)
+    return _of_one_angle(factor, x) if angles == {x} else []
+
+
+def _in_closed_form(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
+    """As the places of rest of a force are found: r^4 = l^2/(k m)."""
+    try:
+        return [(zero.value, zero.exists) for zero in zeros_of(factor, x)]
+    except Unsolved:
+        return []
+
+
+def _of_angle(function: Function, x: Symbol) -> list[Expr]:
+    """Of cos(k x + c) the places where it vanishes, for a few half turns."""
+    (angle,) = function.args
+    k = angle.diff(x)
+    if k.has(x):
+        return []
+    start = pi / 2 if isinstance(function, cos) else Integer(0)
+    return [tidied((start + n * pi - angle.subs(x, 0)) / k) for n in range(-3, 4)]
+
+
+def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
+    try:
+        polynomial = factor.as_poly(x)
+    except PolynomialError:
+        return []
+    if polynomial is None:
+        return []
+    coefficients = polynomial.all_coeffs()
+    if len(coefficients) == 2:
+        a, b = coefficients
+        return [(tidied(-b / a), None)]
+    if len(coefficients) == 3:
+        a, b, c = coefficients
+        if b == 0:
+            inside = presented(-c / a, in_sums=False)
+            condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
+            return [] if sign_known(inside) == -1 else [(sign * _root_of(inside), condition) for sign in (1, -1)]
+        inside = tidied(b**2 - 4 * a * c)
+        if sign_known(inside) == -1:
+            return []
+        condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
+        return [(presented((-b + sign * sqrt(inside)) / (2 * a)), condition) for sign in (1, -1)]
+    return []
+
+
+def _of_one_angle(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
+    """A cos + B = 0, or A sin + B cos = 0, at one angle."""
+    u, v = Dummy("u"), Dummy("v")
+    written = factor.expand().xreplace({sin(x): u, cos(x): v})
+    if written.has(x):
+        return []
+    polynomial = Poly(written, u, v)
+    if polynomial.total_degree() == 1:
+        a, b, c = (polynomial.coeff_monomial(m) for m in (u, v, 1))
+        if c == 0 and a != 0:
+            return [(atan(tidied(-b / a)) + n * pi, None) for n in (-1, 0, 1)]
+        if a == 0:
+            return [(sign * acos(tidied(-c / b)), None) for sign in (1, -1)]
+    return []
+
+
+def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:
+    """The expression with the numbers of all letters but the one that varies."""
+    varied = Dummy("x", **x.assumptions0)
+    return with_numbers(expr.xreplace({x: varied})).xreplace({varied: x})
+
+
+# --- the second routes ---
+
+
+def _holds(condition: Relation, point: Any) -> bool:
+    size = value_at(with_numbers(condition.residual), point)
+    return bool(size != 0 if condition.mark == "!=" else size < 0 if condition.mark in {"<", "<="} else size > 0)
+
+
+def _not_exceeded(
+    value: Expr,
+    x: Symbol,
+    top: Expr,
+    within: Within | None,
+    told: Mapping[str, Relation],
+    curved: int,
+    place: Expr,
+) -> Verdict:
+    """At places spread over the interval, or near the place, nothing is beyond the extreme value."""
+    value, top, place = (_with_numbers_beside(e, x) for e in (value, top, place))
+    letters = (letters_of(value) | letters_of(top) | letters_of(place)) - {x}
+    conditions = [*told.values(), *assumed()]
+    letters |= {s for each in conditions for s in letters_of(each.residual)}
+    seen = 0
+    for point in islice(points(letters, seed_of(value)), 60):
+        try:
+            if not all(_holds(each, point) for each in conditions):
+                continue
+            best, centre = value_at(top, point), value_at(place, point)
+            ends = [value_at(with_numbers(e), point) for e in within] if within else [centre / 2, centre * 2]
+            if within is None and not x.is_positive:
+                ends = [centre - 1, centre + 1]
+            if not ends[0] <= centre <= ends[1]:
+                continue
+            others = [
+                value_at(value, {**point, x: ends[0] + (ends[1] - ends[0]) * Rational(2 * k + 1, 2 * BESIDE)})
+                for k in range(BESIDE)
+            ]
+            own = value_at(value, {**point, x: centre})
+        except (Undefined, NoNumber, TypeError):
+            continue
+        seen += 1
+        slack = Rational(1, 10**18) * (1 + Abs(best))
+        if any(curved * (best - other) > slack for other in others) or Abs(own - best) > slack:
+            where = tuple((str(name), str(number)) for name, number in point.items())
+            return Verdict(Grade.REFUTED, "another place of the interval has a value beyond it", where)
+        if seen == POINTS:
+            break
+    if not seen:
+        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    return Verdict(Grade.SAMPLED, f"{seen} points, {BESIDE} places each")

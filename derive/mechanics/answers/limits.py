@@ -1,0 +1,301 @@
+"""Limiting cases: what is left of a result where a letter is small, large, or near a value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import islice
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Rational, Symbol, oo
+
+from derive.algebra.equality import equal
+from derive.algebra.expansion import (
+    Approach,
+    Expansion,
+    NoExpansion,
+    Series,
+    expanded,
+    in_ascending_powers,
+    tidied_terms,
+)
+from derive.algebra.expressions import Relation, explicit
+from derive.algebra.samples import letters_of, points, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.answers.approximate import equation_in_limit
+from derive.mechanics.motion.turning_points import ByEnergy, assume_reached
+from derive.solving.leading import beginnings, entry_by_entry, rest_vanishes, terms_by_arithmetic, to_that_order
+from derive.solving.unknowns import letter_of, meaning, unknown_of
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.known_numbers import with_numbers
+from derive.steps.record import assumed, changes, letter_of_limit, named_coordinates
+from derive.steps.step import Form, Level, Quantity, approximations_among, compared_with, is_zero
+from derive.steps.subject import EVERYTHING
+
+__all__ = ["case_in_letters", "known_case", "limiting_case"]
+
+MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # far beyond the samples of the other letters
+BORDERS = {"=": "", ">=": "min", "<=": "max"}  # what is to be said of the letter for its value on the border
+
+
+def limiting_case(
+    of: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None, symbol: str | None = None
+) -> Quantity:
+    """What a result is in a limiting case, f = c_n e^n + ... with e what is small: x, 1/x or x - a.
+
+    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, of which the
+             least or the largest value is what goes to a limit; or another equation, of which `equation_in_limit` tells
+             what is left
+    letter   the letter that is small or large, or a ratio, h/R, of which the first letter goes there
+    to       0 where it is small, SymPy's `oo` where it is large, else the value that it is near
+    order    the highest power of what is small that is kept; the leading term alone if none is given
+    Of a vector or a tensor that is the leading power of its largest entry: the others vanish beside it. Letters that
+    are put equal, b = a, are `put_in`. The result has a letter of its own, `symbol` or omega_lim, and what is computed
+    from it is approximate.
+    Check: the same terms by adding, multiplying and dividing power series, without a derivative; and numbers,
+    on each side: the rest, divided by the last power that is kept, goes to zero with what is small.
+    Outcomes: finite, vanishes, diverges (the leading term alone); small, large, near (to an order); exact (nothing is
+    left out).
+    Errors: the result does not contain the letter; the letter changes in the motion and stays finite; the motion does
+    not get that far; the result has no such expansion (it oscillates there), has another on each side, or has no term
+    up to that order.
+    Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
+    """
+    solved = _solved_for(of)
+    if isinstance(of.value, Relation) and solved is None:
+        if symbol is not None:
+            raise Rejected(Complaint("wrong-argument", f"`{of.key}` is an equation, which has no letter of its own"))
+        return equation_in_limit(of, letter, to, order, key)
+    value = explicit(of.value.right if solved is not None else of.value)
+    name = _name(of) if solved is None else solved
+    goes, x = _what_goes(letter)
+    if not isinstance(value, Expr | MatrixBase):
+        raise Rejected(Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is no number"))
+    aim = explicit(to.value if isinstance(to, Quantity) else to)
+    _check_letter(of, value, x, is_end=aim in (oo, -oo))
+    _check_gets_far(of, x, aim)
+    _check_assumed(x, aim)
+    place = aim if aim in (oo, -oo) else tidied(aim * x / goes)
+    series = beginnings(of, value, x, place, order)
+    found = _added_up(series, value, x, place)
+    power = Rational(order) if order is not None else max((n for each in series for n in each), default=Rational(0))
+    if order is None and power > 0 and is_zero(value - found):  # its leading term is all of it: the limit says more
+        series, power = [{Rational(0): Integer(0)} for _ in series], Rational(0)
+        found = _added_up(series, value, x, place)
+    exact, is_limit = is_zero(value - found), order is None and power == 0
+    again = terms_by_arithmetic(value, series, x, place, power)
+    own = _own_letter(name, symbol, x, aim) if not exact else name if symbol is None else Symbol(symbol, real=True)
+    return establish(
+        "limits.limiting_case",
+        own,
+        lambda *_: entry_by_entry(lambda f: Expansion(_as_written(f, x, place), x, place, power), value),
+        {"quantity": of, "letter": goes, "approach": Approach(goes, aim)},
+        lines=Lines(
+            law=Level.FULL,
+            put_in=None,
+            after=[_last_line(found, series, x, place, exact, is_limit)],
+            result=False,
+            arranged=lambda _: found,
+            means=_means(own, found),
+        ),
+        routes={
+            **({} if again is None else {"arithmetic": lambda result: to_that_order(result, again, exact or is_limit)}),
+            "numbers": lambda result: rest_vanishes(value, result, x, place, power),
+        },
+        outcome="exact" if exact else _sort_of(place) if order is not None else _as_it_goes(power),
+        key=key or f"{of.key}_limit",
+        kind=of.step.kind,
+        phrase_data=PhraseData(
+            named={
+                **({"place": aim} if aim not in (oo, -oo) else {}),
+                **({"bound": value} if solved is not None and of.value.mark != "=" else {}),
+            },
+            outcome_data={"to": place, "value": value, "x": x},
+        ),
+        parents=approximations_among(to),
+        scope=Scope(case_of=of) if exact else Scope(approximates=_whole(of, name, Approach(goes, aim))),
+    )
+
+
+def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
+    """The letter of a limit, which is not that of the whole."""
+    if symbol is None:
+        return letter_of_limit(whole, x, aim)
+    if symbol == str(whole):
+        message = f"`limiting_case`: {symbol} is the letter of the whole, so its limit needs another letter"
+        raise Rejected(Complaint("letter-clash", message, help="give another `symbol`, or none"))
+    return Symbol(symbol, real=True)
+
+
+def _whole(of: Quantity, name: Any, approach: Approach) -> Any:
+    """What goes to the limit: of a series in powers of that very letter, the letter of the whole series."""
+    is_series = of.step.approximates is not None and dict(of.step.roles).get("approach") == approach
+    return of.step.approximates if is_series else name
+
+
+def _solved_for(of: Quantity) -> Symbol | None:
+    """The letter that an equation gives, x of x = f, where f does not hold it; of x >= f the least value, x_min."""
+    if not isinstance(of.value, Relation) or of.value.mark not in BORDERS:
+        return None
+    left, right = of.value.sides
+    if not isinstance(left, Symbol) or left in explicit(right).free_symbols:
+        return None
+    border = BORDERS[of.value.mark]
+    return Symbol(f"{left.name}_{border}", real=True) if border else left
+
+
+def _what_goes(letter: Any) -> tuple[Expr, Symbol]:
+    """What goes to a value as the page says it, and the letter that does it: of h/R the first letter, h."""
+    if isinstance(letter, Mul):
+        above = [part for part in Mul.make_args(letter.as_numer_denom()[0]) if isinstance(part, Symbol)]
+        if above and above[0] not in (letter / above[0]).free_symbols:
+            return letter, above[0]
+    x = letter_of(unknown_of("limiting_case", letter))
+    return x, x
+
+
+def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
+    """The letter occurs and is constant; far away and after a long time a coordinate and the time have a limit too."""
+    if x not in value.free_symbols:
+        message = f"`limiting_case`: `{of.key}` does not contain {x.name}"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    if not is_end and changes(x, {**of.coordinates, **dict.fromkeys(named_coordinates(), "")}) is not None:
+        message = f"`limiting_case`: {x.name} changes in the motion, so that it is not small all the time"
+        raise Rejected(Complaint("changes", message, help="give a letter that is constant"))
+
+
+def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
+    """Where conservation of energy gives the rate of the coordinate that becomes large, the motion gets that far."""
+    for each in of.ancestors() if aim in (oo, -oo) else ():
+        known = each.fact(ByEnergy)
+        if known is not None and known.coordinate == x:
+            value = explicit(each.value)
+            assume_reached(of, each, x, aim, _added_up(beginnings(each, value, x, aim, None), value, x, aim))
+
+
+def _check_assumed(x: Symbol, aim: Expr) -> None:
+    """Close to the limit there are values of the other letters for which everything holds that the page assumes."""
+    signs = {">": 1, "<": -1}
+    kept = [with_numbers(each.residual * signs[each.mark[0]]) for each in assumed() if each.mark[0] in signs]
+    conditions = [each for each in kept if x in each.free_symbols]
+    letters = set().union(letters_of(aim) if aim not in (oo, -oo) else (), *map(letters_of, conditions)) - {x}
+    for point in islice(points(letters, 0), MANY) if conditions else ():
+        for near in _close_to(aim, point):
+            if all(value_at(each, {**point, x: near}) > 0 for each in conditions):
+                return
+    if conditions:
+        message = f"`limiting_case`: where {x.name} goes to {aim}, not everything holds that is assumed"
+        help_line = "leave that relation out of `assume:`, or give another limit"
+        raise Rejected(Complaint("contradiction", message, help=help_line))
+
+
+def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
+    """Large numbers, or numbers on both sides of the aim."""
+    if aim in (oo, -oo):
+        return (FAR if aim == oo else -FAR,)
+    there = explicit(aim).xreplace(dict(point))
+    little = 1 / FAR if there == 0 else there * NEAR
+    return (there + little, there - little)
+
+
+def _added_up(series: Sequence[Series], value: Any, x: Symbol, place: Expr) -> Any:
+    """The terms of each entry together."""
+    added = [tidied_terms(each, x, place) for each in series]
+    return ImmutableDenseMatrix(*value.shape, added) if isinstance(value, MatrixBase) else added[0]
+
+
+def _last_line(found: Any, series: Sequence[Series], x: Symbol, place: Expr, exact: bool, is_limit: bool) -> Form:
+    if exact:
+        return Form(found, "result")
+    if is_limit:
+        return Form(found, "limit")
+    return Form(found if isinstance(found, MatrixBase) else in_ascending_powers(series[0], x, place), "series")
+
+
+def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
+    """What is a polynomial already in ascending powers, its leading term in front: 2 pi sqrt(l/g) (1 + A^2/16)."""
+    if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
+        return value
+    try:
+        return in_ascending_powers(expanded(value, x, place, Rational(value.as_poly(x).degree())), x, place)
+    except NoExpansion:
+        return value
+
+
+def _as_it_goes(power: Rational) -> str:
+    return "finite" if power == 0 else "vanishes" if power > 0 else "diverges"
+
+
+def _sort_of(place: Expr) -> str:
+    if place == 0:
+        return "small"
+    return "large" if place in (oo, -oo) else "near"
+
+
+def _name(of: Quantity) -> Any:
+    if isinstance(of.symbol, Symbol | MatrixSymbol | MatrixBase):
+        return of.symbol
+    return unknown_of("limiting_case", of.symbol)
+
+
+def _means(name: Any, found: Any) -> dict[Any, Any]:
+    return {} if isinstance(name, Symbol | MatrixSymbol | MatrixBase) else dict(meaning(name, found))
+
+
+def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Quantity:
+    """What a limiting case gives is what is known from elsewhere, f = g.
+
+    found   the result in a limiting or a special case, any unit
+    known   the same quantity by a derivation of its own
+    Second route: the known result, entry by entry.
+    Outcomes: generic.
+    Errors: the two are not equal; the one is derived from the other.
+    Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
+    """
+    values = [explicit(q.value.right if _solved_for(q) is not None else q.value) for q in (found, known)]
+    if found.rests_on(known) or known.rests_on(found):
+        first, other = (found, known) if found.rests_on(known) else (known, found)
+        message = f"`{first.key}` is derived from `{other.key}`, so that their agreement would say nothing"
+        raise Rejected(Complaint("same-source", message))
+    if not equal(*values):
+        raise Rejected(Complaint("wrong-limit", f"`{found.key}` is {values[0]}, but `{known.key}` is {values[1]}"))
+    return establish(
+        "limits.known_case",
+        found.symbol,
+        lambda *_: values[0],
+        {},
+        routes={"known": compared_with(lambda: values[1])},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        parents=[found, known],
+        key=key,
+        kind=found.step.kind,
+        scope=Scope(case_of=found),
+    )
+
+
+def case_in_letters(
+    found: Quantity, formula: Expr, values: Sequence[Quantity], key: str = "case_in_letters"
+) -> Quantity:
+    """What a limiting case gives, in the letters of earlier results: 3 g/(2 a S) is M g l/(I_z S).
+
+    found    the result in a limiting or a special case, any unit
+    formula  the same in letters
+    values   the results that these letters stand for
+    Check: all letters replaced at once, against the limiting case.
+    Outcomes: generic.
+    Errors: the two are not equal.
+    Source: none needed: substitution.
+    """
+    value = explicit(found.value.right if _solved_for(found) is not None else found.value)
+    return establish(
+        "limits.case_in_letters",
+        found.symbol,
+        lambda *_: formula,
+        {},
+        routes={"at_once": compared_with(lambda: value)},
+        lines=Lines(put_in=None, after=[Form(value, "result", Level.FULL)], result=False, arranged=explicit),
+        parents=[*values, found],
+        key=key,
+        kind=found.step.kind,
+        scope=Scope(differ=EVERYTHING, case_of=found),
+    )

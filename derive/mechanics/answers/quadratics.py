@@ -1,0 +1,351 @@
+"""The two roots of a quadratic equation in one formula, the condition under which they are real, and each by itself.
+
+An equation a x^2 + b x + c = 0 may be a general one in letters; the values that the letters have here are put in
+after the formula, so that the page shows both. Where a is zero the equation is linear and has one root.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
+
+from derive.algebra.expressions import PLUS_MINUS, RATES, Factors, Ratio, Relation, Root, Terms, bound, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.answers.conditions import where
+from derive.solving.presentation import presented
+from derive.solving.relations import solved_in_letters
+from derive.solving.unknowns import coordinates_of, kind_of_unknown
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
+from derive.steps.subject import EVERYTHING
+
+__all__ = ["discriminant", "real_where", "roots_together"]
+
+FOUR, ZERO = Integer(4), Integer(0)
+SIGNS = {1: "positive", -1: "negative", 0: "vanishing", None: "conditional"}
+
+
+@dataclass(frozen=True)
+class Quadratic:
+    """The coefficients of a x^2 + b x + c."""
+
+    a: Expr
+    b: Expr
+    c: Expr
+
+    def with_values(self, values: dict[Any, Any]) -> Quadratic:
+        return Quadratic(*(tidied(bound(each, values)) for each in (self.a, self.b, self.c)))
+
+    def at(self, x: Expr) -> Expr:
+        return self.a * x**2 + self.b * x + self.c
+
+    @property
+    def is_linear(self) -> bool:
+        return bool(self.a == 0)
+
+    @property
+    def discriminant(self) -> Expr:
+        return self.b**2 - FOUR * self.a * self.c
+
+    @property
+    def of_terms(self) -> Expr:
+        return Terms(self.b**2, -FOUR * self.a * self.c)
+
+
+@dataclass(frozen=True)
+class Roots(Fact):
+    """The quadratic equation that roots are those of: in letters, with values put in, its unknown, these values."""
+
+    missing = "is not the root of a quadratic equation, as `roots` yields it with `together`"
+    general: Quadratic
+    quadratic: Quadratic
+    unknown: Symbol
+    values: tuple[Quantity, ...]
+
+    @property
+    def roles(self) -> dict[str, Quantity]:
+        return {q.key: q for q in self.values}
+
+    def with_those(self, expr: Expr, those: Sequence[Any]) -> Expr:
+        """The formula with names or with values for the letters of some quantities."""
+        return bound(expr, dict(zip((q.symbol for q in self.values), those, strict=True)))
+
+
+def roots_together(
+    equation: Quantity, x: Symbol, values: Sequence[Quantity], key: str, keys: Sequence[str], symbols: Sequence[str]
+) -> tuple[Quantity, ...]:
+    """Both roots of a quadratic equation in one formula, then each by itself, the smaller in size first.
+
+    equation   a x^2 + b x + c = 0, perhaps times what does not hold x
+    x          the unknown
+    values     what letters of the coefficients stand for here
+    key        of the step that has both; `keys` and `symbols` are those of each by itself
+    As many are yielded as there are keys: what is the only one, or says that there is none, stands for all of them.
+    Check: put back into the equation; their sum; the product of the two.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    of, apart = _coefficients(equation, x, values)
+    both = _together(equation, of, apart, key, keys)
+    if of.quadratic.is_linear:
+        return (both,) * max(1, len(keys))
+    names = keys or [f"{key}_{i}" for i in (1, 2)]
+    real, larger = sign_known(of.quadratic.discriminant), -1 if sign_known(of.quadratic.b) == 1 else 1
+    if real == -1:
+        return (_none_real(both, names),) * len(names)
+    if real == 0:
+        return (_one_of_two(both, larger, "coinciding", names[0], None, names[1:]),) * len(names)
+    if len(names) != 2:
+        raise Rejected(Complaint("wrong-argument", f"`roots`: `{equation.key}` has 2 roots here, not {len(names)}"))
+    letters = symbols or ("", "")
+    words = _by_size(of.quadratic, real)
+    return tuple(
+        _one_of_two(both, sign, word, name, letter)
+        for sign, word, name, letter in zip((-larger, larger), words, names, letters, strict=True)
+    )
+
+
+def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
+    """Those of an equation that is quadratic in x, or linear, the first without a minus sign; and what else is a factor
+    of its left side, with the values put in."""
+    factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
+    apart = Mul(*(f for f in factors if x not in f.free_symbols))
+    polynomial = Mul(*(f for f in factors if x in f.free_symbols)).as_poly(x)
+    if polynomial is None or polynomial.degree() not in (1, 2):
+        message = f"`{equation.key}` is not a linear or quadratic equation in {x.name}"
+        raise Rejected(Complaint("not-quadratic", message))
+    turn = -1 if polynomial.LC().could_extract_minus_sign() else 1
+    missing = [ZERO] * (2 - polynomial.degree())
+    general = Quadratic(*(turn * each for each in (*missing, *polynomial.all_coeffs())))
+    known = {q.symbol: q.value for q in values}
+    here, beside = general.with_values(known), tidied(bound(apart, known))
+    if is_zero(beside) or (here.a == 0 and here.b == 0):
+        message = f"`roots`: `{equation.key}` does not depend on {x.name} here"
+        help_line = f"{apart} = 0 there" if is_zero(beside) else None
+        raise Rejected(Complaint("no-roots", message, help=help_line))
+    return Roots(general, here, x, tuple(values)), beside
+
+
+def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequence[str]) -> Quantity:
+    """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
+
+    equation   a x^2 + b x + c = 0
+    of         its coefficients, and what letters of them stand for here
+    apart      what else the left side has as a factor
+    keys       answers that this step gives where there is only one root
+    Second route: put back into the equation; the sum of the two is -b/a.
+    Outcomes: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (two, one of each sign), linear.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    here, x, linear = of.quadratic, of.unknown, of.quadratic.is_linear
+    excluded = may_vanish(apart * (here.b if linear else here.a))
+    formula = _linear_formula(of.general) if linear else _formula(of.general)
+
+    def sum_of_both(found: Expr) -> tuple[Expr, Expr]:
+        if linear:
+            return found, -here.c / here.b
+        return found + found.xreplace({PLUS_MINUS: -PLUS_MINUS}), -here.b / here.a
+
+    return establish(
+        "roots.together",
+        x,
+        lambda _, __, *those: of.with_those(formula, those),
+        {"equation": equation, "unknown": x, **of.roles},
+        routes={"put_back": lambda found: (here.at(found), ZERO), "sum": sum_of_both},
+        outcome="linear" if linear else character(here),
+        phrase_data=PhraseData(
+            outcome_data={"quadratic": here},
+            formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
+            stands_for=keys if linear else (),
+        ),
+        lines=Lines(put_in=Level.FULL, arranged=lambda found: tidied(found) if linear else _arranged(here, found)),
+        key=key,
+        facts=[of],
+        kind=kind_of_unknown(x, coordinates_of(equation)),
+        scope=Scope(differ=EVERYTHING),
+    )
+
+
+def character(of: Quadratic) -> str:
+    """What the roots are like: told by the discriminant and by the sign of their product."""
+    sign = sign_known(of.discriminant)
+    if sign == 1:
+        return "opposite" if sign_known(of.a * of.c) == -1 else "two"
+    return "conditional" if sign is None else {-1: "none", 0: "double"}[sign]
+
+
+def _linear_formula(of: Quadratic) -> Expr:
+    """-c/b, with as few minus signs as it needs."""
+    return Ratio(of.c, -of.b) if of.b.could_extract_minus_sign() else Ratio(-of.c, of.b)
+
+
+def _formula(of: Quadratic) -> Expr:
+    return Ratio(Terms(-of.b, Factors(PLUS_MINUS, Root(of.of_terms))), 2 * of.a)
+
+
+def _arranged(of: Quadratic, found: Expr) -> Expr:
+    """k (u +- sqrt(u^2 - w)), where u is what the coefficient b alone has: S, not m a^2 S."""
+    own = [
+        f
+        for f in Mul.make_args(-of.b)
+        if f.free_symbols and not (of.a.has(*f.free_symbols) or of.c.has(*f.free_symbols))
+    ]
+    u = Mul(*own)
+    outside = tidied(-of.b / u)
+    if sign_known(outside) == -1:
+        u, outside = -u, -outside
+    if sign_known(outside) != 1:
+        return tidied(found)
+    k = tidied(outside / (2 * of.a))
+    inside = Add(*(tidied(term) for term in (u**2, -FOUR * of.a * of.c / outside**2)))
+    both = Add(u, PLUS_MINUS * sqrt(inside), evaluate=False)
+    return Mul(*Mul.make_args(k), both, evaluate=False) if k != 1 else both
+
+
+def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
+    """The words for the two roots: of one sign or of opposite ones, where they are known to be real."""
+    if real is None:
+        return "smaller_where_real", "larger_where_real"
+    return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
+
+
+def _one_of_two(
+    both: Quantity, sign: int, outcome: str, key: str, letter: str | None, stands_for: Sequence[str] = ()
+) -> Quantity:
+    """One of the two roots of a quadratic equation, that with the sign before the square root.
+
+    Second route: put back into the equation; 2 c/(-b -+ sqrt(b^2 - 4 a c)), in which the smaller root is the one with
+    the larger denominator.
+    Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (of opposite signs), coinciding.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    of = both.needed(Roots)
+    quadratic = of.quadratic
+
+    def other_form() -> Expr:
+        return 2 * quadratic.c / (-quadratic.b - sign * sqrt(quadratic.discriminant))
+
+    return establish(
+        "roots.one_of_two",
+        scalar(letter or _indexed(of.unknown.name, key)),
+        lambda _: _of_sign(both.value, sign),
+        {"roots": both},
+        lines=Lines(put_in=None, arranged=lambda _: _of_sign(both.value, sign)),
+        routes={"put_back": lambda found: (quadratic.at(found), ZERO), "other_form": compared_with(other_form)},
+        outcome=outcome,
+        phrase_data=PhraseData(
+            words={} if outcome == "coinciding" else {"sign": "upper" if sign > 0 else "lower"},
+            outcome_data={"quadratic": quadratic},
+            stands_for=stands_for,
+        ),
+        key=key,
+        kind=both.step.kind,
+        facts=[of],
+    )
+
+
+def _indexed(name: str, key: str) -> str:
+    """phi_slow_dot of slow_precession, phi_1_dot of roots_1."""
+    index = key.rpartition("_")[2] if key[-1].isdigit() else key.partition("_")[0]
+    order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
+    return f"{name.removesuffix(order)}_{index}{order}"
+
+
+def _of_sign(both: Expr, sign: int) -> Expr:
+    """The formula with one of the two signs, still one product."""
+    factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
+    return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
+
+
+def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
+    """That there is no real root with the numbers that are given, b^2 - 4 a c < 0.
+
+    Outcomes: none.
+    Second route: the numbers put into the discriminant as the resultant has it.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    of = both.needed(Roots)
+
+    def by_resultant(found: Relation) -> tuple[Any, Any]:
+        other = with_numbers(_by_resultant(of))
+        return found, Relation(_by_resultant(of), "<" if sign_known(other) == -1 else ">=", 0)
+
+    return establish(
+        "roots.one_of_two",
+        None,
+        lambda *those: Relation(of.with_those(of.general.of_terms, those[1:]), "<", 0),
+        {"roots": both, **of.roles},
+        lines=Lines(arranged=lambda _: Relation(tidied(of.quadratic.discriminant), "<", 0)),
+        routes={"resultant": by_resultant},
+        outcome="none",
+        key=keys[0],
+        phrase_data=PhraseData(outcome_data={"quadratic": of.quadratic}, stands_for=keys),
+        scope=Scope(differ=EVERYTHING),
+        facts=[of],
+    )
+
+
+def _by_resultant(of: Roots) -> Expr:
+    """The discriminant by the resultant of the polynomial and its derivative, which is -a Delta."""
+    return tidied(-_resultant(of.quadratic) / of.quadratic.a)
+
+
+def _resultant(here: Quadratic) -> Expr:
+    """That of the polynomial, by its values at three places, and its derivative: Sylvester's determinant."""
+    at_none, at_one, at_other = (here.at(Integer(n)) for n in (0, 1, -1))
+    second, first = (at_one + at_other) / 2 - at_none, (at_one - at_other) / 2
+    slope = [2 * here.a, here.b]
+    return ImmutableDenseMatrix([[second, first, at_none], [*slope, ZERO], [ZERO, *slope]]).det(method="laplace")
+
+
+def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
+    """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
+
+    roots   one of them, as `roots` yields them with `together`
+    Check: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
+    Outcomes: positive, negative, vanishing, conditional (not known from the letters); linear (b^2, a being zero).
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    of = roots.needed(Roots)
+    here = of.quadratic
+
+    def otherwise(found: Expr) -> tuple[Expr, Expr]:
+        if here.is_linear:
+            return found, (here.at(Integer(1)) - here.at(ZERO)) ** 2
+        return -here.a * found, _resultant(here)
+
+    return establish(
+        "roots.discriminant",
+        scalar(symbol),
+        lambda *those: of.with_those(of.general.of_terms, those),
+        of.roles,
+        lines=Lines(put_in=Level.FULL) if here.is_linear or not of.values else Lines(put_in=None, result=False),
+        routes={"resultant": otherwise},
+        outcome="linear" if here.is_linear else lambda found: SIGNS[sign_known(found)],
+        key=key,
+        parents=[next((q for q in (roots, *roots.parents) if q.step.rule == "roots.together"), roots)],
+        phrase_data=PhraseData(outcome_data={"quadratic": here}),
+        scope=Scope(differ=EVERYTHING),
+    )
+
+
+def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: bool = False) -> Quantity:
+    """Condition under which the roots of a quadratic equation are real, b^2 - 4 a c >= 0, solved for a letter.
+
+    roots    one of them, as `roots` yields them with `together`
+    letter   what stands alone in the end
+    distinct whether they are to be two, b^2 - 4 a c > 0
+    The discriminant is a step of its own; of a linear equation it is b^2, which does not vanish. Where values were put
+    into the equation, the condition is told in letters first.
+    Check: as `where`.
+    Outcomes: those of `where`.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    of, of_both, mark = roots.needed(Roots), discriminant(roots), ">" if distinct else ">="
+    criterion = solved_in_letters(of_both, of.general.discriminant, mark, letter) if of.values else None
+    through = (criterion, of.values) if criterion is not None else None
+    return where(of_both, mark, 0, letter, key, through=through, for_real=True)

@@ -1,0 +1,409 @@
+"""Roots of a polynomial equation in one letter: linear, quadratic, and of higher degree where it factors.
+
+A letter for a positive number keeps the roots that can be positive. Where it depends on the letters whether a root is
+real or positive, the condition is told with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Mul,
+    Poly,
+    Symbol,
+    cos,
+    factor_list,
+    resultant,
+    sin,
+)
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.expressions import RATES, Relation, Terms, explicit, scalar
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.answers.quadratics import roots_together
+from derive.solving.attainable import is_out_of_range
+from derive.solving.presentation import presented
+from derive.solving.root_of_factor import FOUR, RootOf
+from derive.solving.unknowns import (
+    ValueOf,
+    coordinates_of,
+    factors_elsewhere,
+    is_number,
+    kind_of_unknown,
+    letter_of,
+    meaning,
+    polynomial_in,
+    residual_of,
+    unknown_of,
+)
+from derive.solving.zeros import within_one
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.step import Level, Quantity, is_zero
+
+__all__ = ["roots"]
+
+ZERO, ONE = Integer(0), Integer(1)
+
+
+def roots(
+    equation: Quantity,
+    letter: Any,
+    *values: Quantity,
+    keys: Sequence[str] | None = None,
+    symbols: Sequence[str] | None = None,
+    together: str | None = None,
+    key: str | None = None,
+) -> tuple[Quantity, ...]:
+    """Roots of an equation in one letter, x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic factor, x = -b/a
+    for each linear one; only the positive ones where the letter is that of a positive number, in ascending order.
+
+    equation   a polynomial in the letter; or a result that is no equation, of which the zeros are wanted
+    letter     the unknown: a letter, a coordinate, a rate, or such as `cos(theta)`
+    values     what letters of the coefficients stand for here, put in after the formula: with `together`
+    together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a); then
+               each by itself, the smaller in size first. What is the only root, or says that there is none, then
+               stands for all of the keys
+    keys       what the steps are called; else by the letter, with _1, _2 where there are several
+    key        what the keys begin with in place of the letter
+    symbols    the letters of the roots; else that of the unknown, with _1, _2 where there are several
+    Check: put back into the equation; by Vieta the sum and the product of all roots are those that the
+    coefficients give.
+    Factors that vanish elsewhere, sin(theta) where cos(theta) is sought, are told, or assumed not to vanish.
+    Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind it),
+    none (no root is real), none_positive, none_reached (a sine or a cosine would be greater than 1 or less than -1); of
+    the two together: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (one of each sign), linear.
+    Errors: it is no polynomial in the letter, or has a factor of a degree above two.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
+    """
+    unknown = unknown_of("roots", letter)
+    if together is not None or values:
+        return roots_together(equation, letter_of(unknown), values, together or "roots", keys or (), symbols or ())
+    none = [*(keys or []), *([key] if key else []), f"no_{letter_of(unknown).name}"][0]
+    left, (x,) = polynomial_in("roots", equation, [unknown], or_value=True)
+    polynomial = _polynomial(equation, left, x, unknown)
+    every = [root for factor, times in _factors(polynomial, equation, unknown) for root in _of_factor(factor, times)]
+    real = [root for root in every if len(root.coefficients) == 2 or sign_known(root.discriminant) != -1]
+    if not real:
+        return (_no_root(equation, unknown, every, False, none),)
+    kept = [root for root in real if _sign(root) not in ((-1, 0) if strict_sign_within(unknown) == 1 else ())]
+    if not kept:
+        return (_no_root(equation, unknown, real, True, none),)
+    kept = [root for root in kept if not _is_out_of_reach(root, unknown)]
+    if not kept:
+        return (_not_reached(equation, unknown, real, none),)
+    kept = [root for root in kept if not is_out_of_range(unknown, root.value)]
+    if not kept:
+        message = f"`roots`: no root of `{equation.key}` lies in the range of {letter_of(unknown)}"
+        raise Rejected(Complaint("no-root", message))
+    kept = _ascending(kept)
+    names = list(keys or _names(unknown, len(kept), key))
+    if len(names) != len(kept):
+        message = f"`roots`: `{equation.key}` has {len(kept)} root{'s' * (len(kept) > 1)} here, not {len(names)}"
+        raise Rejected(Complaint("wrong-argument", message))
+    letters = list(symbols or [""] * len(kept))
+    if len(letters) != len(kept):
+        raise Rejected(Complaint("wrong-argument", "`roots` needs as many symbols as there are roots"))
+    return tuple(
+        _step(equation, unknown, polynomial, kept, every, i, name, letter)
+        for i, (name, letter) in enumerate(zip(names, letters, strict=True))
+    )
+
+
+def _step(
+    equation: Quantity,
+    unknown: Expr,
+    polynomial: Poly,
+    kept: Sequence[RootOf],
+    every: Sequence[RootOf],
+    i: int,
+    key: str,
+    letter: str,
+) -> Quantity:
+    root, alone = kept[i], len(kept) == 1
+    others = [(each.value, each.times - (each is root)) for each in every]
+    name = _name(unknown, letter, 0 if alone else i + 1)
+
+    def vieta(found: Expr) -> tuple[Any, Any]:
+        """Sum and product of all roots, from the found one and the others, against the coefficients."""
+        total = found + Add(*(value * n for value, n in others))
+        product = found * Mul(*(value**n for value, n in others))
+        n, (leading, *rest) = polynomial.degree(), polynomial.all_coeffs()
+        return ImmutableDenseMatrix([total, product]), ImmutableDenseMatrix(
+            [-rest[0] / leading, (-1) ** n * rest[-1] / leading]
+        )
+
+    elsewhere = Mul(*factors_elsewhere(residual_of("roots", equation, or_value=True), unknown))
+    condition = _condition(root, unknown)
+    told = {
+        role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
+        for role, each in (
+            ("condition", condition),
+            ("excluded", _excluded(_common_factor(polynomial, every) * root.coefficients[0], condition)),
+            ("existing", _existing(root, unknown, equation)),
+            ("elsewhere", None if elsewhere == 1 else Relation(elsewhere, "=", ZERO)),
+        )
+        if each is not None
+    }
+    return establish(
+        "roots.roots",
+        name,
+        lambda *_: root.formula,
+        {"equation": equation, "unknown": unknown},
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            arranged=lambda _: root.value,
+            means={} if isinstance(name, Symbol) else meaning(name, root.value),
+        ),
+        routes={
+            "put_back": lambda found: (polynomial.as_expr().xreplace({polynomial.gen: found}), ZERO),
+            "vieta": vieta,
+        },
+        outcome=_outcome(root, i, kept, every),
+        key=key,
+        kind=kind_of_unknown(unknown, coordinates_of(equation)),
+        phrase_data=PhraseData(
+            words={"asked": _asked(equation), **({} if isinstance(unknown, Symbol) else {"seen": "function"})},
+            formulas=told,
+            outcome_data={
+                "polynomial": polynomial.as_expr(),
+                "gen": polynomial.gen,
+                "positive": Integer(strict_sign_within(unknown) == 1),
+                "place": Integer(i),
+                "roots": tuple(each.value for each in kept),
+                "count": Integer(len(kept)),
+            },
+        ),
+        facts=[root, ValueOf(unknown)],
+    )
+
+
+def _name(unknown: Expr, letter: str, number: int) -> Expr:
+    """The letter of a root; a root that is the value of cos(theta) is called so, with the letter of the angle."""
+    if not isinstance(unknown, Symbol):
+        return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
+    if not letter and not number:
+        return unknown
+    return scalar(letter or _numbered(unknown.name, number), **_assumed(unknown))
+
+
+def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
+    """What must not vanish, unless the condition says so already: cos(theta_0) > 0."""
+    excluded = may_vanish(divisor)
+    if excluded is None or condition is None or condition.mark != ">" or not is_zero(condition.right):
+        return excluded
+    left = [f for f in Mul.make_args(excluded.left) if f not in Mul.make_args(condition.left)]
+    return Relation(Mul(*left), "!=", ZERO) if left else None
+
+
+def _outcome(root: RootOf, i: int, kept: Sequence[RootOf], every: Sequence[RootOf]) -> str:
+    if i:
+        return "following"
+    if len(kept) > 1:
+        return "several"
+    if len(every) > 1:
+        return "only"
+    return "double" if root.times > 1 else "single"
+
+
+def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, key: str) -> Quantity:
+    """The discriminant is negative; or the root that could be positive is not."""
+    last = _ascending(list(every))[-1] if real else every[0]
+    mark = "=" if real and is_zero(last.value) else "<"
+    if real:
+        decides, otherwise = last.formula, last.value
+    else:
+        a, b, c = last.coefficients
+        decides, otherwise = Terms(b**2, -FOUR * a * c), _by_resultant(last)
+    return establish(
+        "roots.roots_absent",
+        None,
+        lambda *_: Relation(decides, mark, ZERO),
+        {"equation": equation, "unknown": unknown},
+        lines=Lines(put_in=None, result=real or not decides.free_symbols),
+        routes={"otherwise": lambda found: (found.residual, otherwise)},
+        outcome="none_positive" if real else "none",
+        phrase_data=PhraseData(words={"asked": _asked(equation)}),
+        key=key,
+    )
+
+
+def _asked(equation: Quantity) -> str:
+    return "zeros" if is_number(equation) else "roots"
+
+
+def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
+    """What all coefficients are multiplied by: P of P (R u - r)."""
+    found = {root.coefficients: root.times for root in every}
+    return tidied(polynomial.LC() / Mul(*(c[0] ** times for c, times in found.items())))
+
+
+def _is_out_of_reach(root: RootOf, unknown: Expr) -> bool:
+    """Whether no angle has it for its sine or cosine."""
+    return isinstance(unknown, sin | cos) and root.value not in (1, -1) and within_one(root.value)[1]
+
+
+def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key: str) -> Quantity:
+    nearest = min(every, key=lambda root: abs(number) if (number := with_numbers(root.value)).is_number else 1)
+    side = 1 if sign_known(nearest.value) == 1 else -1
+    return establish(
+        "roots.roots_absent",
+        None,
+        lambda *_: Relation(nearest.value, ">" if side > 0 else "<", Integer(side)),
+        {"equation": equation, "unknown": unknown},
+        lines=Lines(put_in=None),
+        routes={"otherwise": lambda found: (found.left, explicit(nearest.formula))},
+        outcome="none_reached",
+        phrase_data=PhraseData(words={"asked": _asked(equation)}),
+        key=key,
+    )
+
+
+def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
+    """For which values of the letters an angle has it for its sine or cosine; not at the border, where the other of the
+    two vanishes, if the equation was divided by that."""
+    if not isinstance(unknown, sin | cos) or root.value in (1, -1):
+        return None
+    exists, _ = within_one(root.value)
+    if exists is None or residual_of("roots", equation, or_value=True).has(cos if isinstance(unknown, sin) else sin):
+        return exists
+    return Relation(exists.left, f"{exists.mark}=", exists.right)
+
+
+def _by_resultant(root: RootOf) -> Expr:
+    """The discriminant by the resultant of the quadratic factor and its derivative, which is -a D."""
+    a, b, c = root.coefficients
+    x = Dummy("x")
+    return -resultant(a * x**2 + b * x + c, 2 * a * x + b, x) / a
+
+
+def _polynomial(equation: Quantity, left: Expr, x: Symbol, unknown: Expr) -> Poly:
+    numerator = tidied(left).as_numer_denom()[0]
+    try:
+        found = numerator.as_poly(x)
+    except PolynomialError:
+        found = None
+    if found is None or found.degree() < 1:
+        message = f"`{equation.key}` is no polynomial in {unknown}"
+        raise Rejected(Complaint("no-polynomial", message))
+    if found.LC().could_extract_minus_sign():
+        found = -found
+    return found
+
+
+def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[Poly, int]]:
+    """The factors that contain the unknown, with their multiplicities."""
+    x = polynomial.gen
+    _, parts = factor_list(polynomial.as_expr(), x) if _is_plain(polynomial) else (1, [(polynomial.as_expr(), 1)])
+    found = [(part.as_poly(x), times) for part, times in parts if part.has(x)]
+    if any(part is None or part.degree() > 2 for part, _ in found):
+        degree = max(part.degree() for part, _ in found if part is not None)
+        message = f"`roots`: `{equation.key}` does not factor, and is of degree {degree} in {unknown}"
+        raise Rejected(Complaint("not-solved", message, help="put numbers in, or a special case"))
+    return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
+
+
+def _is_plain(polynomial: Poly) -> bool:
+    return bool(polynomial.as_expr().count_ops() < 800)
+
+
+def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
+    """A quadratic polynomial that is a square, as one linear factor twice."""
+    if polynomial.degree() == 2:
+        a, b, c = polynomial.all_coeffs()
+        if is_zero(b**2 - FOUR * a * c):
+            return [(Poly([2 * a, b], polynomial.gen), 2)]
+    return [(polynomial, 1)]
+
+
+def _of_factor(factor: Poly, times: int) -> list[RootOf]:
+    coefficients = tuple(tidied(c) for c in factor.all_coeffs())
+    if len(coefficients) == 2:
+        return [RootOf(coefficients, 0, times)]
+    return [RootOf(coefficients, sign, times) for sign in (-1, 1)]
+
+
+def _sign(root: RootOf) -> int | None:
+    """Of a quadratic factor by Vieta: the roots have the sign of -b/a where their product is positive.
+
+    Without a linear term a root is real only where a and c have opposite signs, so that one of the two decides.
+    """
+    if len(root.coefficients) == 2:
+        return sign_known(root.value)
+    a, b, c = root.coefficients
+    upper = root.sign * (sign_known(a) or (-(sign_known(c) or 0) if b == 0 else 0))
+    product, total = sign_known(c / a), sign_known(-b / a)
+    if product == -1 or b == 0:
+        return upper or None
+    if product == 1 and total is not None:
+        return total
+    if product == 0 and total:
+        return total if upper == total else 0
+    return sign_known(root.value)
+
+
+def _condition(root: RootOf, unknown: Expr) -> Relation | None:
+    """Under which the root is real, or positive where it must be."""
+    if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
+        _, b, c = root.coefficients
+        lost = sign_known(c) or strict_sign_within(unknown) == 1  # of a x^2 + c with a = 0; or it is 0 there
+        mark = ">" if b == 0 and lost else ">="
+        return Relation(presented(_without_positive(root.discriminant)), mark, ZERO)
+    if strict_sign_within(unknown) == 1 and _sign(root) is None:
+        return Relation(presented(_without_positive(root.value)), ">", ZERO)
+    return None
+
+
+def _sum_of_squares(root: RootOf) -> bool:
+    """b^2 - 4 a c where the product of the roots is negative."""
+    a, _, c = root.coefficients
+    return sign_known(a * c) == -1
+
+
+def _without_positive(value: Expr) -> Expr:
+    """The factors that decide its sign."""
+    value = tidied(value)
+    kept = [f for f in Mul.make_args(value) if not f.is_positive]
+    return Mul(*kept)
+
+
+def _ascending(found: list[RootOf]) -> list[RootOf]:
+    """In ascending order, where that is known: by numbers, by the signs, or within one quadratic factor."""
+    numbers = [with_numbers(root.value) for root in found]
+    if all(number.is_real and not number.free_symbols for number in numbers):
+        order = sorted(range(len(found)), key=lambda i: numbers[i].evalf(30))
+        return [found[i] for i in order]
+    if len(found) == 2 and sign_known(found[0].value - found[1].value) == 1 or _turned(found):
+        return found[::-1]
+    return found
+
+
+def _turned(found: Sequence[RootOf]) -> bool:
+    """The two roots of one factor whose leading coefficient is negative."""
+    one_factor = len(found) == 2 and found[0].coefficients == found[1].coefficients and found[0].sign == -1
+    return one_factor and sign_known(found[0].coefficients[0]) == -1
+
+
+def _numbered(name: str, n: int) -> str:
+    """theta_1, and of a rate phi_1_dot."""
+    order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
+    return f"{name.removesuffix(order)}_{n}{order}"
+
+
+def _names(unknown: Expr, count: int, key: str | None) -> list[str]:
+    name = key or f"{letter_of(unknown).name}{'' if isinstance(unknown, Symbol) else '_root'}"
+    return [name] if count == 1 else [f"{name}_{i + 1}" for i in range(count)]
+
+
+def _assumed(unknown: Expr) -> dict[str, bool]:
+    return {"positive": True} if unknown.is_positive else {}

@@ -1,0 +1,172 @@
+"""Linear equations solved for what is asked: accelerations, tensions, multipliers, any letter."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol
+
+from derive.algebra.expressions import Ratio, Relation
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.solving.presentation import presented
+from derive.solving.unknowns import (
+    coordinates_of,
+    kind_of_unknown,
+    letter_of,
+    linear_coefficients,
+    meaning,
+    polynomial_in,
+    unknown_of,
+)
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.known_numbers import may_vanish
+from derive.steps.step import Level, Quantity, is_zero
+from derive.steps.subject import EVERYTHING
+
+__all__ = ["solved_for"]
+
+MOST = 6  # unknowns that are eliminated together
+
+
+def solved_for(
+    equations: Quantity | Sequence[Quantity], *unknowns: Any, keys: Sequence[str] | None = None
+) -> tuple[Quantity, ...]:
+    """The unknowns of as many linear equations, each by Cramer's rule, u_i = det A_i/det A; one equation: u = -b/a.
+
+    equations   one equation or several
+    unknowns    letters, rates, accelerations (`x.acceleration`), or such as `theta.rate**2`, `cos(theta)`
+    keys        what the steps are called; else each by the letter of its unknown
+    Check: all values put back into all equations, and the unknowns eliminated one after another.
+    Outcomes: alone (one equation), several, following (the second of several unknowns and those behind it).
+    Errors: another number of equations than of unknowns; equations that are not linear in them, or that do not
+    determine them.
+    Source: Boas, *Mathematical Methods in the Physical Sciences*, section 3.3.
+    """
+    given = (equations,) if isinstance(equations, Quantity) else tuple(equations)
+    wanted = [unknown_of("solved_for", each) for each in unknowns]
+    _check_count(given, wanted)
+    found = [polynomial_in("solved_for", equation, wanted) for equation in given]
+    marks = found[0][1]
+    residuals = [left.xreplace(dict(zip(own, marks, strict=True))) for left, own in found]
+    system = linear_coefficients(residuals, marks)
+    if system is None:
+        names = ", ".join(str(u) for u in wanted)
+        message = f"`solved_for`: {_named(given)} not linear in {names}"
+        raise Rejected(Complaint("not-linear", message, help="`roots` solves a quadratic equation in one letter"))
+    matrix, right = system
+    determinant = tidied(matrix.det(method="berkowitz"))
+    if is_zero(determinant):
+        names = ", ".join(str(u) for u in wanted)
+        message = f"`solved_for`: {_named(given, 'do', 'does')} not determine {names}"
+        help_line = "one of the equations follows from the others, or they contradict each other"
+        raise Rejected(Complaint("singular", message, help=help_line))
+    values = eliminated(matrix, right)
+    below = [tidied(value).as_numer_denom()[1] for value in values]  # the equations may have had this below already
+    excluded = may_vanish(determinant, *below)
+    called = list(keys or [_key_of(unknown) for unknown in wanted])
+    if len(called) != len(wanted):
+        raise Rejected(Complaint("wrong-argument", "`solved_for` needs as many keys as unknowns"))
+    return tuple(
+        _solution(given, wanted, i, matrix, right, residuals, marks, values, excluded, called[i])
+        for i in range(len(wanted))
+    )
+
+
+def _solution(
+    given: tuple[Quantity, ...],
+    wanted: Sequence[Expr],
+    i: int,
+    matrix: Matrix,
+    right: Matrix,
+    residuals: Sequence[Expr],
+    marks: Sequence[Symbol],
+    values: Sequence[Expr],
+    excluded: Any,
+    key: str,
+) -> Quantity:
+    """The step of one unknown."""
+    above = matrix.copy()
+    above[:, i] = right
+    unknown = wanted[i]
+
+    def put_back(found: Expr) -> tuple[Any, Any]:
+        there = {mark: (found if j == i else values[j]) for j, mark in enumerate(marks)}
+        return ImmutableDenseMatrix([each.xreplace(there) for each in residuals]), ImmutableDenseMatrix(
+            [Integer(0)] * len(residuals)
+        )
+
+    known = coordinates_of(*given)
+    return establish(
+        "solving.solved_for",
+        unknown,
+        lambda *_: Ratio(_written(above), _written(matrix)),
+        {f"equation_{n + 1}": equation for n, equation in enumerate(given)},
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            arranged=presented,
+            means={} if isinstance(unknown, Symbol) else meaning(unknown, values[i]),
+        ),
+        routes={"put_back": put_back, "elimination": lambda found: (found, values[i])},
+        outcome=_which(len(wanted), i),
+        key=key,
+        kind=kind_of_unknown(unknown, known),
+        phrase_data=PhraseData(
+            formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
+            named={"unknown": unknown},
+            outcome_data={"count": Integer(len(wanted)), "place": Integer(i)},
+        ),
+        scope=Scope(differ=EVERYTHING),
+    )
+
+
+def _which(count: int, i: int) -> str:
+    if count == 1:
+        return "alone"
+    return "several" if i == 0 else "following"
+
+
+def _written(matrix: Matrix) -> Expr:
+    return tidied(matrix.det(method="berkowitz"))
+
+
+def eliminated(matrix: Matrix, right: Matrix) -> list[Expr]:
+    """Gauss: each unknown in turn from the equation whose factor of it is the simplest, put into the others."""
+    rows = [[*(matrix[i, j] for j in range(matrix.cols)), right[i]] for i in range(matrix.rows)]
+    n = matrix.cols
+    for column in range(n):
+        candidates = [k for k in range(column, n) if not is_zero(rows[k][column])]
+        pivot = min(candidates, key=lambda k: int(rows[k][column].count_ops()))
+        rows[column], rows[pivot] = rows[pivot], rows[column]
+        head = rows[column][column]
+        rows[column] = [tidied(entry / head) for entry in rows[column]]
+        for k in range(n):
+            if k != column and rows[k][column] != 0:
+                times = rows[k][column]
+                rows[k] = [tidied(a - times * b) for a, b in zip(rows[k], rows[column], strict=True)]
+    return [row[n] for row in rows]
+
+
+def _check_count(given: Sequence[Quantity], wanted: Sequence[Expr]) -> None:
+    if not wanted or len(given) != len(wanted) or len(set(wanted)) < len(wanted):
+        count = f"{len(given)} equation{'s' * (len(given) != 1)}"
+        message = f"`solved_for` has {count} for {len(set(wanted))} unknown{'s' * (len(set(wanted)) != 1)}"
+        raise Rejected(Complaint("wrong-argument", message, help="give as many equations as unknowns"))
+    if len(wanted) > MOST:
+        raise Rejected(Complaint("too-many", f"`solved_for` solves for at most {MOST} unknowns at once"))
+
+
+def _named(given: Sequence[Quantity], several: str = "are", one: str = "is") -> str:
+    return " and ".join(f"`{each.key}`" for each in given) + f" {several if len(given) > 1 else one}"
+
+
+def _key_of(unknown: Expr) -> str:
+    """theta_ddot, theta_dot_squared, cos_theta."""
+    if isinstance(unknown, Symbol):
+        return str(unknown.name)
+    letter = letter_of(unknown)
+    if unknown.is_Pow:
+        return f"{letter.name}_squared" if unknown.exp == 2 else f"{letter.name}_power_{unknown.exp}"
+    return f"{unknown.func}_{letter.name}"

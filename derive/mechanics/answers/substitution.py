@@ -1,0 +1,359 @@
+"""One result put into another: what an equation or a value becomes once its letters have values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Symbol
+
+from derive.algebra.collect import by_accelerations, by_rates
+from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
+from derive.algebra.ranges import strict_sign_within
+from derive.errors import Complaint, Rejected, did_you_mean
+from derive.mechanics.hamilton.effective import Constant, SeenWith
+from derive.mechanics.kinematics.coordinates import AtOneMoment, Coordinate, OfCoordinate
+from derive.mechanics.lagrange.kept_momentum import KeptMomentum, WithMomenta
+from derive.mechanics.lagrange.lagrangian import FromLagrangian
+from derive.mechanics.motion.turning_points import ByEnergy, assume_reached, condition_to_reach
+from derive.solving.defined import check_defined
+from derive.solving.presentation import presented
+from derive.solving.unknowns import ValueOf, coordinates_of, left_over, letter_of, meaning, unknown_of, with_unknown
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.record import coordinates_in
+from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
+from derive.steps.subject import EVERYTHING
+
+__all__ = ["put_in"]
+
+Replacement = tuple[Expr, Expr]  # what stands there, and what is put there
+Rests = Quantity | Mapping[Any, Any] | Sequence[Quantity]
+
+
+def put_in(
+    of: Quantity,
+    *others: Rests,
+    key: str | None = None,
+    symbol: str | None = None,
+    again: Quantity | None = None,
+    **values: Any,
+) -> Quantity:
+    """What a value or an equation becomes with other results, or values of letters, put in: f(x) with x = g is f(g).
+
+    of       a value or an equation
+    others   results, each for the letter that it is called by; equations that have a letter, a rate, its square or a
+    cosine alone on their left; mappings of letters or coordinates to values
+    values   of letters by their names, `theta=0`: those at one moment
+    again    what is found once more in this way, so that it must be the same
+    One after another, in this order, the values last. A coordinate that is given as a function of others, or of the
+    time, takes its rates along.
+    Check: the letters of the original replaced all at once by what they finally are; what is found once more.
+    Outcomes: results, values (letters only), zero (with these values), identity (an equation that then holds by
+    itself), again.
+    Errors: nothing there to replace; an equation that is not solved for a letter; a relation that cannot hold; a place
+    that the motion does not reach.
+    Source: none needed: substitution.
+    """
+    rests, given = _sorted_out(others)
+    value = explicit(of.value)
+    told: list[Replacement] = []
+    for quantity in rests:
+        value = _all_put(value, _replacements(quantity, of), quantity.key, of, told)
+    there = _values(of, given, values, value)
+    _check_reached(of, rests, [*told, *there])
+    for pair in there:
+        if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # an earlier value may have taken it away
+            value = _all_put(value, [pair], str(pair[0]), of, told)
+    result = arranged(value, list(coordinates_of(of, *rests)))
+    _check_holds(of, result)
+    name = _name(of, symbol)
+    return establish(
+        "substitution.put_in",
+        name,
+        lambda *_: value,
+        {"original": of, **{f"other_{i + 1}": quantity for i, quantity in enumerate(rests)}},
+        lines=Lines(
+            law=Level.FULL,
+            put_in=None,
+            arranged=lambda _: result,
+            means={} if name is None or isinstance(name, Symbol | MatrixSymbol) else meaning(name, result),
+        ),
+        routes={
+            "at_once": lambda found: (found, _at_once(explicit(of.value), told)),
+            **({"found_before": compared_with(lambda: again.value)} if again is not None else {}),
+        },
+        outcome="again" if again is not None else _outcome(result, rests),
+        key=key or _key_for(of, rests, there),
+        kind=of.step.kind,
+        phrase_data=PhraseData(
+            named={f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},
+            outcome_data={
+                "replaced": [letter_of(target) for target, _ in told],
+                **({"found": again.value} if again is not None else {}),
+            },
+            points_to={"found": again} if again is not None else {},
+        ),
+        parents=[*([again] if again is not None else []), *approximations_among(*given.values(), *values.values())],
+        facts=[*_kept_facts(of, rests, there, told), *_at_one_moment(of, rests, there, result)],
+        scope=Scope(differ=EVERYTHING, case_of=of),
+    )
+
+
+def _outcome(result: Any, rests: Sequence[Quantity]) -> str:
+    if _is_identity(result) or rests:
+        return "identity" if _is_identity(result) else "results"
+    return "values" if isinstance(result, Relation) or not is_zero(result) else "zero"
+
+
+def _kept_facts(
+    of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement], told: Sequence[Replacement]
+) -> list[Fact]:
+    """What is still true with these results put in."""
+    found: list[Fact] = [f for f in of.facts if isinstance(f, OfCoordinate)]
+    kept = [fact for rest in rests if (fact := rest.fact(KeptMomentum)) is not None]
+    source = of.fact(FromLagrangian)
+    if source is not None and isinstance(of.value, Relation) and kept and len(kept) == len(rests) and not there:
+        found.append(WithMomenta(source.lagrangian, tuple(kept)))
+    seen = of.fact(SeenWith)
+    if seen is not None and (fitting := seen.with_values(_final(told))) is not None:
+        found.append(fitting)
+    return found
+
+
+def _at_one_moment(
+    of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement], result: Any
+) -> list[AtOneMoment]:
+    """That a coordinate or a rate was given a constant value, here or in what was put in."""
+    moving = coordinates_of(of, *rests)
+    every = {rate(q, n) if n else q: q for q in moving for n in range(len(RATES))}
+    if of.fact(Constant) is not None and not result.free_symbols & {*every, TIME}:
+        return []  # what is constant is at all times what it is at one
+    fixed = [
+        every[letter_of(s)] for s, value in there if letter_of(s) in every and not value.free_symbols & {*every, TIME}
+    ]
+    fixed += [q for each in (of, *rests) if (known := each.fact(AtOneMoment)) for q in known.fixed]
+    return [AtOneMoment(tuple(dict.fromkeys(fixed)))] if fixed else []
+
+
+def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]]:
+    """The results, and the values of letters."""
+    results: list[Quantity] = []
+    given: dict[Any, Any] = {}
+    for each in others:
+        if isinstance(each, Quantity):
+            results.append(each)
+        elif isinstance(each, Mapping):
+            given.update(each)
+        else:
+            results += each
+    return results, given
+
+
+def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
+    """What a result replaces: its letter, and the rates of a coordinate that it gives for the whole motion; of a
+    momentum that keeps its value the rate of its coordinate too."""
+    kept = quantity.fact(KeptMomentum)
+    if kept is not None:
+        target, value = rate(kept.coordinate), kept.turning
+        return [*_of_rates(target, value, coordinates_of(of, quantity)), (target, value), (kept.momentum, kept.value)]
+    if isinstance(quantity.value, Relation):
+        target, value = quantity.value.sides
+        if quantity.value.mark != "=" or is_zero(quantity.value.residual):
+            raise Rejected(Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is no equation for a letter"))
+    else:
+        target, value = _letter_replaced(quantity, of), quantity.value
+    value = explicit(value)
+    if isinstance(value, MatrixBase):
+        raise Rejected(
+            Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is no number", help="`at` takes vectors")
+        )
+    try:
+        target = unknown_of("put_in", target)
+    except Rejected:
+        target = None
+    if target is None or left_over(value, target):
+        message = f"`put_in`: `{quantity.key}` does not have one letter alone on its left"
+        raise Rejected(Complaint("wrong-argument", message, help="`solved_for` solves an equation for a letter"))
+    return [*_of_rates(target, value, coordinates_of(of, quantity)), (target, value)]
+
+
+def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
+    """The letter of a result; a root, a limit or a series with another letter replaces the unknown or the whole."""
+    root, own = quantity.fact(ValueOf), quantity.symbol
+    whole = root.unknown if root is not None else quantity.step.approximates
+    is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
+    return whole if isinstance(whole, Expr) and not is_there else own
+
+
+def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[Replacement]:
+    """The rates of a coordinate, or of a rate, that is a function of others or of the time; the highest first."""
+    order = next((n for q in moving for n in (0, 1) if target == (rate(q, n) if n else q)), None)
+    letters = {rate(q, n) if n else q for q in moving for n in range(len(RATES))} | {TIME}
+    if order is None or not isinstance(target, Symbol) or not value.free_symbols & letters:
+        return []
+    found: list[Replacement] = []
+    for n in range(1, 3 - order):
+        value = explicit(TimeRate(value, *moving))
+        found.insert(0, (rate(target, n), value))
+    return found
+
+
+def _values(of: Quantity, given: Mapping[Any, Any], named: Mapping[str, Any], value: Any) -> list[Replacement]:
+    """The letters, with what they are at that moment."""
+    letters = {s.name: s for s in value.free_symbols}
+    pairs: list[tuple[Expr, Any]] = [(unknown_of("put_in", target), at) for target, at in given.items()]
+    for name, at in named.items():
+        if name not in letters:
+            message = f"`put_in`: `{of.key}` does not contain {name}"
+            raise Rejected(Complaint("nothing-to-put-in", message, help=did_you_mean(name, letters)))
+        pairs.append((letters[name], at))
+    return [(target, _plain(of, target, at)) for target, at in pairs]
+
+
+def _plain(of: Quantity, target: Expr, at: Any) -> Expr:
+    if isinstance(at, Coordinate):
+        return at.symbol
+    if isinstance(at, Quantity):
+        at = at.value
+    if isinstance(at, int) and not isinstance(at, bool):
+        return Integer(at)
+    if not isinstance(at, Expr) or at.is_Float:
+        message = f"`put_in`: the value of {target} must be an expression"
+        raise Rejected(Complaint("wrong-argument", message, help="fractions are written `Rational(1, 2)`"))
+    return explicit(at)
+
+
+def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity, told: list[Replacement]) -> Any:
+    """The value after these replacements, of which one must find what it replaces; they are put on the list."""
+    before = value
+    for target, at in pairs:
+        put = partial(_replaced, target, at)
+        check_defined("put_in", of.key, f"{target} = {at}", value, put)
+        after = _mapped(value, target, at)
+        if after != value and not isinstance(target, Symbol) and left_over(after, target):
+            message = f"`put_in`: `{of.key}` contains {letter_of(target).name} otherwise than in {target}"
+            raise Rejected(Complaint("wrong-argument", message))
+        if after != value:
+            told.append((target, at))
+        value = after
+    if value == before:
+        message = f"`put_in`: `{of.key}` has nothing that `{called}` could replace"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    return value
+
+
+def _replaced(target: Expr, at: Expr, part: Expr) -> Expr:
+    return with_unknown(part, target, at)
+
+
+def _mapped(value: Any, target: Expr, at: Expr) -> Any:
+    if isinstance(value, Relation):
+        return Relation(with_unknown(value.left, target, at), value.mark, with_unknown(value.right, target, at))
+    if isinstance(value, MatrixBase):
+        return ImmutableDenseMatrix(value.applyfunc(lambda entry: with_unknown(entry, target, at)))
+    return with_unknown(value, target, at)
+
+
+def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
+    """What each letter is once all later values are put into it."""
+    final: dict[Symbol, Expr] = {}
+    for target, at in reversed(told):
+        final = {**final, **{letter: bound(v, final) for letter, v in meaning(target, at).items()}}
+    return final
+
+
+def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
+    """The original with each letter replaced by what it finally is."""
+    final = _final(told)
+    if isinstance(value, Relation):
+        return Relation(bound(value.left, final), value.mark, bound(value.right, final))
+    return bound(value, final)
+
+
+def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
+    """Tidy; an equation of motion by its accelerations; of another relation to zero what is positive in all terms is
+    left out."""
+    if isinstance(value, MatrixBase):
+        return ImmutableDenseMatrix(value.applyfunc(presented))
+    if not isinstance(value, Relation):
+        return _energy_by_terms(value) or presented(value)
+    fast = {rate(q, 2) for q in moving}
+    if not is_zero(value.right) and all(side.free_symbols & fast for side in value.sides):
+        return Relation(by_accelerations(value.residual, moving), value.mark, Integer(0))
+    if not is_zero(value.right):
+        return Relation(presented(value.left), value.mark, presented(value.right))
+    if value.free_symbols & fast:
+        return Relation(by_accelerations(value.left, moving), value.mark, Integer(0))
+    left = presented(value.left)
+    kept = [f for f in Mul.make_args(left) if strict_sign_within(f) != 1]
+    core = Mul(*kept) if kept else left
+    if value.mark == "=" and all(term.could_extract_minus_sign() for term in Add.make_args(core)):
+        core = -core  # x = 0, not -x = 0
+    return Relation(presented(core), value.mark, Integer(0))
+
+
+def _energy_by_terms(value: Expr) -> Expr | None:
+    """(1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a bracket: kinetic and potential energy stay apart."""
+    moving = list(coordinates_in(value))
+    squares = [rate(q) ** 2 for q in moving if value.has(rate(q))]
+    if not squares or value.as_numer_denom()[1].free_symbols:
+        return None
+    terms = Add.make_args(value.expand())
+    kinetic = [term for term in terms if any(term.has(square) for square in squares)]
+    if not kinetic or len(kinetic) == len(terms):
+        return None
+    found: Expr = by_rates(value, moving, 1, halves=True)
+    return found
+
+
+def _is_identity(result: Any) -> bool:
+    return isinstance(result, Relation) and result.mark == "=" and is_zero(result.residual)
+
+
+def _check_reached(of: Quantity, rests: Sequence[Quantity], told: Sequence[Replacement]) -> None:
+    """A place that is put in is one that the motion reaches; one that was found from the motion has its condition."""
+    for speed in {id(a): a for quantity in (of, *rests) for a in quantity.ancestors() if a.fact(ByEnergy)}.values():
+        found = any(each.rests_on(speed) for each in rests)
+        for target, place in told:
+            if _is_place_of(target, place, speed, coordinates_of(of, *rests)):
+                (condition_to_reach if found else assume_reached)(of, speed, target, place)
+
+
+def _is_place_of(target: Expr, place: Expr, speed: Quantity, moving: Mapping[Symbol, str]) -> bool:
+    """Whether a constant is put in for the coordinate of a motion, or for a function of it that the rate contains."""
+    known = speed.fact(ByEnergy)
+    return (
+        known is not None
+        and target.free_symbols == {known.coordinate}
+        and not place.free_symbols & {TIME, *moving, *(rate(q) for q in moving)}
+    )
+
+
+def _check_holds(of: Quantity, result: Any) -> None:
+    """An equation between two different numbers holds never."""
+    if isinstance(result, Relation) and result.mark == "=" and not is_zero(result.residual):
+        if explicit(result.residual).is_nonzero:
+            message = f"`{of.key}` cannot hold with these values: it would be {result}"
+            raise Rejected(Complaint("cannot-hold", message))
+
+
+def _name(of: Quantity, symbol: str | None) -> Any:
+    """The letter of the original; what is called by a derivative takes its key for a letter."""
+    if isinstance(of.value, Relation):
+        return None
+    if symbol is not None:
+        return scalar(symbol)
+    if isinstance(of.value, MatrixBase) or isinstance(of.symbol, Symbol):
+        return of.symbol
+    try:
+        return unknown_of("put_in", of.symbol)
+    except Rejected:
+        return scalar(of.key)
+
+
+def _key_for(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> str:
+    """tension_at_theta, motion_x_with_tension."""
+    if there:
+        return f"{of.key}_at_" + "_".join(dict.fromkeys(letter_of(target).name for target, _ in there))
+    return f"{of.key}_with_" + "_".join(quantity.key for quantity in rests)

@@ -1,0 +1,273 @@
+"""Steps of plain algebra: a value somewhere, the length of a vector, anything else by `let`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
+from sympy import Eq as Equality
+from sympy.logic.boolalg import BooleanAtom
+
+from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.expressions import (
+    Dot,
+    Factors,
+    Group,
+    Norm,
+    Relation,
+    Root,
+    Terms,
+    bound,
+    component_names,
+    explicit,
+    scalar,
+)
+from derive.algebra.kinds import KINDS
+from derive.algebra.tidy import size_and_rest, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.rotation.vectors import RateByParticles, RateOfSquare, Through, length_by_turning
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.record import coordinates_in
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with
+from derive.steps.subject import EVERYTHING, Subject
+
+__all__ = ["at", "let", "magnitude", "squared_magnitude", "with_values"]
+
+
+def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
+    """The value that a general result takes for a particular vector.
+
+    general      established with the components of a vector left open
+    particular   the vector to put in: same symbol, same axes
+    Check: the law itself, evaluated with the particular vector from the start.
+    Errors: the general result does not contain that vector's components; it is one of another kind, or of a rotation
+    about another point.
+    Source: none needed: substitution.
+    """
+    _check_same_kind(general, particular)
+    names = component_names(particular.symbol.name)
+    if not general.value.free_symbols & set(names):
+        message = f"`{general.key}` does not depend on the components of `{particular.key}`"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    others = {q.symbol: q.value for q in general.parents if q.symbol != particular.symbol}
+    law = general.step.chain[0].expr
+
+    def anew() -> Any:
+        return explicit(bound(law, {**others, particular.symbol: particular.value}))
+
+    def value(general_value: Any, vector: Any) -> Any:
+        if isinstance(vector, MatrixSymbol):
+            return general_value
+        return _put_in(general_value, {name: Group(v) for name, v in zip(names, vector, strict=True)})
+
+    return establish(
+        "equations.at",
+        general.symbol,
+        lambda _, vector: value(general.value, vector),
+        {"general": general, "vector": particular},
+        routes={"law": compared_with(anew)},
+        key=key or f"{general.key}_at_{particular.key}",
+        kind=general.step.kind,
+        scope=Scope(differ={"rotation"}, about=Subject(rotation=particular.subject.rotation), case_of=general),
+    )
+
+
+def _check_same_kind(general: Quantity, particular: Quantity) -> None:
+    """What is put in is of the kind that was left open, and turns about the same point."""
+    opened = next((q for q in general.ancestors() if q is not general and q.symbol == particular.symbol), None)
+    if opened is None:
+        return
+    if opened.step.kind != particular.step.kind:
+        message = f"`at`: `{particular.key}` is not of the kind that `{opened.key}` leaves open"
+        raise Rejected(Complaint("wrong-argument", message))
+    there, here = (q.fact(Through) for q in (opened, particular))
+    if there and here and there != here:
+        message = f"`at`: `{opened.key}` turns about the {there.point}, but `{particular.key}` about the {here.point}"
+        raise Rejected(Complaint("wrong-point", message))
+
+
+def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
+    """The value with each name replaced, the terms of its sum kept apart."""
+    sums = [f for f in Mul.make_args(value) if isinstance(f, Add)]
+    outside = bound(Mul(*(f for f in Mul.make_args(value) if not isinstance(f, Add))), values)
+    kept = [Terms(*_nonzero(bound(term, values) for term in f.as_ordered_terms())) for f in sums]
+    return Factors(*([outside] if outside != 1 else []), *kept) if kept else outside
+
+
+def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
+    """A term whose factor is zero is left out, as one does on paper."""
+    kept = [term for term in terms if explicit(term) != 0]
+    return kept or [Integer(0)]
+
+
+def with_values(general: Quantity, *values: Quantity, key: str | None = None) -> Quantity:
+    """The value of a general result once the letters in it have values.
+
+    general   a scalar in letters, any unit
+    values    what some of its letters stand for
+    Check: the law itself, evaluated with these values from the start.
+    Errors: the general result contains none of these letters.
+    Source: none needed: substitution.
+    """
+    known = {q.symbol: q.value for q in values}
+    if isinstance(general.value, Relation):
+        message = f"`with_values` needs a value, but `{general.key}` is an equation or an inequality"
+        raise Rejected(Complaint("wrong-argument", message))
+    for value in values:
+        meant = next((q for q in general.ancestors() if q.symbol == value.symbol), None)
+        if meant is not None and meant.step != value.step:
+            message = f"`{general.key}` rests on `{meant.key}`, not on `{value.key}`: both are {value.symbol}"
+            raise Rejected(Complaint("different-subjects", message))
+    if not general.value.free_symbols & set(known):
+        names = " and ".join(f"`{q.key}`" for q in values)
+        raise Rejected(Complaint("nothing-to-put-in", f"`{general.key}` does not depend on {names}"))
+
+    def anew() -> Any:
+        behind = {q.symbol: bound(explicit(q.value), known) for q in general.parents if q.symbol not in known}
+        return explicit(bound(bound(general.step.chain[0].expr, behind), known))
+
+    return establish(
+        "equations.with_values",
+        general.symbol,
+        lambda _, *those: bound(general.value, dict(zip(known, those, strict=True))),
+        {"general": general, **{q.key: q for q in values}},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=by_terms),
+        routes={"law": compared_with(anew)},
+        key=key or f"{general.key}_here",
+        kind=general.step.kind,
+        facts=general.facts,
+        scope=Scope(case_of=general),
+    )
+
+
+def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
+    """Length of a vector, |v| = sqrt(v.v).
+
+    of      vector (3), any unit
+    Check: turn the vector until it lies along one axis and read off its component.
+    Outcomes: zero, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    size, rest = size_and_rest(of.value)
+    squares = [entry**2 for entry in rest if entry != 0]
+    worked = [] if len(squares) < 2 else [Form(Factors(size, Root(Terms(*squares))), "squares", Level.STANDARD)]
+    return establish(
+        "equations.magnitude",
+        Norm(of.symbol),
+        lambda v: Root(Dot(v, v)),
+        {"vector": of},
+        lines=Lines(between=worked, put_in=Level.FULL),
+        routes={"turned": compared_with(lambda: length_by_turning(of.value))},
+        outcome=lambda length: "zero" if length == 0 else "generic",
+        key=key,
+        kind=of.step.kind,
+    )
+
+
+def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
+    """Square of a vector's length, |v|^2 = v.v.
+
+    of      vector (3), any unit
+    Check: turn the vector until it lies along one axis and square its component.
+    Outcomes: zero, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    v = of.value
+    return establish(
+        "equations.squared_magnitude",
+        Pow(Norm(of.symbol), 2),
+        lambda v: Dot(v, v),
+        {"vector": of},
+        lines=Lines(put_in=Level.FULL),
+        routes={"turned": compared_with(lambda: length_by_turning(v) ** 2)},
+        outcome=lambda square: "zero" if square == 0 else "generic",
+        key=key,
+        facts=_rate_of_square(of),
+    )
+
+
+def _rate_of_square(of: Quantity) -> list[RateOfSquare]:
+    """d(v.v)/dt = 2 v.dv/dt, where the rate of the vector is known by particles."""
+    known = of.fact(RateByParticles)
+    return [] if known is None else [RateOfSquare(of.value, known)]
+
+
+def let(
+    key: str,
+    law: Callable[..., Any],
+    *quantities: Quantity,
+    symbol: str | None = None,
+    kind: str | None = None,
+    because: str | None = None,
+) -> Quantity:
+    """A name for an expression in quantities, or an equation that is set up: a definition, shown with its substitution.
+
+    key          what the step is called
+    law          a function of the quantities; it gives an expression, or an equation as SymPy's `Eq(left, right)`
+    kind         what kind of quantity it is, "force", "time"; else it has the dimension of the expression and no kind
+    because      why it is so, in the words of the script: "by Newton's second law"
+    It is about what the quantities are about, as far as they agree, and changes with the coordinates and the time that
+    it contains. Mass points and forces that all its quantities have go with it. Nothing checks that it is what its
+    letter says: where it is an answer, the page calls it a definition.
+    Outcomes: generic, because (with the reason that is given), equation, equation_because.
+    Errors: no such kind; the expression is no scalar; an equation with a letter or a kind, or which holds by itself.
+    Source: none needed: a definition.
+    """
+    if kind is not None and kind not in KINDS:
+        raise Rejected(
+            Complaint("unknown-kind", f"`let`: there is no kind `{kind}`", help=f"the kinds are {', '.join(KINDS)}")
+        )
+
+    def scalar_law(*those: Any) -> Any:
+        value = law(*those)
+        if isinstance(value, Equality):
+            return Relation(value.lhs, "=", value.rhs)
+        if isinstance(value, BooleanAtom):
+            message = f"`let`: the sides of `{key}` are {'always' if value else 'never'} equal"
+            raise Rejected(Complaint("wrong-argument", message))
+        if isinstance(value, int | float | complex) and not isinstance(value, bool):
+            value = Integer(value) if isinstance(value, int) else None
+        if not isinstance(value, Expr | Relation):
+            message = f"`let` names one number or expression, but `{key}` would be {type(value).__name__}"
+            raise Rejected(Complaint("wrong-argument", message, help="fractions are written `Rational(1, 2)`"))
+        return value
+
+    is_equation = isinstance(scalar_law(*(q.symbol for q in quantities)), Relation)
+    if is_equation and (symbol or kind):
+        message = f"`let`: `{key}` is an equation, which has no letter and no kind"
+        raise Rejected(Complaint("wrong-argument", message))
+    reason = {"because": because} if because else {}
+    return establish(
+        "equations.let",
+        None if is_equation else scalar(symbol or key),
+        scalar_law,
+        {q.key: q for q in quantities},
+        key=key,
+        definition=True,
+        kind=kind,
+        outcome=_sort_of(is_equation, bool(because)),
+        lines=Lines(arranged=explicit if is_equation else _by_rates if kind == "energy" else tidied),
+        phrase_data=PhraseData(words=reason),
+        facts=_facts_of(quantities),
+        scope=Scope(differ=EVERYTHING),
+    )
+
+
+def _by_rates(value: Expr) -> Expr:
+    """(1/2) m R^2 theta_dot^2 + m g R cos(theta): an energy has its terms apart."""
+    moving = list(coordinates_in(value))
+    return by_rates(explicit(value), moving, halves=True) if moving else tidied(value)
+
+
+def _sort_of(is_equation: bool, has_reason: bool) -> str:
+    if is_equation:
+        return "equation_because" if has_reason else "equation"
+    return "because" if has_reason else "generic"
+
+
+def _facts_of(quantities: Sequence[Quantity]) -> list[Fact]:
+    """The mass points and forces of all quantities, where each of them has some of one motion."""
+    known = [matter for q in quantities if (matter := q.fact(Matter)) is not None]
+    return [sum(known[1:], known[0])] if known and len(known) == len(quantities) else []

@@ -1,1 +1,0 @@
-"""What is made of equations: conserved quantities, small oscillations, stability, roots and conditions."""

@@ -1,0 +1,1 @@
+"""Phase space, Hamilton's equations, Poisson brackets, the Routhian and effective potential energies."""

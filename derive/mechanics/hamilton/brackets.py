@@ -1,0 +1,192 @@
+"""Poisson brackets of functions of coordinates and momenta, and what they tell of the motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, diff, sin
+
+from derive.algebra.collect import by_terms
+from derive.algebra.expressions import TIME, Factors, Partial, PoissonBracket, Terms, bound, explicit, rate
+from derive.algebra.length import length
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton.phase_space import PhaseSpace
+from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time
+from derive.mechanics.lagrange.momenta import kind_of_momentum, letter_of_momentum
+from derive.mechanics.model.dalembert import Matter
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.step import Form, Level, Quantity, value_behind
+
+__all__ = ["poisson_bracket"]
+
+ZERO = Integer(0)
+Pairs = Sequence[tuple[Symbol, Symbol]]
+
+
+def poisson_bracket(
+    f: Any, g: Any, *coordinates: Coordinate, among: Sequence[Quantity] = (), key: str | None = None
+) -> Quantity:
+    """Poisson bracket, {f, g} = sum of df/dq dg/dp - df/dp dg/dq.
+
+    f, g          functions of coordinates and momenta: steps, or formulas in `x` and what `conjugate(x)` yields
+    coordinates   all of them, unless f or g is a Hamiltonian, which knows its own
+    among         steps by whose letters the result is told, where it is one of them times a number
+    Second route: the rules {q, p} = 1, {f + h, g}, {f h, g} and those of functions, applied to the formula; where g is
+    a Hamiltonian, the bracket and the partial derivative by the time are the rate of f along every motion, by
+    functions of time and d'Alembert's principle.
+    Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero, generic.
+    Errors: it is not told which coordinates there are; f or g holds a rate.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 9.5.
+    """
+    known = [of.needed(PhaseSpace) for of in (f, g) if isinstance(of, Quantity) and of.fact(PhaseSpace)]
+    of_all = coordinates or (known[0].coordinates if known else ())
+    if not of_all:
+        help_line = "give the coordinates after the two functions: `poisson_bracket(f, g, x, y)`"
+        raise Rejected(Complaint("wrong-argument", "`poisson_bracket` needs to know the coordinates", help=help_line))
+    pairs = [(q.symbol, letter_of_momentum(q)) for q in of_all]
+    one, other = (_function(each, pairs) for each in (f, g))
+    names = [each.symbol if isinstance(each, Quantity) else each for each in (one, other)]
+    flat = [s for pair in pairs for s in pair]
+    flow = g.fact(PhaseSpace) if isinstance(g, Quantity) and g.step.rule == "canonical.hamiltonian" else None
+
+    values = [explicit(value_behind(each)) for each in (one, other)]
+    derivatives = _derivatives(values[0], values[1], pairs)
+
+    def law(f: Expr, g: Expr) -> Expr:
+        terms = [sign * Factors(Partial(f, u), Partial(g, v)) for sign, u, v in derivatives]
+        return Terms(*terms) if terms else ZERO
+
+    def by_rules(found: Expr) -> tuple[Expr, Expr]:
+        return found, _by_rules(values[0], values[1], dict(pairs))
+
+    def along_the_motion(found: Expr) -> tuple[Expr, Expr]:
+        return _along_the_motion(found, values[0], flow) if flow else (found, found)
+
+    def outcome(found: Expr) -> str:
+        if found != 0:
+            return "generic"
+        return "conserved" if flow and TIME not in values[0].free_symbols else "zero"
+
+    value = _written(law(values[0], values[1]))
+    worked = [sign * Factors(diff(values[0], u), diff(values[1], v)) for sign, u, v in derivatives]
+    plain = isinstance(one, Symbol) or isinstance(other, Symbol)  # whose derivatives are not worth a line
+    return establish(
+        "brackets.poisson_bracket",
+        PoissonBracket(*names, *flat),
+        law,
+        {"f": one, "g": other},
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL if plain else Level.STANDARD,
+            between=[Form(Terms(*worked), "derivatives", Level.FULL if plain else Level.STANDARD)] if worked else [],
+            arranged=_written,
+            after=_told_among(value, among),
+        ),
+        routes={
+            "rules": by_rules,
+            **(flow.lagrangian.needed(Matter).named({"along_the_motion": along_the_motion}) if flow else {}),
+        },
+        outcome=outcome,
+        phrase_data=PhraseData(
+            outcome_data={"momenta": tuple(p for _, p in pairs), "coordinates": tuple(q for q, _ in pairs)}
+        ),
+        key=key or f"bracket_{_called(f)}_{_called(g)}",
+        parents=list(among),
+        facts=known[:1],
+        scope=Scope(coordinates=_letters(of_all)),
+    )
+
+
+def _letters(coordinates: Sequence[Coordinate]) -> dict[Symbol, str]:
+    own = {q.symbol: q.kind for q in coordinates}
+    return {**own, **{letter_of_momentum(q): kind_of_momentum(q.kind) or "" for q in coordinates}}
+
+
+def _called(of: Any) -> str:
+    """What a key calls a function: that of its step, its letter, or nothing better than its place."""
+    name = of.key if isinstance(of, Quantity) else str(getattr(of, "symbol", of))
+    return name if name.isidentifier() else "formula"
+
+
+def _function(of: Any, pairs: Pairs) -> Any:
+    """A function of coordinates and momenta; what holds rates is none."""
+    found = of.symbol if isinstance(of, Coordinate) else of
+    value = value_behind(found)
+    if not isinstance(value, Expr):
+        raise Rejected(Complaint("wrong-argument", "`poisson_bracket` needs two steps or formulas"))
+    rates = [v for q, p in pairs for v in (rate(q), rate(p)) if explicit(value).has(v)]
+    if rates:
+        name = f"`{of.key}`" if isinstance(of, Quantity) else str(value)
+        message = f"`poisson_bracket` needs functions of coordinates and momenta, but {name} holds {rates[0].name}"
+        raise Rejected(Complaint("wrong-argument", message, help="`in_momenta(f, H)` writes its rates by the momenta"))
+    return found
+
+
+def _derivatives(f: Expr, g: Expr, pairs: Pairs) -> list[tuple[Integer, Symbol, Symbol]]:
+    """By what f and g are differentiated in each product, with the sign before it, but for those that vanish."""
+    found: list[tuple[Integer, Symbol, Symbol]] = []
+    for q, p in pairs:
+        for sign, u, v in ((Integer(1), q, p), (Integer(-1), p, q)):
+            if diff(f, u) != 0 and diff(g, v) != 0:
+                found.append((sign, u, v))
+    return found
+
+
+def _written(value: Expr) -> Expr:
+    value = explicit(value)
+    forms = [tidied(value), by_terms(value.expand())]
+    return min(forms, key=length)
+
+
+def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
+    """The result as a number times one of the known functions."""
+    for known in among:
+        ratio = tidied(value / explicit(known.value)) if value != 0 else ZERO
+        if ratio.is_number and ratio != 0:
+            return [Form(ratio * known.symbol, "recognised")]
+    return []
+
+
+def _by_rules(f: Expr, g: Expr, pairs: dict[Symbol, Symbol]) -> Expr:
+    """The bracket from {q, p} = 1 alone: linear, a derivation in each place, of the other sign in the other order."""
+    letters = {*pairs, *pairs.values()}
+
+    def bracket(f: Expr, g: Expr) -> Expr:
+        if not f.free_symbols & letters or not g.free_symbols & letters:
+            return ZERO
+        if isinstance(f, Symbol):
+            return _of_letters(f, g, pairs) if isinstance(g, Symbol) else -bracket(g, f)
+        return Add(*(outer * bracket(inner, g) for outer, inner in _parts(f)))
+
+    return bracket(f, g)
+
+
+def _of_letters(f: Symbol, g: Symbol, pairs: dict[Symbol, Symbol]) -> Expr:
+    return Integer(1) if pairs.get(f) == g else Integer(-1) if pairs.get(g) == f else ZERO
+
+
+def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
+    """Of a sum, a product, a power, a sine or a cosine: each part with what stands before its bracket."""
+    if f.is_Add:
+        return [(Integer(1), term) for term in f.args]
+    if f.is_Mul:
+        return [(Mul(*f.args[:i], *f.args[i + 1 :]), factor) for i, factor in enumerate(f.args)]
+    if isinstance(f, Pow) and not f.exp.free_symbols:
+        return [(f.exp * f.base ** (f.exp - 1), f.base)]
+    if isinstance(f, sin):
+        return [(cos(f.args[0]), f.args[0])]
+    if isinstance(f, cos):
+        return [(-sin(f.args[0]), f.args[0])]
+    return [(f.diff(s), s) for s in sorted(f.free_symbols, key=str)]
+
+
+def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Expr]:
+    """df/dt by functions of time, the accelerations taken out by d'Alembert's sums, each with the factor df/dp."""
+    matter = space.lagrangian.needed(Matter)
+    in_rates = space.in_rates
+    moving = [q for q, _ in space.pairs]
+    by_time = by_functions_of_time(bound(f, in_rates), moving)
+    sums = [bound(diff(f, p), in_rates) * (matter.inertia_along(q) - matter.force_along(q)) for q, p in space.pairs]
+    return bound(found + diff(f, TIME), in_rates), by_time - Add(*sums)

@@ -1,0 +1,341 @@
+"""What is left once cyclic coordinates are put aside: conserved momenta, the Routhian, the effective potential.
+
+Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3; Landau, Lifshitz, *Mechanics*, section 41.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
+
+from derive.algebra.expressions import (
+    TIME,
+    At,
+    Factors,
+    Partial,
+    Terms,
+    bound,
+    explicit,
+    rate,
+    scalar,
+)
+from derive.algebra.taylor import slope
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton.phase_space import rates_by_momenta
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
+from derive.mechanics.lagrange.energy_forms import beside_potential, kinetic_first, part_of_degree
+from derive.mechanics.lagrange.kept_momentum import value_kept
+from derive.mechanics.lagrange.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
+from derive.mechanics.lagrange.momenta import kind_of_momentum, letter_of_momentum, written_momentum
+from derive.mechanics.model.dalembert import Matter
+from derive.steps.establish import Lines, establish
+from derive.steps.record import free_letter
+from derive.steps.step import Fact, Level, Quantity, Route, compared_with, lettered
+
+__all__ = ["conserved", "effective_potential", "routhian"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Constant(Fact):
+    """That a momentum does not change, and the coordinate that it belongs to."""
+
+    missing = "is not the momentum of a cyclic coordinate, as `conserved` yields it"
+    coordinate: Coordinate
+
+
+@dataclass(frozen=True)
+class ReducedMatter(Matter):
+    """Matter whose cyclic coordinates move as their constant momenta tell: what it does along the others.
+
+    whole   the matter with all its coordinates
+    rates   those of the cyclic coordinates, by the others and by the constants
+    """
+
+    whole: Matter = field(default_factory=Matter)
+    rates: tuple[tuple[Symbol, Expr], ...] = ()
+
+    def kinetic_energy(self) -> Expr:
+        return self._put_in(self.whole.kinetic_energy())
+
+    def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
+        return self.whole.named(routes)
+
+    def momentum_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.momentum_along(q))
+
+    def inertia_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.inertia_along(q))
+
+    def turning_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.turning_along(q))
+
+    def force_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.force_along(q))
+
+    def other_force_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.other_force_along(q))
+
+    def stored_force_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.stored_force_along(q))
+
+    def _put_in(self, value: Expr) -> Expr:
+        accelerations = {rate(v): by_functions_of_time(found, self.coordinates) for v, found in self.rates}
+        return bound(bound(explicit(value), accelerations), dict(self.rates))
+
+
+@dataclass(frozen=True)
+class SeenWith(Fact):
+    """What sees an effective potential energy: the Lagrangian, the constant momenta, and the matter that has these."""
+
+    missing = "is not an effective potential energy"
+    lagrangian: Quantity
+    constants: tuple[Quantity, ...]
+    matter: Matter
+
+    def with_values(self, values: Mapping[Symbol, Expr]) -> SeenWith | None:
+        """The same where the letters of some momenta have values; nothing where other letters have."""
+        if not isinstance(self.matter, ReducedMatter) or not set(values) <= {p.symbol for p in self.constants}:
+            return None
+        rates = tuple((v, tidied(bound(found, values))) for v, found in self.matter.rates)
+        return replace(self, matter=replace(self.matter, rates=rates))
+
+
+def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key: str | None = None) -> Quantity:
+    """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; it is known by its letter from then on.
+
+    of      the Lagrangian, J
+    q       a coordinate that it does not contain
+    value   the letter of the constant, p_q unless it is given; or what it is at the start, I_z*S: then an equation of
+            the rates is yielded, p_q = I_z*S, which `put_in` puts into others
+    Second route: the sum of m v . dr/dq over the mass points; and its rate by functions of time is the sum of
+    (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
+    Outcomes: angular (q is an angle), linear (q is a length), other.
+    Errors: L contains q, or does not depend on its rate; a force without a potential energy acts along q.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
+    """
+    required(of.coordinates, q, "conserved", of)
+    L = explicit(of.value)
+    if L.has(q.symbol):
+        message = f"`conserved`: `{of.key}` contains {q.symbol.name}, so its momentum is not constant"
+        raise Rejected(Complaint("not-cyclic", message))
+    if not L.has(q.rate):
+        message = f"`conserved`: `{of.key}` does not contain the rate of {q.symbol.name}, which has no momentum"
+        raise Rejected(Complaint("not-cyclic", message))
+    known = value if isinstance(value, Expr) and not isinstance(value, Symbol) else None
+    letter = scalar(value) if isinstance(value, str) else value if isinstance(value, Symbol) else letter_of_momentum(q)
+    matter = of.needed(Matter)
+    if _pushed(matter, q) != 0:
+        message = f"`conserved`: a force that is not in `{of.key}` acts along {q.symbol.name}"
+        raise Rejected(Complaint("not-cyclic", message))
+    moving = list(of.coordinates)
+
+    def by_virtual_work(found: Expr) -> tuple[Expr, Expr]:
+        return by_functions_of_time(found, moving), matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
+
+    momentum = establish(
+        "effective.conserved",
+        letter,
+        lambda L, _: Partial(L, q.rate),
+        {"lagrangian": of, "coordinate": q.symbol},
+        lines=Lines(put_in=None, arranged=lambda value: written_momentum(value, of)),
+        routes=matter.named(
+            {
+                "along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol)),
+                "virtual_work": by_virtual_work,
+            }
+        ),
+        outcome={"angle": "angular", "length": "linear"}.get(q.kind, "other") if of.step.kind == "energy" else "other",
+        key=f"conserved_{q.symbol.name}" if key is None or known is not None else key,
+        kind=kind_of_momentum(q.kind, of.step.kind),
+        facts=[FromLagrangian(of), OfCoordinate(q), Constant(q)],
+    )
+    return momentum if known is None else value_kept(momentum, known, matter, key or f"constant_{q.symbol.name}")
+
+
+def _pushed(matter: Matter, q: Coordinate) -> Expr:
+    """What acts along a coordinate and is not in the Lagrangian."""
+    return tidied(explicit(matter.other_force_along(q.symbol)))
+
+
+def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
+    """The coordinates that are left."""
+    found = coordinates_of(of)
+    for each in constants:
+        q = each.needed(Constant).coordinate
+        if each.needed(FromLagrangian).lagrangian.step != of.step:
+            message = f"`{verb}`: `{each.key}` is not a momentum of `{of.key}`"
+            raise Rejected(Complaint("different-subjects", message))
+        if q not in found:
+            raise Rejected(Complaint("wrong-argument", f"`{verb}`: {q.symbol.name} is given twice"))
+        found.remove(q)
+    for q in found:
+        pushed = _pushed(of.needed(Matter), q)
+        at_rest = pushed.xreplace({rate(s): ZERO for s in of.coordinates})
+        if (pushed if verb == "routhian" else at_rest) != 0:
+            message = f"`{verb}`: a force without a potential energy acts along {q.symbol.name}"
+            raise Rejected(Complaint("wrong-argument", message, help="its equation of motion has that force"))
+    if not found:
+        message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate is left"
+        raise Rejected(Complaint("wrong-argument", message))
+    return found
+
+
+def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "routhian") -> Quantity:
+    """Routhian, R = L - sum of p q_dot over the cyclic coordinates: a Lagrangian of the others.
+
+    of          the Lagrangian, J
+    constants   momenta of cyclic coordinates, as `conserved` yields them
+    The rates of the cyclic coordinates are steps of their own.
+    Second route: by mass points and forces: -dR/dp is the rate of the cyclic coordinate, dR/dq_dot and dR/dq of the
+    others are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and it is T - U - p q_dot, plus the sum of
+    q v . A of charges in magnetic fields, with the rates put in.
+    Errors: no constant is given; one belongs to another Lagrangian; no coordinate is left; a force without a potential
+    energy acts.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
+    """
+    if not constants:
+        raise Rejected(Complaint("wrong-argument", "`routhian` needs a conserved momentum", help="`conserved(L, phi)`"))
+    left = _put_aside(of, constants, "routhian")
+    rates = rates_by_momenta(of, constants)
+    put_in = {v.symbol: v.value for v in rates}
+    matter = of.needed(Matter)
+    reduced = ReducedMatter((), (), tuple(q.symbol for q in left), whole=matter, rates=tuple(put_in.items()))
+
+    letters = [each.symbol for each in constants]
+    carried = Add(*(p * v for p, v in zip(letters, put_in.values(), strict=True)))
+    whole = bound(explicit(of.value), put_in) - carried
+
+    def by_matter(found: Expr) -> tuple[Any, Any]:
+        ours = [-slope(found, p) for p in letters] + [slope(found, s) for q in left for s in (q.rate, q.symbol)]
+        theirs: list[Expr] = list(put_in.values())
+        for q in left:
+            pushed = reduced.force_along(q.symbol) + reduced.turning_along(q.symbol)
+            theirs += [reduced.momentum_along(q.symbol), pushed]
+        return ImmutableDenseMatrix(ours), ImmutableDenseMatrix(theirs)
+
+    parts = energies_of(of)
+
+    def energies(found: Expr) -> tuple[Expr, Expr]:
+        assert parts is not None
+        whole = explicit(parts.kinetic.value) + explicit(matter.energy_in_fields())
+        return found, bound(whole, put_in) - parts.potential.value - carried
+
+    def law(L: Expr, *both: Expr) -> Expr:
+        n = len(constants)
+        return Terms(L, *(-Factors(p, v) for p, v in zip(both[:n], both[n:], strict=True)))
+
+    written = beside_potential(whole, of, letters, [q.symbol for q in left], sign=-1)
+    return establish(
+        "effective.routhian",
+        scalar(symbol or free_letter("R")),
+        law,
+        _inputs(of, constants, rates, put_in),
+        lines=Lines(
+            put_in=Level.FULL,
+            result=False,
+            arranged=lambda _: written,
+            after=kinetic_first(written, [*(q.rate for q in left), *letters]),
+        ),
+        routes={**matter.named({"matter": by_matter}), **({"energies": energies} if parts is not None else {})},
+        outcome="one" if len(constants) == 1 else "several",
+        key=key,
+        kind=of.step.kind,
+        facts=[reduced],
+    )
+
+
+def _inputs(
+    of: Quantity, constants: Sequence[Quantity], rates: Sequence[Quantity], put_in: Mapping[Symbol, Expr]
+) -> dict[str, Any]:
+    """The Lagrangian with the rates put in, the constants by their letters, and those rates."""
+    return {
+        "lagrangian": replace(of, value=bound(explicit(of.value), dict(put_in)), parents=(of,)),
+        **{f"constant_{each.key}": lettered(each) for each in constants},
+        **{v.key: v for v in rates},
+    }
+
+
+def effective_potential(
+    of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
+) -> Quantity:
+    """Effective potential, what the other coordinates see: U_eff = sum of p q_dot - L where their own rates vanish.
+
+    of          the Lagrangian, J, which does not contain the time
+    constants   momenta of cyclic coordinates, as `conserved` yields them; all that are cyclic unless one is given
+    Without cyclic coordinates it is U - T_0: that of a prescribed rotation.
+    Second route: at rest -dU_eff/dq is the sum of (F - m a) . dr/dq, with the conserved momenta put in; and T_2 - T_0
+    + U with the rates put in.
+    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither: it is U), given (L is
+    given).
+    Errors: L contains the time; no coordinate is left; a force without a potential energy acts at rest.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
+    """
+    if TIME in explicit(of.value).free_symbols:
+        message = f"`effective_potential`: `{of.key}` contains the time t, so nothing is at rest"
+        raise Rejected(Complaint("changes", message))
+    constants = constants or _cyclic(of)
+    left = _put_aside(of, constants, "effective_potential")
+    rates = rates_by_momenta(of, constants) if constants else ()
+    put_in = {v.symbol: v.value for v in rates}
+    matter, energies = of.needed(Matter), energies_of(of)
+    reduced = ReducedMatter((), (), tuple(q.symbol for q in left), whole=matter, rates=tuple(put_in.items()))
+    still = dict.fromkeys([s for q in left for s in (q.rate, q.acceleration)], ZERO)
+    letters = [each.symbol for each in constants]
+    carried = Add(*(p * v for p, v in zip(letters, put_in.values(), strict=True)))
+    whole = bound(carried - bound(explicit(of.value), put_in), still)
+
+    def law(L: Expr, *both: Expr) -> Expr:
+        n = len(constants)
+        whole: Any = Terms(*(Factors(p, v) for p, v in zip(both[:n], both[n:], strict=True)), -L) if n else L
+        for q in left:
+            whole = At(whole, q.rate, ZERO)
+        return whole if n else -whole
+
+    def forces(found: Expr) -> tuple[Any, Any]:
+        ours = [-slope(found, q.symbol) for q in left]
+        theirs = [reduced.force_along(q.symbol) - reduced.inertia_along(q.symbol) for q in left]
+        return ImmutableDenseMatrix(ours), bound(ImmutableDenseMatrix(theirs), still)
+
+    def by_degree(found: Expr) -> tuple[Expr, Expr]:
+        assert energies is not None
+        kinetic, names = energies.kinetic.value, [q.rate for q in coordinates_of(of)]
+        parts = part_of_degree(kinetic, names, 2) - part_of_degree(kinetic, names, 0)
+        return found, bound(bound(parts, put_in), still) + energies.potential.value
+
+    written = beside_potential(whole, of, letters)
+    return establish(
+        "effective.effective_potential",
+        scalar(symbol or free_letter("U_eff")),
+        law,
+        _inputs(of, constants, rates, put_in),
+        lines=Lines(put_in=None, result=False, arranged=lambda _: written, after=kinetic_first(written, letters)),
+        routes={**matter.named({"forces": forces}), **({"by_degree": by_degree} if energies is not None else {})},
+        outcome="reduced" if constants else _without_constants(of),
+        key=key,
+        kind=of.step.kind,
+        facts=[FromLagrangian(of), SeenWith(of, tuple(constants), reduced)],
+    )
+
+
+def _cyclic(of: Quantity) -> tuple[Quantity, ...]:
+    """The momenta of all coordinates that the Lagrangian does not contain."""
+    L = explicit(of.value)
+    return tuple(conserved(of, q) for q in coordinates_of(of) if not L.has(q.symbol) and L.has(q.rate))
+
+
+def _without_constants(of: Quantity) -> str:
+    if energies_of(of) is None:
+        return "given"
+    return "driven" if _is_driven(of) else "unchanged"
+
+
+def _is_driven(of: Quantity) -> bool:
+    """Whether T has a part without rates."""
+    kinetic = explicit(of.needed(Energies).kinetic.value)
+    return bool(tidied(bound(kinetic, {q.rate: ZERO for q in coordinates_of(of)})) != 0)

@@ -1,0 +1,67 @@
+"""Rates from momenta that are not linear in them, where the Lagrangian holds the rates by one quadratic form alone.
+
+With p_i - b_i = g(s) (A v)_i and s = v . A v, all that is unknown is how long v is: v = u w, w = A^-1 (p - b), and
+g(u^2 S) u = 1 with S = w . A w. Of a relativistic particle g = 1/sqrt(1 - s/(m c^2)), so u = 1/sqrt(1 + S/(m c^2)).
+
+Source: Landau, Lifshitz, *The Classical Theory of Fields*, section 9.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from sympy import Dummy, Expr, Matrix, Symbol, diff, solve, sqrt
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import bound, explicit
+from derive.algebra.tidy import tidied
+from derive.solving.presentation import roots_together
+
+MOST_OPERATIONS = 300  # of the one equation that is solved
+
+
+def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr] | None:
+    """Each rate by the momenta, or nothing where the Lagrangian is of another sort."""
+    at_rest = dict.fromkeys(rates, 0 * rates[0])
+    values = [explicit(p) for p in momenta_of.values()]
+    beside = [bound(p, at_rest) for p in values]
+    bare = Matrix([p - b for p, b in zip(values, beside, strict=True)])
+    form = Matrix([[bound(diff(p, v), at_rest) for v in rates] for p in values])
+    if form.has(*rates) or not form.is_diagonal() or any(entry.is_zero is not False for entry in form.diagonal()):
+        return None
+    stretch = _stretch(bare, form, rates)
+    if stretch is None:
+        return None
+    s, g = stretch
+    size = Dummy("S", positive=True)
+    factor_of = _length(g, s, size)
+    if factor_of is None:
+        return None
+    own = [(p - b) / form[i, i] for i, (p, b) in enumerate(zip(momenta_of, beside, strict=True))]
+    squared = sum((form[i, i] * w**2 for i, w in enumerate(own)), 0 * rates[0])
+    u = roots_together(factor_of.xreplace({size: squared}))
+    return {v: roots_together(w * u) for v, w in zip(rates, own, strict=True)}
+
+
+def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbol, Expr] | None:
+    """g as a function of s, found along the first rate alone and true of all."""
+    s = Dummy("s", nonnegative=True)
+    along = {rates[0]: sqrt(s / form[0, 0]), **dict.fromkeys(rates[1:], 0 * rates[0])}
+    g = tidied(bound(bare[0], along) / (form[0, 0] * along[rates[0]]))
+    whole = sum((form[i, i] * v**2 for i, v in enumerate(rates)), 0 * rates[0])
+    if g.has(*rates) or not all(equal(bare[i], g.xreplace({s: whole}) * form[i, i] * v) for i, v in enumerate(rates)):
+        return None
+    return s, g
+
+
+def _length(g: Expr, s: Symbol, size: Symbol) -> Expr | None:
+    """The positive u with g(u^2 S) u = 1 that is 1 for slow motion."""
+    u = Dummy("u", positive=True)
+    equation = g.xreplace({s: u**2 * size}) * u - 1
+    if equation.count_ops() > MOST_OPERATIONS:
+        return None
+    try:
+        found = [root for root in solve(equation, u) if not root.has(u)]
+    except NotImplementedError:  # SymPy solves no such equation: the momenta are then refused as not to be inverted
+        return None
+    return next((root for root in found if root.xreplace({size: 0 * size}) == 1), None)

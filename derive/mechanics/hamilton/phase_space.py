@@ -1,0 +1,156 @@
+"""Coordinates and their momenta: letters, the rates that belong to momenta, and how functions of them are written.
+
+A momentum p_q is a plain name beside its coordinate q. In phase space both are free, so both count as coordinates of
+what depends on them; as functions of coordinates and rates momenta are values, m l^2 theta_dot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from sympy import (
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Matrix,
+    Symbol,
+    cos,
+    sin,
+)
+
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import bound, explicit
+from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton.inverted_momenta import by_quadratic_form
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.lagrange.energy_forms import squared_below_roots
+from derive.mechanics.lagrange.momenta import letter_of_momentum
+from derive.solving.presentation import by_one_square
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.known_numbers import told_of_divisors
+from derive.steps.step import Fact, Quantity, lettered
+
+__all__ = ["rates_by_momenta"]
+
+LARGEST = 4  # momenta that are solved together for rates
+LARGEST_WITH_ANGLES = 2  # where sines and cosines couple them: the Hamiltonian of three is a page long
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class PhaseSpace(Fact):
+    """What is a function of coordinates and momenta, and the Lagrangian whose momenta they are."""
+
+    missing = "is not a function of coordinates and their momenta"
+    coordinates: tuple[Coordinate, ...]
+    momenta: tuple[Quantity, ...]
+    lagrangian: Quantity
+
+    @property
+    def pairs(self) -> tuple[tuple[Symbol, Symbol], ...]:
+        return tuple((q.symbol, letter_of_momentum(q)) for q in self.coordinates)
+
+    @property
+    def in_rates(self) -> dict[Symbol, Expr]:
+        """Each momentum as it depends on the rates, which the mass points have confirmed."""
+        return {p.symbol: explicit(p.value) for p in self.momenta}
+
+
+# --- the rates that belong to momenta --------------------------------------------------------------------------------
+
+
+def rates_by_momenta(
+    of: Quantity, given: Sequence[Quantity], varying: bool = False, key: str = "rate"
+) -> tuple[Quantity, ...]:
+    """Rates as functions of momenta, solved from p = dL/dq_dot, which is linear in the rates.
+
+    of        the Lagrangian, J
+    given     momenta of some of its coordinates, each known from now on by its letter
+    varying   whether those letters vary as coordinates do, and are not constant
+    Keys: rate_ and the name of the coordinate, _by_ and the letters.
+    Check: the rates put back into the momenta.
+    Outcomes: alone, together.
+    Errors: the momenta do not determine the rates, or too many would have to be solved together.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    own = [p.needed(OfCoordinate).coordinate for p in given]
+    solved = _solved({p.symbol: p.value for p in given}, [q.rate for q in own])
+    moving = {p.symbol: p.step.kind or "number" for p in given} if varying else {}
+    letters = [p.symbol for p in given]
+    by = "_".join(letter.name for letter in letters)
+    divisors = told_of_divisors(solved.values())
+
+    def put_back(q: Coordinate, found: Expr) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
+        rates = {**solved, q.rate: found}
+        back = [bound(explicit(p.value), rates) for p in given]
+        return ImmutableDenseMatrix(back), ImmutableDenseMatrix(letters)
+
+    def of_one(q: Coordinate) -> Quantity:
+        return establish(
+            "canonical.rate_by_momenta",
+            q.rate,
+            lambda *names: bound(solved[q.rate], dict(zip(letters, names, strict=False))),
+            {f"momentum_{each.symbol.name}": lettered(p) for each, p in zip(own, given, strict=True)},
+            lines=Lines(put_in=None, result=False, arranged=explicit),
+            routes={"put_back": lambda found: put_back(q, found)},
+            outcome="alone" if len(own) == 1 else "together",
+            phrase_data=PhraseData(formulas=divisors),
+            key=f"{key}_{q.symbol.name}" if varying else f"{key}_{q.symbol.name}_by_{by}",
+            kind=kind_of_dimension(dimension_of_kind(q.kind) / dimension_of_kind("time")),
+            scope=Scope(coordinates=moving),
+        )
+
+    return tuple(of_one(q) for q in own)
+
+
+def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """Linear equations for the rates, those that are coupled solved together."""
+    matrix = Matrix([[derivative(explicit(p), v) for v in rates] for p in momenta_of.values()])
+    at_rest = dict.fromkeys(rates, ZERO)
+    wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
+    if matrix.has(*rates):
+        by_form = by_quadratic_form(momenta_of, rates)
+        if by_form is not None:
+            return {v: squared_below_roots(found, list(momenta_of)) for v, found in by_form.items()}
+        raise Rejected(
+            Complaint(
+                "wrong-argument",
+                "rates can be solved from momenta only where these are linear in them, or where the Lagrangian holds "
+                "the rates by one sum of squares",
+            )
+        )
+    found: dict[Symbol, Expr] = {}
+    for block in _coupled(matrix):
+        names = ", ".join(rates[i].name for i in block)
+        part = matrix.extract(block, block)
+        most = LARGEST_WITH_ANGLES if part.has(sin, cos) else LARGEST
+        if len(block) > most:
+            message = f"{len(block)} momenta would have to be solved together for {names}"
+            help_line = (
+                f"at most {LARGEST} rates may be coupled, and {LARGEST_WITH_ANGLES} where that depends on angles"
+            )
+            raise Rejected(Complaint("too-hard", message, help=help_line))
+        below = tidied(part.det(method="berkowitz"))
+        if below == 0:
+            message = f"the momenta do not determine {names}"
+            raise Rejected(Complaint("singular", message, help="one motion is described by two coordinates"))
+        above = part.adjugate() * wanted.extract(block, [0])
+        solved = (by_one_square(tidied(explicit(top) / below)) for top in above)
+        found.update(zip((rates[i] for i in block), solved, strict=True))
+    return found
+
+
+def _coupled(matrix: Matrix) -> list[list[int]]:
+    """The indices that entries off the diagonal tie together, set by set."""
+    blocks: list[set[int]] = []
+    for i in range(matrix.rows):
+        tied = {i, *(j for j in range(matrix.cols) if matrix[i, j] != 0)}
+        joined = [block for block in blocks if block & tied]
+        blocks = [block for block in blocks if not block & tied] + [tied.union(*joined)]
+    return [sorted(block) for block in blocks]
+
+
+# --- how functions of letters are written ----------------------------------------------------------------------------

@@ -1,0 +1,386 @@
+"""A blow: what acts on a system in a moment, where it is then and how it moves before."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff, sqrt
+
+from derive.algebra.expressions import At, Factors, Partial, Relation, TimeRate, as_expr, explicit, rate
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, unknown
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.acted_on import ActsOnNothing
+from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.described import Struck, places_that_move_alone
+from derive.mechanics.model.material import material_point
+from derive.mechanics.model.system import System
+from derive.steps.record import assume, coordinates_in, require_constant
+from derive.steps.step import is_zero
+from derive.witness import description as plain
+
+__all__ = ["Blow", "angular_impulse", "collision", "impulse"]
+
+ZERO, ONE = Integer(0), Integer(1)
+Vector = tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class Impulse:
+    """A given impulse at a place, N s; or on an angle, N m s. The law has the components; a route reads the given ones
+    for itself, as it does the state of a blow. `of` is the body that it acts on, if that is stated."""
+
+    components: Vector
+    at: Vector
+    of: Any = None
+    given: tuple[Any, ...] = ()
+
+
+@dataclass(frozen=True)
+class Collision:
+    """Two places that meet, or one that meets what is at rest, where `start` is none.
+
+    along         the common normal, along which the impulse acts; without one the two stay together
+    restitution   the part of the speed of approach with which they part
+    letter        of the impulse; that of each component has its axis as index where they stay together
+    of            the bodies or particles that meet, of the start and of the end, where that is stated
+    given         normal and restitution as the author gave them, for a route
+    """
+
+    start: Location | None
+    end: Location
+    along: Vector
+    restitution: Expr
+    letter: str
+    of: tuple[Any, Any] = (None, None)
+    given: tuple[tuple[Any, ...], Any] = ((), 0)
+
+
+def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
+    """A given impulse, the integral of a force over the short time of a blow, at a place, N s.
+
+    of   the body or particle whose particle at that place it acts on, where the place does not move with it
+    """
+    if not isinstance(at, Location) or len(components) != len(at.components):
+        message = "`impulse` needs a place, and as many components as that has"
+        raise Rejected(Complaint("wrong-argument", message))
+    return Impulse(tuple(as_expr(c) for c in components), at.components, of, tuple(components))
+
+
+def angular_impulse(amount: Any, on: Any) -> Impulse:
+    """A given angular impulse, the integral of a torque over the short time of a blow, on an angle, N m s."""
+    if not coordinates_in(as_expr(on)):
+        raise Rejected(Complaint("wrong-argument", f"`angular_impulse` turns something, but {on} does not move"))
+    return Impulse((as_expr(amount),), (as_expr(on),), given=(amount,))
+
+
+def collision(
+    start: Location | None,
+    end: Location,
+    along: Sequence[Any] = (),
+    restitution: Any = ZERO,
+    letter: str = "K",
+    of: Any = None,
+) -> Collision:
+    """A collision of two places, or of one with what is at rest: smooth along a normal, or they stay together.
+
+    start, end    the places, `start` none where the other meets what is at rest
+    along         a vector along the common normal, from `start` to `end`, of any length; without it the two have one
+                  velocity afterwards
+    restitution   1 where it is elastic, 0 where they do not part; a number
+    letter        of the impulse, N s, which acts on the end, and with the other sign on the start
+    of            the body or particle of the end, or those of start and end, where a place does not move with it
+    """
+    size = len(end.components)
+    if start is not None and len(start.components) != size:
+        raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, the other three"))
+    normal = tuple(as_expr(c) for c in along)
+    if normal and (len(normal) != size or all(c == 0 for c in normal)):
+        message = f"`collision` needs {size} components as its normal, not all zero"
+        raise Rejected(Complaint("wrong-argument", message))
+    part = as_expr(restitution)
+    if not normal and part != 0:
+        message = "a collision after which two places part again needs its normal"
+        raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
+    if (part < 0) == True or (part > 1) == True:  # noqa: E712  which may be undecided
+        raise Rejected(
+            Complaint("wrong-argument", f"a coefficient of restitution is between 0 and 1, but this is {part}")
+        )
+    size_of_normal = tidied(sqrt(Add(*(c**2 for c in normal)))) if normal else ONE
+    unit = tuple(tidied(c / size_of_normal) for c in normal)
+    ends = (of[0], of[1]) if isinstance(of, tuple | list) and len(of) == 2 else (None, of)
+    return Collision(start, end, unit, part, letter, ends, (tuple(along), restitution))
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """One condition on the rates just after a blow, and the impulse that brings it about.
+
+    gap          what changes at the rate that the condition is about; of a condition in rates this rate itself
+    restitution  the part of it that is left, with the other sign
+    what         "together", "elastic", "rebound" or "kept"
+    ends         of a collision the two places, the impulse being on the second, and its direction as it was given
+    given        the restitution as it was given
+    """
+
+    gap: Expr
+    restitution: Expr
+    letter: Symbol
+    what: str
+    in_rates: bool = False
+    ends: tuple[Vector, Vector, Vector] | None = None
+    given: Any = 0
+
+    def speed(self, moving: Sequence[Symbol]) -> Any:
+        return self.gap if self.in_rates else TimeRate(self.gap, *moving)
+
+    def along(self, q: Symbol) -> Any:
+        return diff(self.gap, rate(q)) if self.in_rates else Partial(self.gap, q)
+
+    def slope(self, q: Symbol) -> Expr:
+        return diff(self.gap, rate(q) if self.in_rates else q)
+
+    def speed_by_time(self, moving: Sequence[Symbol]) -> Expr:
+        """The speed by the second route, of a collision from the velocities of its two places."""
+        if self.in_rates:
+            return self.gap
+        if self.ends is None:
+            return by_functions_of_time(self.gap, moving)
+        start, end, along = self.ends
+        velocities = [[by_functions_of_time(c, moving) for c in place] for place in (start, end)]
+        return Add(*(n * (v - u) for u, v, n in zip(*velocities, along, strict=True)))
+
+
+class Blow:
+    """What happens to a system in a moment.
+
+    system   its particles and bodies; the constraints that forces keep are kept by impulses too
+    acts     impulses that are given, and collisions
+    at       coordinate -> its value in that moment; of others it may have any
+    before   coordinate -> its rate before; that of the others is zero
+    """
+
+    def __init__(
+        self,
+        system: System,
+        *acts: Impulse | Collision,
+        at: Mapping[Any, Any] | None = None,
+        before: Mapping[Any, Any] | None = None,
+    ):
+        self.system = system
+        self.moving = list(system.coordinates)
+        self.at = {self._coordinate(q): as_expr(value) for q, value in (at or {}).items()}
+        given = {self._coordinate(q): as_expr(value) for q, value in (before or {}).items()}
+        for value in (*self.at.values(), *given.values()):
+            require_constant("Blow", "state", value)
+        self.before = {rate(q): given.get(q, ZERO) for q in self.moving}
+        self._given = (dict(at or {}), dict(before or {}))
+        if not acts:
+            raise Rejected(Complaint("wrong-argument", "a `Blow` needs an impulse or a collision"))
+        known = system.known
+        self.acts = acts
+        self._check_material_points(acts)
+        self.impulses = [
+            Impulse(
+                tuple(self.there(c) for c in act.components),
+                tuple(c.subs(known) for c in self._particle(act.of, act.at)),
+                act.of,
+                act.given,
+            )
+            for act in acts
+            if isinstance(act, Impulse)
+        ]
+        self.meetings = [m for act in acts if isinstance(act, Collision) for m in self._meetings(act)]
+        self.meetings += [self._kept(c) for c in system.constraints]
+        letters = [m.letter for m in self.meetings]
+        if len(set(letters)) < len(letters):
+            message = "two impulses of this blow have one letter"
+            raise Rejected(Complaint("letter-clash", message, help="give each a letter, `impulse: K_2`"))
+
+    def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
+        """An impulse acts on a particle of a body; a place that moves with none is not one."""
+        asked: list[tuple[Any, Vector]] = []
+        for act in acts:
+            if isinstance(act, Impulse):
+                asked += [(act, act.at)] if act.of is None and len(act.at) > 1 else []
+            else:
+                ends = zip((act.start, act.end), act.of, strict=True)
+                asked += [(act, at.components) for at, of in ends if at is not None and of is None]
+        for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
+            act, place = asked[i]
+            message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: that place moves with no body"
+            help_line = "name the body whose particle it acts on, `of: rod`; of a collision both, `of: [ball, rod]`"
+            raise ActsOnNothing.of(act, Complaint("which-body", message, help=help_line))
+
+    def _particle(self, of: Any, at: Vector) -> Vector:
+        """The particle of a body at a place, where it is in the moment of the blow: its place as the body moves."""
+        if of is None or len(at) < 2:
+            return at
+        point = material_point("impulse", of, Location(at))
+        arms = {name: tidied(self.there(value)) for name, value in point.held}
+        if moving := coordinates_in(ImmutableDenseMatrix([ZERO, *arms.values()])):
+            name = next(iter(moving)).name
+            message = f"where in the body the impulse acts depends on {name}"
+            raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` in that moment under `at`"))
+        return tuple(c.xreplace(arms) for c in point.place)
+
+    @property
+    def described(self) -> Struck:
+        """What the witness is given of it: the parts as they were described."""
+        acts = self.acts
+        given = [plain.Force(a.components, a.at, self._number(a.of)) for a in acts if isinstance(a, Impulse)]
+        meetings = [self._described_meeting(act) for act in acts if isinstance(act, Collision)]
+        system = self.system.described.description
+        impact = plain.Impact(system, tuple(given), tuple(meetings), tuple(self.at.items()), tuple(self.before.items()))
+        return Struck(impact)
+
+    def _number(self, of: Any) -> int | None:
+        return next((i for i, body in enumerate(self.system.described_bodies) if body == of), None)
+
+    def _described_meeting(self, act: Collision) -> plain.Meeting:
+        start, end = (
+            None if at is None else plain.Force((ZERO,) * len(at.components), at.components, self._number(of))
+            for at, of in zip((act.start, act.end), act.of, strict=True)
+        )
+        assert end is not None
+        axes = "xyz"[: len(end.place)]
+        names = [act.letter] if act.along else [f"{act.letter}_{axis}" for axis in axes]
+        letters = tuple(unknown(name, "momentum") for name in names)
+        return plain.Meeting(start, end, act.along, act.restitution, letters)
+
+    def _coordinate(self, q: Any) -> Symbol:
+        symbol = q.symbol if isinstance(q, Coordinate) else q
+        if symbol not in self.moving:
+            message = f"nothing in this `Blow` moves by {symbol}"
+            raise Rejected(Complaint("wrong-argument", message))
+        return symbol
+
+    def there(self, value: Any) -> Expr:
+        """The value in the moment of the blow."""
+        return explicit(value).subs(self.at, simultaneous=True)
+
+    def shown_there(self, value: Any, holds: Any) -> Any:
+        """The same as one writes it, with the places at which it is taken; `holds` is what it is made of."""
+        for q, place in self.at.items():
+            if explicit(holds).has(q) and q != place:
+                value = At(value, q, place)
+        return value
+
+    def earlier(self, value: Any) -> Expr:
+        """The value just before."""
+        return self.there(value).xreplace(self.before)
+
+    def read_again(self, value: Any, rates: bool = False) -> Expr:
+        """The value in the moment of the blow, with `rates` just before it, by what the author gave."""
+        places, speeds = ({getattr(q, "symbol", q): at for q, at in given.items()} for given in self._given)
+        found = explicit(value).subs(list(places.items()), simultaneous=True)
+        if rates:
+            found = found.subs([(rate(q), speeds.get(q, 0)) for q in self.system.coordinates], simultaneous=True)
+        return as_expr(found)
+
+    def _meetings(self, act: Collision) -> list[Meeting]:
+        size = len(act.end.components)
+        start, end = (
+            tuple(c.subs(self.system.known) for c in self._particle(of, at.components)) if at else (ZERO,) * size
+            for at, of in zip((act.start, act.end), act.of, strict=True)
+        )
+        way = [b - a for a, b in zip(start, end, strict=True)]
+        along = tuple(self.there(c) for c in act.along)
+        if along and (coordinates := coordinates_in(ImmutableDenseMatrix(along))):
+            name = next(iter(coordinates)).name
+            raise Rejected(
+                Complaint(
+                    "changes", f"the normal of this collision depends on {name}", help="give its value under `at`"
+                )
+            )
+        if act.start is not None:
+            self._check_meet([self.there(c) for c in way], along)
+        if not along:
+            names = [f"{act.letter}_{axis}" for axis in ("xy" if size == 2 else "xyz")]
+            units = [tuple(Integer(i == k) for i in range(size)) for k in range(size)]
+            given = zip(way, names, units, strict=True)
+            every = [self._meeting(gap, ZERO, name, "together", (start, end, unit)) for gap, name, unit in given]
+            found = [each for each in every if each is not None]
+            if not found:
+                raise Rejected(
+                    Complaint("nothing-happens", "the two places of this collision have one velocity already")
+                )
+            return found
+        gap = Add(*(c * w for c, w in zip(along, way, strict=True)))
+        what = "together" if act.restitution == 0 else "elastic" if act.restitution == 1 else "rebound"
+        as_given = tuple(self.read_again(c) for c in act.given[0])
+        size = sqrt(sum(c**2 for c in as_given))  # the law has a normal of length 1
+        as_given = tuple(c / size for c in as_given)
+        one = self._meeting(gap, act.restitution, act.letter, what, (start, end, as_given), act.given[1])
+        if one is None:
+            raise Rejected(Complaint("nothing-happens", "along the normal of this collision nothing moves"))
+        if not self.impulses:
+            self._check_approach(-self.earlier(TimeRate(gap, *self.moving)))
+        return [one]
+
+    def _check_approach(self, speed: Expr) -> None:
+        """Along the normal the two come together: what they touch with can push and not pull."""
+        sign = 0 if is_zero(speed) else strict_sign_within(speed)
+        if sign == 0:
+            message = "the two do not approach each other before this collision"
+            raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
+        if sign == -1:
+            message = "the two move apart before this collision, along its normal"
+            help_line = "turn the normal, which points from the first place to the second, or the rates `before` it"
+            raise Rejected(Complaint("nothing-happens", message, help=help_line))
+        if sign is None:
+            assume(Relation(tidied(speed), ">", Integer(0)))
+
+    def _meeting(
+        self,
+        gap: Expr,
+        restitution: Expr,
+        letter: str,
+        what: str,
+        ends: tuple[Vector, Vector, Vector],
+        given: Any = 0,
+    ) -> Meeting | None:
+        """None of a component in which neither moves."""
+        if is_zero(self.there(TimeRate(gap, *self.moving))):
+            return None
+        return Meeting(gap, restitution, unknown(letter, "momentum"), what, ends=ends, given=given)
+
+    def _check_meet(self, way: Sequence[Expr], along: Vector) -> None:
+        """Two places meet where they are one, or where the way from one to the other is along the normal: two balls."""
+        across = [way[i] * along[j] - way[j] * along[i] for i in range(len(way)) for j in range(i)] if along else way
+        if not all(is_zero(c) for c in across):
+            message = "the two places of this collision do not meet"
+            raise Rejected(Complaint("wrong-argument", message, help="give the coordinates of that moment under `at`"))
+
+    def _kept(self, c: Constraint) -> Meeting:
+        if not is_zero(self.earlier(c.velocity(self.moving))):
+            message = "the rates before this blow do not keep a constraint of the system"
+            raise Rejected(Complaint("wrong-argument", message))
+        kind = "angular momentum" if c.kind_of_force == "torque" else "momentum"
+        letter = unknown(f"J_{c.force.name}", kind)
+        return Meeting(c.residual, ZERO, letter, "kept", c.in_rates)
+
+    def shares(self, q: Symbol) -> list[Expr]:
+        """J . dr/dq of each impulse, given or not."""
+        pairs = [(j, c) for one in self.impulses for j, c in zip(one.components, one.at, strict=True) if j != 0]
+        acting = [(j, c) for j, c in pairs if not is_zero(self.there(diff(c, q)))]
+        found = [Factors(j, self.shown_there(Partial(c, q), diff(c, q))) for j, c in acting]
+        for each in self.meetings:
+            if not is_zero(self.there(each.slope(q))):
+                slope = each.along(q)
+                found.append(Factors(each.letter, self.shown_there(slope, explicit(slope))))
+        return found
+
+    def power(self) -> Expr:
+        """The sum of J . v, by the places as functions of the time and by what the author gave."""
+        found = ZERO
+        for one in self.impulses:
+            for j, c in zip(one.given, one.at, strict=True):
+                found += self.read_again(j * by_functions_of_time(c, self.moving))
+        for each in self.meetings:
+            found += each.letter * self.read_again(each.speed_by_time(self.moving))
+        return found

@@ -1,0 +1,211 @@
+"""Blows: forces so great and so short that in their time nothing moves on and only the velocities change.
+
+Lagrange's equations, integrated over that time, give the jump of each momentum, p - p_before = sum of J . dr/dq: finite
+forces have no share in it. The rates that stand in the results are those just after the blow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Add, Expr, Integer, diff
+
+from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.expressions import Factors, Partial, Relation, Terms, explicit, rate, scalar
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.answers.solved_for import solved_for
+from derive.mechanics.answers.substitution import put_in
+from derive.mechanics.impacts.impact import Blow
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.model.dalembert import Matter
+from derive.solving.presentation import presented
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.step import Quantity, is_zero
+from derive.steps.subject import EVERYTHING, Subject
+
+__all__ = ["energy_after", "meeting_condition", "momentum_jump", "rates_after", "work_of_impulses"]
+
+ZERO = Integer(0)
+
+
+def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """The jump of a momentum in a blow, dT/dq_dot - its value before = sum of J . dr/dq.
+
+    blow      the system, its state and the impulses
+    kinetic   its kinetic energy T, J, as `kinetic_energy_of` yields it
+    q         one of its coordinates
+    Second route: the sum of m (v - v_before) . dr/dq over mass points, and the slope of the power J . v in q_dot.
+    Outcomes: struck, free (no impulse acts along q).
+    Errors: nothing moves by q.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz,
+    *Mechanics*, section 7.
+    """
+    symbol = q.symbol
+    if symbol not in blow.moving:
+        raise Rejected(Complaint("wrong-argument", f"nothing in this `Blow` moves by {symbol.name}"))
+    matter = kinetic.needed(Matter)
+    momentum = explicit(Partial(kinetic.value, q.rate))
+    before = tidied(blow.earlier(momentum))
+    shares = blow.shares(symbol)
+
+    def law(T: Any) -> Relation:
+        after = blow.shown_there(Partial(T, q.rate), momentum)
+        right = Terms(*shares) if len(shares) > 1 else shares[0] if shares else ZERO
+        return Relation(Terms(after, -before) if before != 0 else after, "=", right)
+
+    def by_particles(found: Relation) -> tuple[Expr, Expr]:
+        along = matter.momentum_along(symbol)
+        changed = blow.read_again(along) - blow.read_again(along, rates=True)
+        return explicit(found.left) - explicit(found.right), changed - diff(blow.power(), q.rate)
+
+    return establish(
+        "impulses.momentum_jump",
+        None,
+        law,
+        {"kinetic": kinetic},
+        lines=Lines(put_in=None, arranged=lambda found: _jump(found, blow)),
+        routes={"particles": by_particles},
+        outcome="struck" if shares else "free",
+        phrase_data=PhraseData(
+            named={"coordinate": symbol},
+            outcome_data={"slope": diff(blow.power(), q.rate), "at": tuple(blow.at.items())},
+        ),
+        key=key or f"jump_{symbol.name}",
+        facts=[OfCoordinate(q), blow.described],
+        scope=Scope(coordinates={m.letter: "momentum" for m in blow.meetings}, about=Subject(body=blow.system)),
+    )
+
+
+def _jump(found: Relation, blow: Blow) -> Relation:
+    left, right = explicit(found.left).expand(), explicit(found.right)
+    alone = Add(*(term for term in Add.make_args(left) if not term.has(*map(rate, blow.moving))))
+    moved = by_rates(left - alone, blow.moving)
+    return Relation(moved + by_terms(tidied(alone)) if alone != 0 else moved, "=", by_terms(tidied(right)))
+
+
+def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quantity:
+    """What holds of the rates just after a blow, v = -e v_before, for the velocity v of one place relative to another.
+
+    blow     the system, its state and the collisions; e is the coefficient of restitution of that one
+    number   which of its conditions, from 0 on; those of constraints come last
+    Check: the places as functions of the time, each coordinate by its Taylor series.
+    Outcomes: together (one velocity), elastic, rebound (with a part of the speed), kept (a constraint that holds on).
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.5 and 4.14.
+    """
+    meeting = blow.meetings[number]
+    speed = meeting.speed(blow.moving)
+    before = tidied(blow.earlier(speed))
+    part = meeting.restitution
+
+    def law() -> Relation:
+        right = ZERO if part == 0 or before == 0 else Factors(-part, before) if part != 1 else -before
+        return Relation(blow.shown_there(speed, explicit(speed)), "=", right)
+
+    def by_time(found: Relation) -> tuple[Expr, Expr]:
+        speed = meeting.speed_by_time(blow.moving)
+        returned = meeting.given * blow.read_again(speed, rates=True)
+        return explicit(found.left) - explicit(found.right), blow.read_again(speed) + returned
+
+    return establish(
+        "impulses.meeting_condition",
+        None,
+        law,
+        {},
+        lines=Lines(
+            put_in=None,
+            arranged=lambda found: Relation(
+                by_rates(explicit(found.left), blow.moving), "=", tidied(explicit(found.right))
+            ),
+        ),
+        routes={"functions_of_time": by_time},
+        outcome=meeting.what,
+        phrase_data=PhraseData(
+            named={"impulse": meeting.letter}, outcome_data={"restitution": part, "power": blow.power()}
+        ),
+        key=key or f"meeting_{number + 1}",
+        scope=Scope(coordinates=blow.system.coordinates, about=Subject(body=blow.system)),
+    )
+
+
+def rates_after(blow: Blow, jumps: Sequence[Quantity], conditions: Sequence[Quantity]) -> tuple[Quantity, ...]:
+    """The rates just after a blow, and the impulses that are not given, from the jumps of the momenta.
+
+    blow         the system, its state and the impulses
+    jumps        as `momentum_jump` yields them, one for each coordinate
+    conditions   as `meeting_condition` yields them, one for each impulse that is not given
+    Keys: q_dot_after, and the letter of each impulse.
+    Check: as `solved_for`.
+    Errors: a jump or a condition is missing.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2.
+    """
+    count = len(blow.moving) + len(blow.meetings)
+    if len(jumps) + len(conditions) != count:
+        message = f"what follows from this blow needs {count} equations, not {len(jumps) + len(conditions)}"
+        raise Rejected(Complaint("wrong-argument", message, help="a jump for each coordinate, and each condition"))
+    of = [jump.needed(OfCoordinate).coordinate for jump in jumps]
+    letters = [each.letter for each in blow.meetings]
+    keys = [*(f"{q.symbol.name}_dot_after" for q in of), *(letter.name for letter in letters)]
+    return solved_for([*jumps, *conditions], *(q.rate for q in of), *letters, keys=keys)
+
+
+def energy_after(
+    blow: Blow, kinetic: Quantity, after: Sequence[Quantity], key: str = "kinetic_energy_after"
+) -> Quantity:
+    """The kinetic energy just after a blow: that of the system with its places in that moment and the rates put in.
+
+    blow      the system, its state and the impulses
+    kinetic   its kinetic energy T, J
+    after     the rates just after it, as `rates_after` yields them
+    Check: as `put_in`.
+    Source: none needed: substitution.
+    """
+    held = explicit(kinetic.value).free_symbols
+    rates = [q for q in after if q.symbol in held]
+    places = {q: value for q, value in blow.at.items() if q in held and q != value}
+    return put_in(kinetic, *rates, *([places] if places else []), key=key, symbol=f"{kinetic.symbol}_after")
+
+
+def work_of_impulses(
+    blow: Blow, energy: Quantity, after: Sequence[Quantity], symbol: str = "W", key: str = "work_of_impulses"
+) -> Quantity:
+    """What a blow adds to the kinetic energy, W = T - T_before.
+
+    blow     the system, its state and the impulses
+    energy   its kinetic energy T just after it, J, as `energy_after` yields it
+    after    the rates just after it and the impulses, as `rates_after` yields them
+    Second route: each impulse does the work J . (v + v_before)/2 at the place where it acts.
+    Outcomes: zero (no energy is lost), lost, gained, generic.
+    Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, section 346.
+    """
+    found = {q.symbol: explicit(q.value) for q in after}
+    rates = {rate(q): found[rate(q)] for q in blow.moving}
+    before = tidied(blow.earlier(blow.system.matter.kinetic_energy()))
+
+    def by_impulses(work: Expr) -> tuple[Expr, Expr]:
+        power = blow.power()
+        mean = (power.xreplace(rates) + blow.read_again(power, rates=True)) / 2
+        return work, mean.xreplace({each.letter: found[each.letter] for each in blow.meetings})
+
+    return establish(
+        "impulses.work_of_impulses",
+        scalar(symbol),
+        lambda T: Terms(T, -before) if before != 0 else T,
+        {"energy": energy},
+        lines=Lines(arranged=lambda value: presented(explicit(value))),
+        routes={"impulses": by_impulses},
+        outcome=_gain,
+        key=key,
+        kind="energy",
+        parents=list(after),
+        scope=Scope(differ=EVERYTHING),
+    )
+
+
+def _gain(value: Expr) -> str:
+    value = tidied(value)
+    if is_zero(value):
+        return "zero"
+    return {-1: "lost", 1: "gained", None: "generic"}[strict_sign_within(value)]

@@ -1,0 +1,1 @@
+"""Coordinates, and places along axes that may turn and move."""

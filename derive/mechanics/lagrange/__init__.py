@@ -1,0 +1,1 @@
+"""Energies, the Lagrangian, equations of motion, forces of constraint, symmetries."""

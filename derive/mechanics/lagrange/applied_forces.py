@@ -1,0 +1,290 @@
+"""Lagrange's equation with forces that have no potential energy, and with those that keep constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol, runtime_checkable
+
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff
+
+from derive.algebra.collect import by_accelerations, by_rates, by_terms, spread
+from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.tidy import common_factor, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
+from derive.mechanics.model.constraint import Constraint, Kept
+from derive.mechanics.model.dalembert import Load, Matter
+from derive.mechanics.model.forces import Damper, GivenForce
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.step import Fact, Quantity, compared_with
+from derive.steps.subject import Subject
+
+__all__ = ["applied_force", "dissipation_function", "forced_equation"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class ActedOn(Fact):
+    """What acts on a system without having a potential energy, and how it is damped."""
+
+    missing = "has no forces besides those of its potential energy"
+    system: Any
+    forces: tuple[GivenForce, ...]
+    dampers: tuple[Damper, ...]
+    dissipation: Quantity | None
+
+
+@dataclass(frozen=True)
+class ForcedMotion(Fact):
+    """The Lagrangian of an equation of motion with other forces, or with constraints."""
+
+    missing = "is not an equation of motion with forces besides those of a potential energy"
+    lagrangian: Quantity
+
+
+@runtime_checkable
+class WithForces(Protocol):
+    """What moves in coordinates, and what acts on it besides what has a potential energy."""
+
+    @property
+    def coordinates(self) -> Mapping[Symbol, str]: ...
+    @property
+    def constraints(self) -> tuple[Constraint, ...]: ...
+    @property
+    def given_forces(self) -> tuple[GivenForce, ...]: ...
+    @property
+    def dampers(self) -> tuple[Damper, ...]: ...
+
+
+def acting_on(system: WithForces) -> tuple[Fact, ...]:
+    """What the Lagrangian of a system must hand on to its equations of motion."""
+    found: list[Fact] = [Kept(system.constraints)] if system.constraints else []
+    if system.given_forces or system.dampers:
+        dissipated = dissipation_function(system) if system.dampers else None
+        found.append(ActedOn(system, system.given_forces, system.dampers, dissipated))
+    return tuple(found)
+
+
+def acting(*energies: Quantity) -> list[Fact]:
+    """What those energies hand on to the Lagrangian besides the matter."""
+    return [fact for energy in energies for fact in energy.facts if isinstance(fact, ActedOn | Kept)]
+
+
+def dissipation_function(system: WithForces, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
+    """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over what damps a system, in W.
+
+    system   its dampers: c in kg/s for a place, in N m s for an angle
+    Second route: the drag takes the power sum of F . v, which is -2 D.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5.
+    """
+    moving = list(system.coordinates)
+    if not system.dampers:
+        raise Rejected(Complaint("wrong-argument", "`dissipation_function` needs a system with `damping`"))
+
+    def law() -> Expr:
+        terms = [Factors(Rational(1, 2), d.constant, squares_of_velocity(d, moving)) for d in system.dampers]
+        return Terms(*terms) if len(terms) > 1 else terms[0]
+
+    def by_power(found: Expr) -> tuple[Expr, Expr]:
+        loads = [d.load(moving) for d in system.dampers]
+        return 2 * found, -Add(*(power_of(load, moving) for load in loads))
+
+    return establish(
+        "forced.dissipation_function",
+        scalar(symbol),
+        law,
+        {},
+        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, moving, halves=True)),
+        routes={"power": by_power},
+        key=key,
+        kind="power",
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
+    )
+
+
+def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
+    """v^2 of what is damped; of a particle of a body by the components of its velocity."""
+    if not damper.point.held:
+        return squares_of_rates(damper.at, moving)
+    squares = [Pow(v, 2) for v in damper.velocity(moving) if v != 0]
+    return Terms(*squares) if len(squares) > 1 else squares[0] if squares else ZERO
+
+
+def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
+    """(dx/dt)^2 + (dy/dt)^2 of the components that change."""
+    fast = [TIME, *moving]
+    changing = [c for c in place if c.has(*fast)] or [*place][:1]
+    squares = [Pow(TimeRate(c, *moving), 2) for c in changing]
+    return Terms(*squares) if len(squares) > 1 else squares[0]
+
+
+def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
+    """F . v, the place of the force differentiated as a function of t."""
+    velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
+    return Add(*(f * v for f, v in zip(load.force, velocity, strict=True)))
+
+
+def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """Generalized force of what has no potential energy, Q = sum of F . dr/dq - dD/dq_dot.
+
+    of   the Lagrangian, J, of a system with given forces, couples or damping
+    q    one of its coordinates
+    Second route: the power of all these forces, sum of F . v, is linear in q_dot where F is held fast, and Q its slope.
+    Outcomes: generic, zero.
+    Errors: nothing acts on the system but what has a potential energy.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
+    """
+    required(of.coordinates, q, "applied_force", of)
+    acted = of.needed(ActedOn)
+    moving = list(acted.system.coordinates)
+    loads = [f.load(moving) for f in acted.forces]
+    works = [term for load in loads for term in _works(load, q)]
+
+    kept = of.fact(Kept)
+    here = {s for f in acted.forces for c in f.components for s in c.free_symbols}
+    held = {c.force: c.kind_of_force or "" for c in (kept.constraints if kept else ()) if c.force in here}
+
+    def law(*dissipated: Expr) -> Expr:
+        lost = [-Partial(d, q.rate) for d in dissipated]
+        terms = [*works, *lost]
+        return Terms(*terms) if len(terms) > 1 else terms[0] if terms else ZERO
+
+    def by_power() -> Expr:
+        every = [*(f.load(moving) for f in acted.forces), *(d.load(moving) for d in acted.dampers)]
+        return Add(*(_slope(load, q, moving) for load in every))
+
+    name = f"Q_{q.symbol.name}"
+    return establish(
+        "forced.applied_force",
+        scalar(name),
+        law,
+        {"dissipation": acted.dissipation} if acted.dissipation is not None else {},
+        lines=Lines(put_in=None, arranged=lambda value: _by_rates_or_terms(value, moving)),
+        routes={"power": compared_with(by_power)},
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        phrase_data=PhraseData(outcome_data={"coordinate": q.symbol}),
+        key=key or f"applied_force_{q.symbol.name}",
+        scope=Scope(coordinates={**of.coordinates, **held}, about=Subject(body=acted.system)),
+    )
+
+
+def _works(load: Load, q: Coordinate) -> list[Expr]:
+    """F_i dr_i/dq; for a particle of a body with the values of dr_i/dq."""
+    pairs = zip(load.force, load.place, load.slopes(q.symbol), strict=True)
+    if load.held:
+        slopes = [(f, tidied(slope)) for f, _, slope in pairs if f != 0]
+        return [f if slope == 1 else Factors(f, slope) for f, slope in slopes if slope != 0]
+    return [Factors(f, Partial(c, q.symbol)) for f, c, _ in pairs if f != 0]
+
+
+def _slope(load: Load, q: Coordinate, moving: Sequence[Symbol]) -> Expr:
+    """What the power gains per unit of q_dot, the force being what it is."""
+    velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
+    return Add(*(f * diff(v, q.rate) for f, v in zip(load.force, velocity, strict=True)))
+
+
+def _by_rates_or_terms(value: Expr, moving: Sequence[Symbol]) -> Expr:
+    return by_rates(value, moving) if any(value.has(rate(q)) for q in moving) else by_terms(tidied(value))
+
+
+def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity], key: str) -> Quantity:
+    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = Q + sum of lambda df/dq.
+
+    of         the Lagrangian, J
+    q          one of its coordinates
+    derivatives   dL/dq, dL/dq_dot and its rate, where they are steps
+    The generalized force Q is a step of its own.
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
+    Outcomes: applied (forces without a potential energy), kept (forces that keep constraints), both, free (neither
+    acts along q).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.5 and 2.4.
+    """
+    matter, moving = of.needed(Matter), list(of.coordinates)
+    acted, kept = of.fact(ActedOn), of.fact(Kept)
+    constraints = [c for c in (kept.constraints if kept else ()) if c.along(q.symbol) != 0]
+    applied = applied_force(of, q) if acted is not None else None
+    acts = applied is not None and applied.value != 0
+    reaction = [spread(c.along(q.symbol)) * c.force for c in constraints]
+
+    def law(*given: Any) -> Relation:
+        L, others = given[0], given[1:]
+        right = [*(others if acts else ()), *reaction]
+        left = Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol))
+        return Relation(left, "=", Terms(*right) if len(right) > 1 else right[0] if right else ZERO)
+
+    def by_virtual_work() -> Relation:
+        return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
+
+    return establish(
+        "forced.equation_of_motion",
+        None,
+        law,
+        {"lagrangian": of, **({"applied": applied} if applied is not None else {})},
+        lines=Lines(put_in=None, arranged=lambda found: _sides(found, moving, constraints)),
+        routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
+        outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
+        phrase_data=PhraseData(
+            words={"between": _between(constraints)},
+            formulas=_functions_told(kept.constraints if kept else ()),
+            named={"coordinate": q.symbol},
+            outcome_data={"letters": tuple(c.force for c in constraints)},
+        ),
+        key=key,
+        parents=[*derivatives, *([applied] if applied is not None else [])],
+        facts=[
+            OfCoordinate(q),
+            ForcedMotion(of),
+            matter,
+        ],
+        scope=Scope(coordinates={c.force: c.kind_of_force or "" for c in constraints}),
+    )
+
+
+def _between(constraints: Sequence[Constraint]) -> str:
+    """Whether it is coordinates or rates that the constraints are between."""
+    in_rates = {c.in_rates for c in constraints}
+    return "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
+
+
+def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
+    """The functions that vanish, f_x = x - R sin(theta), called after multipliers lambda_x where so called."""
+    found = {}
+    for i, each in enumerate(constraints, 1):
+        _, _, index = each.force.name.partition("lambda_")
+        called = f"f_{index}" if index else f"f_{i}" if len(constraints) > 1 else "f"
+        terms = [each.left, *(-term for term in Add.make_args(each.right) if term != 0)]
+        told = Relation(scalar(called), "=", Terms(*terms) if len(terms) > 1 else each.left)
+        found[f"function_{i}"] = (told, Relation(scalar(called), "=", each.residual))
+    return found
+
+
+def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:
+    """What depends on the motion on the left; what drives it, and the forces of constraint, on the right."""
+    whole = explicit(found.left) - explicit(found.right)
+    whole = whole.expand()
+    letters = [c.force for c in constraints]
+    alone = [term for term in Add.make_args(whole) if _drives(term, moving, letters)]
+    driven = -Add(*alone)
+    held = _times_forces({letter: spread(diff(driven, letter)) for letter in letters})
+    given = driven.xreplace(dict.fromkeys(letters, ZERO))
+    left = by_accelerations(whole - Add(*alone), moving)
+    return Relation(left, "=", Add(by_terms(tidied(given)), held))
+
+
+def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
+    """R (S_1 - S_2), not R S_1 - R S_2: what forces of constraint are multiplied by, in front of them."""
+    acting = {letter: each for letter, each in coefficients.items() if each != 0}
+    common = common_factor(list(acting.values())) if len(acting) > 1 else Integer(1)
+    common = -common if common.could_extract_minus_sign() else common
+    apart = {letter: tidied(each / common) if common.free_symbols else each for letter, each in acting.items()}
+    inside = Add(*(each * letter for letter, each in apart.items()))
+    return Mul(common, inside, evaluate=False) if common.free_symbols else inside
+
+
+def _drives(term: Expr, moving: Sequence[Symbol], letters: Sequence[Symbol]) -> bool:
+    """A force of constraint, or one that is neither inertia nor changes with coordinates or rates."""
+    return any(term.has(letter) for letter in letters) or not term.has(
+        *(s for q in moving for s in (q, rate(q), rate(q, 2)))
+    )

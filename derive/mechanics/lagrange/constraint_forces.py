@@ -1,0 +1,425 @@
+"""Accelerations, and the forces that keep constraints, from the equations of motion and the constraints themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, sqrt
+from sympy.polys.matrices import DomainMatrix
+from sympy.polys.matrices.exceptions import DMError
+
+from derive.algebra.collect import by_accelerations
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, as_expr, explicit, rate, scalar, stand_in
+from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.normal_form import vanishes
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time
+from derive.mechanics.lagrange.applied_forces import ForcedMotion
+from derive.mechanics.lagrange.lagrangian import FromLagrangian
+from derive.mechanics.model.constraint import Constraint, Kept
+from derive.mechanics.model.dalembert import Matter, Reaction
+from derive.mechanics.model.gradients import gradient_length
+from derive.mechanics.model.rigid import by_squares
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.known_numbers import told_of_divisors
+from derive.steps.record import coordinates_in
+from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
+
+__all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
+
+ZERO = Integer(0)
+MOST = 8  # unknowns that are solved for together
+
+
+@dataclass(frozen=True)
+class ForceOf(Fact):
+    """The constraint that a force keeps, and the equations from which it was found."""
+
+    missing = "is not the force of a constraint"
+    constraint: Constraint
+    problem: Any
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """Equations of motion of all coordinates, and the constraints that forces keep.
+
+    lagrangian   which they all come from
+    equations    one for each coordinate
+    keeping      coordinates whose accelerations are not solved for, so that their equations are not used
+    """
+
+    lagrangian: Quantity
+    equations: tuple[Quantity, ...]
+    keeping: tuple[Symbol, ...] = ()
+
+    @property
+    def moving(self) -> list[Symbol]:
+        return [each.needed(OfCoordinate).coordinate.symbol for each in self.equations]
+
+    @property
+    def solved(self) -> list[Symbol]:
+        """The coordinates whose accelerations are solved for."""
+        return [q for q in self.moving if q not in self.keeping]
+
+    @property
+    def used(self) -> list[Quantity]:
+        return [each for each in self.equations if each.needed(OfCoordinate).coordinate.symbol not in self.keeping]
+
+    @property
+    def constraints(self) -> tuple[Constraint, ...]:
+        kept = self.lagrangian.fact(Kept)
+        return kept.constraints if kept else ()
+
+    @property
+    def unknowns(self) -> list[Symbol]:
+        return [*(rate(q, 2) for q in self.solved), *(each.force for each in self.constraints)]
+
+    @property
+    def known(self) -> dict[Symbol, Expr]:
+        """What the constraints make of coordinates that they give by others, and of their rates."""
+        found: dict[Symbol, Expr] = {}
+        for each in self.constraints:
+            residual = each.residual.xreplace(found)
+            slopes = {q: derivative(residual, q) for q in self.moving}
+            q = next((q for q, slope in slopes.items() if slope.is_nonzero and slope.is_number), None)
+            if each.in_rates or q is None:
+                continue
+            value = -(residual - slopes[q] * q) / slopes[q]
+            new = {q: tidied(value), rate(q): tidied(TimeRate(value, *self.moving))}
+            found = {**{letter: old.xreplace(new) for letter, old in found.items()}, **new}
+        return found
+
+    @property
+    def residuals(self) -> list[Expr]:
+        equations = [explicit(each.value).residual for each in self.used]
+        return [*equations, *(each.acceleration(self.moving) for each in self.constraints)]
+
+
+def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordinate] = ()) -> _Problem:
+    if not equations:
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs equations of motion"))
+    found = [_lagrangian_of(verb, each) for each in equations]
+    if any(each.step != found[0].step for each in found):
+        raise Rejected(Complaint("different-subjects", f"`{verb}` needs the equations of motion of one Lagrangian"))
+    problem = _Problem(found[0], tuple(equations), tuple(q.symbol for q in keeping))
+    matter = found[0].needed(Matter)
+    missing = [q.name for q in matter.coordinates if q not in problem.moving]
+    if missing or len(set(problem.moving)) < len(problem.moving):
+        what = f"that of {missing[0]} is missing" if missing else "one of them is there twice"
+        help_line = "`equations_of_motion` yields all of them"
+        message = f"`{verb}` needs one equation of motion for each coordinate, but {what}"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
+    if len(problem.unknowns) > MOST:
+        message = f"`{verb}` solves for {MOST} accelerations and forces at most, but here are {len(problem.unknowns)}"
+        raise Rejected(Complaint("too-hard", message))
+    return problem
+
+
+def _lagrangian_of(verb: str, equation: Quantity) -> Quantity:
+    fact = equation.fact(ForcedMotion) or equation.fact(FromLagrangian)
+    if fact is None or equation.fact(OfCoordinate) is None:
+        raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{equation.key}` is not an equation of motion"))
+    return fact.lagrangian
+
+
+def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
+    """Accelerations, q_ddot as the equations of motion and the constraints give them.
+
+    equations   of motion, one for each coordinate of one Lagrangian
+    Keys: acceleration_ and the name of the coordinate.
+    Second route: put into d'Alembert's principle, sum of (m a - F) . dr/dq = 0 for every coordinate, forces of
+    constraint with them; and the constraints, differentiated as functions of t, keep holding.
+    Errors: an equation is missing; the constraints contradict or repeat one another; a coordinate has no inertia.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
+    """
+    problem = _problem("accelerations", equations)
+    rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
+    return tuple(_acceleration(problem, q, rates) for q in problem.moving)
+
+
+def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tuple[Quantity, ...]:
+    """Forces of constraint, the multipliers lambda, as the equations of motion and the constraints give them.
+
+    equations   of motion, one for each coordinate of one Lagrangian
+    keeping     coordinates whose accelerations stay in the forces: their equations are then left for the motion
+    Keys: the letters of the forces.
+    Second route: as `accelerations`.
+    Outcomes: generic (the force of constraint itself), multiplier (the gradient of the condition on the particle has
+    another length than 1, which is stated), zero.
+    Errors: no constraint is kept by a force; else as `accelerations`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
+    """
+    problem = _problem("multipliers", equations, keeping)
+    if not problem.constraints:
+        message = "`multipliers` needs constraints that forces keep, but this system has none"
+        raise Rejected(Complaint("wrong-argument", message, help="`constraint(f, force=...)` is one"))
+    rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
+    return tuple(_multiplier(problem, each, rates) for each in problem.constraints)
+
+
+def _not_all_negative(left: Expr) -> Expr:
+    """x_ddot + y_ddot = 0, not -x_ddot - y_ddot = 0."""
+    terms = Add.make_args(left)
+    return Add(*(-term for term in terms)) if all(term.could_extract_minus_sign() for term in terms) else left
+
+
+def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Quantity:
+    """A constraint differentiated until accelerations stand in it, d^2 f/dt^2 = 0.
+
+    of       the Lagrangian of a system with constraints
+    number   which of them, 0 for the first
+    Check: the coordinates as functions of t, differentiated by SymPy.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
+    """
+    constraints = of.needed(Kept).constraints
+    if number not in range(len(constraints)):
+        message = f"`constraint_rate` needs the number of a constraint, 0 to {len(constraints) - 1}"
+        raise Rejected(Complaint("wrong-argument", message))
+    each, moving = constraints[number], list(of.coordinates)
+    order = 1 if each.in_rates else 2
+
+    def by_time() -> Relation:
+        return Relation(by_functions_of_time(each.residual, moving, order), "=", ZERO)
+
+    def law(f: Expr) -> Relation:
+        once = TimeRate(f, *moving)
+        return Relation(once if each.in_rates else TimeRate(explicit(once), *moving), "=", ZERO)
+
+    return establish(
+        "kept.constraint_rate",
+        None,
+        law,
+        {"condition": each.residual},
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            arranged=lambda found: Relation(
+                _not_all_negative(by_accelerations(explicit(found.left), moving)), "=", ZERO
+            ),
+        ),
+        routes={"functions_of_time": compared_with(by_time)},
+        outcome="in_rates" if each.in_rates else "in_coordinates",
+        phrase_data=PhraseData(formulas={"constraint": (each.relation, Relation(each.residual, "=", ZERO))}),
+        key=key or f"constraint_{each.force.name}",
+        parents=[of],
+    )
+
+
+def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Quantity:
+    found = _solution(problem)
+    coordinate = Coordinate(q, problem.lagrangian.coordinates[q])
+    return establish(
+        "kept.acceleration",
+        rate(q, 2),
+        lambda: found[rate(q, 2)],
+        {},
+        lines=Lines(put_in=None, arranged=lambda value: value),
+        routes={
+            "virtual_work": lambda value: _virtual_work(problem, {**found, rate(q, 2): value}),
+            "constraint": lambda value: _keeps_holding(problem, {**found, rate(q, 2): value}),
+        },
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        phrase_data=PhraseData(formulas=told_of_divisors([found[rate(p, 2)] for p in problem.moving])),
+        key=f"acceleration_{q.name}",
+        kind=_kind_of_acceleration(coordinate.kind),
+        parents=[*problem.equations, *rates],
+        facts=[OfCoordinate(coordinate)],
+    )
+
+
+def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) -> Quantity:
+    found = _solution(problem)
+    length = gradient_length(each, problem.lagrangian)
+    is_force = length is None or is_zero(length - 1)
+    shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
+    return establish(
+        "kept.multiplier",
+        each.force,
+        lambda: _gathered(problem, found[each.force]),
+        {},
+        lines=Lines(put_in=None, arranged=lambda value: value),
+        routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
+        outcome=lambda value: "zero" if value == 0 else "generic" if is_force else "multiplier",
+        phrase_data=PhraseData(
+            formulas={**told_of_divisors([found[each.force]]), **shown},
+            outcome_data={"condition": each.residual, "place": _places(problem) if length is not None else ()},
+        ),
+        key=each.force.name,
+        kind=each.kind_of_force,
+        parents=[*problem.used, *rates],
+        facts=[ForceOf(each, problem)],
+    )
+
+
+def _places(problem: _Problem) -> tuple[Expr, ...]:
+    """Where its one particle is; nothing where there are several masses."""
+    points = problem.lagrangian.needed(Matter).points
+    return points[0].place if len(points) == 1 else ()
+
+
+def _gathered(problem: _Problem, value: Expr) -> Expr:
+    """By the accelerations that stay in a force, and by squares of rates."""
+    return by_accelerations(value, problem.moving) if problem.keeping else value
+
+
+def constraint_force(
+    forces: Sequence[Quantity], along: Mapping[Any, Expr], symbol: str = "N", key: str = "constraint_force"
+) -> Quantity:
+    """What forces of constraint do per unit of a displacement, N = sum of lambda df/dq dq: their component along it.
+
+    forces   as `multipliers` yields them, of one system
+    along    coordinate -> its change per unit of the displacement: `{x: sin(theta), y: cos(theta)}`
+    symbol   of the component: a force where the displacement is a length
+    Second route: Newton's law along the displacement, sum of (m a - F) . dr over the mass points and the other forces.
+    Outcomes: generic, zero.
+    Errors: they belong to different systems; a further constraint does work in this displacement.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4.
+    """
+    kept = [force.needed(ForceOf) for force in forces]
+    if not kept or any(each.problem.lagrangian.step != kept[0].problem.lagrangian.step for each in kept):
+        raise Rejected(Complaint("different-subjects", "`constraint_force` needs the forces of one system"))
+    problem: _Problem = kept[0].problem
+    way = {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in along.items()}
+    strange = [q for q in way if q not in problem.moving]
+    if strange:
+        message = f"`constraint_force`: this system has no coordinate {strange[0]}"
+        raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
+    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # which the route reads for itself
+    works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
+    missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
+    if missing:
+        message = f"`constraint_force`: {missing[0].force} does work in this displacement too"
+        raise Rejected(Complaint("wrong-argument", message, help="give all forces that `multipliers` yields"))
+    acting = {f"force_{i}": f for i, (f, k) in enumerate(zip(forces, kept, strict=True)) if works[k.constraint] != 0}
+    factors = [works[f.needed(ForceOf).constraint] for f in acting.values()]
+
+    def law(*names: Expr) -> Expr:
+        pairs = list(zip(names, factors, strict=True))
+        terms = [-Factors(f, -by) if by.could_extract_minus_sign() else Factors(f, by) for f, by in pairs]
+        return Terms(*terms) if len(terms) > 1 else Add(*terms)
+
+    return establish(
+        "kept.constraint_force",
+        scalar(symbol),
+        law,
+        acting,
+        lines=Lines(put_in=None, arranged=lambda value: by_accelerations(value, problem.moving)),
+        routes={"newton": compared_with(lambda: _by_newton(problem, as_given))},
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        key=key,
+        kind={"length": "force", "angle": "torque"}.get("".join({problem.lagrangian.coordinates[q] for q in way})),
+        parents=list(forces),
+    )
+
+
+def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
+    """What inertia asks for along the displacement, less what all other forces do."""
+    matter = problem.lagrangian.needed(Matter)
+    total = ZERO
+    for q, dq in way.items():
+        kept = Add(*(load.work_along(q) for load in matter.others if isinstance(load, Reaction)))
+        total += dq * (matter.inertia_along(q) - matter.force_along(q) + kept)
+    if not problem.keeping:
+        return total.xreplace(_solution(problem)).xreplace(problem.known)
+    known = problem.known
+    twice = {rate(q, 2): by_functions_of_time(v, problem.moving, 2) for q, v in known.items() if q in problem.moving}
+    return total.xreplace(twice).xreplace(known)
+
+
+def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
+    """Each coordinate with a factor of its own, so that no two terms can make up for one another."""
+    matter = problem.lagrangian.needed(Matter)
+    marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
+    whole = Add(
+        *(
+            mark * (matter.inertia_along(q) - matter.force_along(q))
+            for q, mark in zip(problem.solved, marks, strict=True)
+        )
+    )
+    return whole.xreplace(dict(found)).xreplace(problem.known), ZERO
+
+
+def _keeps_holding(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
+    total = ZERO
+    for i, each in enumerate(problem.constraints):
+        changing = by_functions_of_time(each.residual, problem.moving, 1 if each.in_rates else 2)
+        total += stand_in(f"delta_{i}") * changing
+    return total.xreplace(dict(found)).xreplace(problem.known), ZERO
+
+
+def _kind_of_acceleration(kind: str) -> str | None:
+    if kind == "angle":
+        return "angular acceleration"
+    return kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time") ** 2)
+
+
+# --- the linear equations --------------------------------------------------------------------------------------------
+
+
+@lru_cache(maxsize=16)
+def _solution(problem: _Problem) -> dict[Symbol, Expr]:
+    """Accelerations and multipliers, all equations being linear in them."""
+    unknowns = problem.unknowns
+    rows = [row.xreplace(problem.known) for row in problem.residuals]
+    matrix = ImmutableDenseMatrix([[derivative(row, u) for u in unknowns] for row in rows])
+    right = ImmutableDenseMatrix([-row.xreplace(dict.fromkeys(unknowns, ZERO)) for row in rows])
+    if _is_singular(matrix):
+        raise _undetermined(problem, matrix)
+    polynomial, names = _without_functions(matrix.row_join(right))
+    whole = DomainMatrix.from_Matrix(Matrix(polynomial)).to_field()
+    count = len(unknowns)
+    try:
+        solved = whole[:, :count].lu_solve(whole[:, count:]).to_Matrix()
+    except DMError:
+        raise _undetermined(problem, matrix) from None
+    back = {dummy: f for f, dummy in names.items()}
+    return {u: by_squares(value.xreplace(back)) for u, value in zip(unknowns, solved, strict=True)}
+
+
+def _without_functions(matrix: ImmutableDenseMatrix) -> tuple[ImmutableDenseMatrix, dict[Expr, Dummy]]:
+    """Sines, cosines and roots as letters, so that only polynomials are left."""
+    found = sorted(matrix.atoms(Function), key=str)
+    roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
+    names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}
+    return matrix.xreplace(names), names
+
+
+def _is_singular(matrix: ImmutableDenseMatrix) -> bool:
+    polynomial, names = _without_functions(matrix)
+    value = DomainMatrix.from_Matrix(Matrix(polynomial)).to_field()
+    det = value.domain.to_sympy(value.det())
+    return vanishes(det.xreplace({dummy: f for f, dummy in names.items()}))
+
+
+def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
+    """What is wrong with equations that have no solution, or many."""
+    count = len(problem.solved)
+    held = matrix[count:, :count]
+    if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):
+        names = ", ".join(each.force.name for each in problem.constraints)
+        how = "contradict" if _contradict(problem.constraints) else "repeat"
+        message = f"the constraints kept by {names} {how} one another, so the forces are not determined"
+        return Rejected(Complaint("constraints", message, help="leave out those that follow from the others"))
+    bare = next((q.name for i, q in enumerate(problem.solved) if not any(matrix[i, :count])), None)
+    what = f"no mass moves with {bare}" if bare else "the mass matrix is singular"
+    return Rejected(Complaint("no-inertia", f"the accelerations are not determined: {what}"))
+
+
+def _contradict(constraints: Sequence[Constraint]) -> bool:
+    """Whether two of them differ by what is not zero and does not depend on the coordinates."""
+    for i, one in enumerate(constraints):
+        for other in constraints[:i]:
+            shared = [q for q in one.coordinates if one.along(q) != 0 and other.along(q) != 0]
+            if not shared or one.in_rates != other.in_rates:
+                continue
+            ratio = tidied(one.along(shared[0]) / other.along(shared[0]))
+            apart = tidied(one.residual - ratio * other.residual)
+            if apart != 0 and not coordinates_in(apart) and not coordinates_in(ratio):
+                return True
+    return False

@@ -1,0 +1,383 @@
+"""The kinetic and the potential energy of a system, from the places of its particles and the turning of its bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, expand, factor, sin, sqrt, tan
+
+from derive.algebra.collect import by_rates, by_terms, spread, with_constants_together, with_weights_in_front
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import (
+    TIME,
+    Dot,
+    Factors,
+    Relation,
+    Terms,
+    TimeRate,
+    applied,
+    as_expr,
+    bound,
+    explicit,
+    rate,
+    scalar,
+    stand_in,
+)
+from derive.algebra.length import length
+from derive.algebra.tidy import common_factor, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.kinematics.coordinates import by_functions_of_time, rate_of
+from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.lagrange.applied_forces import acting_on, squares_of_rates
+from derive.mechanics.model.dalembert import MassPoint, Matter
+from derive.mechanics.model.distances import long_distances
+from derive.mechanics.model.rigid import (
+    angular_velocity,
+    convenient_axes,
+    inertia_of,
+    is_about_the_point,
+    turning_rate_of,
+)
+from derive.mechanics.model.system import HALF, ZERO, Eliminated, System
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.record import assumed, free_letter
+from derive.steps.step import Form, Level, Quantity, compared_with, lettered, value_behind
+from derive.steps.subject import EVERYTHING, Subject
+
+__all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
+
+
+SPEEDS = ("v", "u", "w")  # the letter of a speed: the next where one is given
+MANY = 8  # terms; more of them are not written out
+
+
+@dataclass(frozen=True)
+class Mover:
+    """What has a kinetic energy by the motion of its centre of mass: a particle, or a body that is not held."""
+
+    mass: Expr
+    at: Location
+    letter: str
+    is_body: bool
+
+    @property
+    def place(self) -> tuple[Expr, ...]:
+        return self.at.components
+
+
+def movers(system: System, lagrangian: str = "") -> list[Mover]:
+    """v of the only one, else v_1, v_2, ...; of a body with a name v with that name, of a second Lagrangian its."""
+    found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
+    found += [
+        Mover(placed.body.mass, placed.centre, placed.body.called.partition(" ")[0], True)
+        for placed in system.bodies
+        if not is_about_the_point(placed)
+    ]
+    own = system.called.partition(" ")[0]
+
+    def index(i: int, mover: Mover) -> str:
+        parts = [mover.letter or (str(i + 1) if len(found) > 1 else ""), own, lagrangian]
+        return "_".join(part for part in parts if part)
+
+    return [replace(mover, letter=index(i, mover)) for i, mover in enumerate(found)]
+
+
+def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
+    """Square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
+    moving = list(system.coordinates)
+    entries = [as_expr(c) for place in system.places for c in place.components]
+    given = {s.name.partition("_")[0] for entry in entries for s in entry.free_symbols}
+    indices = [other.letter for other in movers(system)]
+    free = (letter for letter in SPEEDS if letter not in given and free_letter(letter, *indices) == letter)
+    base = next(free, SPEEDS[0])
+    name = f"{base}_{mover.letter}" if mover.letter else base
+    letter = scalar(name)
+    matter = Matter((MassPoint(Integer(2), mover.place),), (), tuple(moving))
+    velocity = _velocity(mover, moving)
+    at = {f"place_{k}": c for k, c in enumerate(mover.place)}
+    return establish(
+        "systems.squared_speed",
+        Pow(letter, 2),
+        (lambda *v: Terms(*(Pow(c, 2) for c in v))) if velocity else (lambda *at: squares_of_rates(at, moving)),
+        {f"velocity_{k}": v for k, v in enumerate(velocity)} if velocity else at,
+        key=f"squared_speed_{mover.letter}" if mover.letter else "squared_speed",
+        outcome="of_several" if several else "centre" if mover.is_body else "alone",
+        routes={"functions_of_time": compared_with(matter.kinetic_energy)},
+        lines=Lines(
+            put_in=Level.STANDARD if velocity else None,
+            between=_multiplied_out([v.value for v in velocity]),
+            arranged=lambda value: by_rates(value, moving),
+            means={letter: _speed(mover.place, moving)},
+        ),
+        parents=[known for _, known in mover.at.found] if velocity else [],
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
+    )
+
+
+def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
+    """The squares multiplied out, before sines and cosines of one angle come together; nothing where that is long."""
+    terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
+    return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
+
+
+def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
+    """The rates of the components that are steps of their own, if those that change all are."""
+    known = dict(mover.at.found)
+    changing = [k for k, c in enumerate(mover.place) if c.has(TIME, *moving)]
+    return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
+
+
+def _speed(place: tuple[Expr, ...], moving: list[Symbol]) -> Expr:
+    return sqrt(Add(*(explicit(TimeRate(c, *moving)) ** 2 for c in place)))
+
+
+@dataclass(frozen=True)
+class Turning:
+    """The rotation of one body: its inertia, a step or a letter, and its angular velocity or the rate of its angle."""
+
+    inertia: Any
+    omega: Any
+
+    @property
+    def is_plane(self) -> bool:
+        return not isinstance(self.omega, Quantity)
+
+    def energy(self, inertia: Any, omega: Any) -> Expr:
+        """(1/2) I theta_dot^2, or (1/2) omega . I omega."""
+        if self.is_plane:
+            return Factors(HALF, inertia, Pow(omega, 2))
+        return Factors(HALF, Dot(omega, applied(inertia, omega)))
+
+    def written_out(self) -> Expr:
+        """By components along principal axes, those of equal moments together."""
+        tensor, omega = value_behind(self.inertia), value_behind(self.omega)
+        if self.is_plane or not tensor.is_diagonal():
+            return explicit(self.energy(tensor, omega))
+        squares: dict[Expr, list[Expr]] = {}
+        for i in range(3):
+            if omega[i] != 0:
+                squares.setdefault(tensor[i, i], []).append(Pow(_factored(omega[i]), 2))
+        return Add(*(Mul(HALF, moment, Add(*of)) for moment, of in squares.items() if moment != 0), evaluate=False)
+
+
+def weights_of(system: System) -> set[Symbol]:
+    """The letters of its masses."""
+    return {letter for mass, _ in system.masses for letter in explicit(mass).free_symbols}
+
+
+def _factored(component: Expr) -> Expr:
+    return min((component, factor(component)), key=length)
+
+
+def _turnings(system: System) -> list[Turning]:
+    """Bodies that are alike have one inertia."""
+    found: list[Turning] = []
+    known: list[tuple[PlacedBody, Any]] = []
+    for i, placed in enumerate(system.bodies):
+        if placed.is_plane and turning_rate_of(placed) == 0:
+            continue
+        alike = (
+            inertia
+            for other, inertia in known
+            if (other.body, other.across, other.point.name) == (placed.body, placed.across, placed.point.name)
+            and other.body.called == placed.body.called
+            and is_about_the_point(other) == is_about_the_point(placed)
+        )
+        inertia = next(alike, None)
+        if inertia is None:
+            inertia = inertia_of(placed)
+            known.append((placed, inertia))
+        turned = placed.turned
+        if not isinstance(turned, Axes):
+            found.append(Turning(inertia, turning_rate_of(placed)))
+        else:
+            letter = "omega" if len(system.bodies) == 1 or placed.body.called else f"omega_{i + 1}"
+            of = placed.body if placed.body.called else system if system.called else None
+            found.append(
+                Turning(inertia, angular_velocity(turned, convenient_axes(placed, value_behind(inertia)), of, letter))
+            )
+    return found
+
+
+def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kinetic_energy") -> Quantity:
+    """Kinetic energy of a system, T = sum of (1/2) M v^2 + (1/2) omega . I omega over its particles and bodies.
+
+    system   its particles and bodies: v is the speed of a centre of mass and I about it, but for a body that is held,
+             whose I is about the point that stays at rest
+    The square of each speed, each angular velocity and each inertia is a step of its own.
+    Second route: half the sum of m v.v over mass points, the places differentiated as functions of t.
+    Errors: the moments of a body are about another point.
+    Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    moved = movers(system, (symbol or "").partition("_")[2])
+    speeds = [_squared_speed(system, mover, len(moved) > 1) for mover in moved]
+    turnings = _turnings(system)
+    moving = list(system.coordinates)
+    inputs: dict[str, Any] = {f"speed_{i}": speed for i, speed in enumerate(speeds)}
+    for i, turning in enumerate(turnings):
+        inputs |= {f"inertia_{i}": turning.inertia, f"omega_{i}": turning.omega}
+
+    eliminated = [Eliminated(system.eliminated)] if system.eliminated else []
+
+    def law(*given: Expr) -> Expr:
+        squares, rest = given[: len(speeds)], given[len(speeds) :]
+        terms = [Factors(HALF, mover.mass, square) for mover, square in zip(moved, squares, strict=True)]
+        pairs = zip(turnings, rest[::2], rest[1::2], strict=True)
+        terms += [turning.energy(inertia, omega) for turning, inertia, omega in pairs]
+        return Terms(*terms) if len(terms) > 1 else terms[0]
+
+    def arranged(value: Expr) -> Expr:
+        gathered = by_rates(value.replace(tan, lambda a: sin(a) / cos(a)), moving, halves=True)
+        gathered = with_weights_in_front(gathered, moving, weights_of(system))
+        if all(turning.is_plane for turning in turnings):
+            return gathered
+        moved_on = [HALF * mover.mass * square.value for mover, square in zip(moved, speeds, strict=True)]
+        turned = [turning.written_out() for turning in turnings]
+        whole = Add(*(term for term in (*moved_on, *turned) if term != 0), evaluate=False)
+        return min((gathered, whole), key=length)
+
+    return establish(
+        "systems.kinetic_energy",
+        scalar(symbol or free_letter("T")),
+        law,
+        inputs,
+        key=key,
+        kind="energy",
+        parents=[*system.put_in, *_behind(system)],
+        routes={"mass_points": compared_with(system.matter.kinetic_energy)},
+        lines=Lines(put_in=_level_of_values(turnings), arranged=arranged),
+        facts=[replace(system.matter, loads=(), others=(), fields=()), *eliminated, system.described],
+        scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
+    )
+
+
+def _level_of_values(turnings: list[Turning]) -> Level | None:
+    """Where the values are put in: (1/2) M v^2 + (1/2) I theta_dot^2 is read easily, columns and matrices are not."""
+    if not turnings:
+        return None
+    return Level.STANDARD if all(turning.is_plane for turning in turnings) else Level.FULL
+
+
+def _behind(system: System) -> list[Quantity]:
+    """What the letters stand for by which bodies are known; what rests on them keeps the letters."""
+    return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
+
+
+def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """Term by term, or multiplied out where terms of several bodies then come together, -(M + m) g l cos(theta)."""
+    forms = [by_terms(value), by_terms(value.expand()), with_constants_together(value.expand(), moving)]
+    shortest = min(forms, key=length)
+    return Add(*(spread(term) for term in Add.make_args(shortest)))
+
+
+def potential_energy_of(system: System, symbol: str | None = None, key: str = "potential_energy") -> Quantity:
+    """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
+
+    system   its particles and bodies, whose y is that of the centre of mass; its weight, springs and other potentials
+    Second route: the forces do the work -dU along any motion, for each coordinate -dU/dq = sum of F . dr/dq; at the
+    origin, with the springs at their natural length, it is zero.
+    Outcomes: generic, zero (no force that has one).
+    Source: Taylor, *Classical Mechanics*, section 4.2.
+    """
+    moving, matter = [*system.coordinates, TIME], system.matter
+
+    def work(found: Expr) -> tuple[Expr, Expr]:
+        marks = [stand_in(f"delta_{q.name}") for q in moving]
+        lost = [-derivative(found, q) * mark for q, mark in zip(moving, marks, strict=True)]
+        return Add(*lost), Add(*(matter.stored_force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
+
+    masses = system.masses if system.weights else []
+    higher = [(mass, dict(at.found).get(len(at.components) - 1, at.height)) for mass, at in masses if at.height != 0]
+    named = {f"height_{i}": y for i, (_, y) in enumerate(higher) if isinstance(y, Quantity)}
+    # A sum stays in its bracket, where the law shows it.
+    as_factors = bool(named) or any(height.is_Add for _, height in higher)
+    stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
+    stored += [each.energy for each in system.stored]
+
+    lengths = long_distances(system)
+    kept = [each for each in system.between if each.is_spring and Relation(each.length, ">", ZERO) in assumed()]
+
+    def law(*given: Expr) -> Expr:
+        known = dict(zip(named, given, strict=True))
+        heights = [known.get(f"height_{i}", y) for i, (_, y) in enumerate(higher)]
+        weights = [(mass, system.gravity, y) for (mass, _), y in zip(higher, heights, strict=True)]
+        terms = [*(Factors(*each) if as_factors else Mul(*each) for each in weights), *stored]
+        return Terms(*terms) if len(terms) > 1 else Add(*terms)
+
+    return establish(
+        "systems.potential_energy",
+        scalar(symbol or free_letter("U")),
+        law,
+        named,
+        key=key,
+        kind="energy",
+        routes={"work": work},
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        lines=Lines(
+            put_in=Level.BRIEF if named else None,
+            result=not named,
+            arranged=explicit if named else lambda value: _terms_together(value, moving),
+        ),
+        facts=[replace(matter, points=(), fields=()), *acting_on(system), system.described],
+        parents=lengths,
+        phrase_data=PhraseData(
+            words={"seen": "stretched" if kept else "any"},
+            outcome_data={"branches": tuple(each.branch for each in system.between if each.branch is not None)},
+        ),
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
+    )
+
+
+def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_term") -> Quantity:
+    """What uniform magnetic fields add to a Lagrangian, sum of q v . A with the vector potential A = (1/2) B x r, J.
+
+    system   its charges, in C, in fields B, in T
+    Second route: (d/dq - d/dt d/dq_dot) of it is the virtual work of the forces q v x B along each coordinate.
+    Outcomes: alone, several (charges in fields).
+    Errors: no charge of the system is in a magnetic field.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5; the gauge is that of Landau, Lifshitz, *The
+    Classical Theory of Fields*, section 19.
+    """
+    moving, matter = list(system.coordinates), replace(system.matter, points=(), loads=(), others=())
+    if not matter.fields:
+        raise Rejected(Complaint("wrong-argument", "`magnetic_term_of` needs a charge in a magnetic field"))
+
+    def law() -> Expr:
+        terms = []
+        for field in matter.fields:
+            pairs = zip(field.vector_potential, field.place, strict=True)
+            rates = [Factors(a, TimeRate(c, *moving)) for a, c in pairs if a != 0 and c.has(TIME, *moving)]
+            terms.append(Factors(field.charge, Terms(*rates) if len(rates) > 1 else Add(*rates)))
+        return Terms(*terms) if len(terms) > 1 else terms[0]
+
+    def deflection(found: Expr) -> tuple[Expr, Expr]:
+        marks = [stand_in(f"delta_{q.name}") for q in moving]
+        pairs = list(zip(moving, marks, strict=True))
+        slopes = (derivative(found, q) - by_functions_of_time(derivative(found, rate(q)), moving) for q in moving)
+        works = (matter.deflection_along(q) * mark for q, mark in pairs)
+        return Add(*(slope * mark for slope, mark in zip(slopes, marks, strict=True))), Add(*works)
+
+    return establish(
+        "systems.magnetic_term",
+        scalar(symbol),
+        law,
+        {},
+        key=key,
+        kind="energy",
+        routes={"deflection": deflection},
+        outcome="several" if len(matter.fields) > 1 else "alone",
+        lines=Lines(put_in=None, arranged=lambda value: _with_common_factor(by_rates(value, moving))),
+        phrase_data=PhraseData(outcome_data={"fields": len(matter.fields)}),
+        facts=[matter],
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
+    )
+
+
+def _with_common_factor(value: Expr) -> Expr:
+    """(1/2) q B (x y_dot - y x_dot): what all terms have in common in front."""
+    terms = Add.make_args(value)
+    common = common_factor(list(terms)) if len(terms) > 1 else Integer(1)
+    return value if common == 1 else Mul(common, Add(*(tidied(term / common) for term in terms)), evaluate=False)

@@ -1,0 +1,92 @@
+"""Write an energy of a Lagrangian as a sum: squares of rates and momenta, and the potential energy unchanged."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    Integer,
+    Pow,
+    Rational,
+    Symbol,
+    factor,
+    together,
+)
+
+from derive.algebra.collect import by_rates, with_weights_in_front
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import Terms, bound, explicit, rate
+from derive.algebra.tidy import tidied
+from derive.mechanics.lagrange.lagrangian import energies_of
+from derive.mechanics.model.dalembert import Matter
+from derive.solving.presentation import _shortest, by_letters, by_one_square, roots_together
+from derive.steps.step import Form, Quantity
+
+ZERO = Integer(0)
+
+
+def beside_potential(
+    value: Expr, of: Quantity, letters: Sequence[Symbol], moving: Sequence[Symbol] = (), sign: int = 1
+) -> Expr:
+    """An energy as a sum: what is kinetic by squares of rates and of letters, and the potential energy as it was found.
+
+    of        the Lagrangian
+    letters   momenta, constant or not; `moving` are coordinates whose rates still occur
+    sign      that of the potential energy: -1 in a Lagrangian
+    """
+    energies = energies_of(of)
+    if energies is None:
+        return of_given(value, letters, moving)
+    potential = explicit(energies.potential.value)
+    at_rest = bound(value, {rate(q): ZERO for q in moving})
+    kinetic = by_one_square(by_rates(tidied(value - at_rest), list(moving), halves=True)) if moving else ZERO
+    kinetic = with_weights_in_front(kinetic, list(moving), of.needed(Matter).weights)
+    return Add(kinetic, sign * (by_letters(sign * at_rest - potential, letters) + potential))
+
+
+def of_given(value: Expr, letters: Sequence[Symbol], moving: Sequence[Symbol]) -> Expr:
+    """An energy of a Lagrangian that is given, where nothing tells which part of it is potential."""
+    fast = [*letters, *(rate(q) for q in moving)]
+    terms = Add.make_args(explicit(value).expand())
+    alone = tidied(Add(*(term for term in terms if not term.has(*fast))))
+    whole = Add(*(term for term in terms if term.has(*fast)))
+    forms = [roots_together(whole), tidied(whole), by_letters(whole, letters), factor(together(whole)), whole]
+    if moving:
+        forms.append(by_rates(whole, list(moving), halves=True))
+    return squared_below_roots(_shortest([explicit(form) for form in forms]), letters) + alone
+
+
+def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
+    """sqrt((p_x + b y)^2 + m^2 c^2), its squares completed where that is shorter."""
+    roots = {
+        power: by_letters(power.base, letters) ** power.exp
+        for power in value.atoms(Pow)
+        if power.exp.is_Rational and not power.exp.is_Integer
+    }
+    return value.xreplace(roots)
+
+
+def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
+    """The last line of an energy: its terms in the order of the names in them, what has none of these last."""
+
+    def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
+        first = next((i for i, name in enumerate(names) if term.has(name)), len(names))
+        linear = first < len(names) and not any(derivative(term, a, b) != 0 for a in names for b in names)
+        mixed = first < len(names) and derivative(term, names[first], 2) == 0
+        return linear, first, mixed, term.could_extract_minus_sign(), str(term)
+
+    terms = sorted(Add.make_args(value), key=rank)
+    return [Form(Terms(*terms) if len(terms) > 1 else value, "result")]
+
+
+def part_of_degree(value: Expr, rates: Sequence[Symbol], degree: int) -> Expr:
+    """The part of a quadratic expression that is homogeneous in the rates of degree 0, 1 or 2."""
+    u = Dummy("u")
+    scaled = bound(explicit(value), {v: u * v for v in rates})
+    halved = Rational(1, 2) if degree == 2 else Integer(1)
+    for _ in range(degree):
+        scaled = derivative(scaled, u)
+    return halved * bound(scaled, {u: ZERO})

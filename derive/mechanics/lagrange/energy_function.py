@@ -1,0 +1,200 @@
+"""The energy function of a Lagrangian, whether it is the energy, and whether it is conserved: two different questions.
+
+h = sum of q_dot dL/dq_dot - L is constant if L does not contain the time itself and no force does work that L does not
+know of. It is T + U if the places of the mass points depend on the coordinates alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, factor
+
+from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.length import length
+from derive.algebra.tidy import tidied
+from derive.mechanics.kinematics.coordinates import by_functions_of_time
+from derive.mechanics.lagrange.applied_forces import ActedOn, applied_force
+from derive.mechanics.lagrange.energy_forms import beside_potential, kinetic_first, part_of_degree
+from derive.mechanics.lagrange.given_lagrangian import Varied, energy_of, rate_of_energy
+from derive.mechanics.lagrange.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
+from derive.mechanics.model.constraint import Kept
+from derive.mechanics.model.dalembert import Load, Matter
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.record import free_letter
+from derive.steps.step import Form, Quantity, is_zero
+
+__all__ = ["energy_function", "energy_function_rate"]
+
+
+def outcome_of_energy(value: Expr, of: Quantity) -> str:
+    """Whether an energy function in coordinates and rates is T + U, and whether it is conserved."""
+    if energies_of(of) is None:
+        return _of_given(of)
+    whole = is_zero(value - of.needed(Energies).whole)
+    if not is_zero(_power_beside(of)):
+        return "work_energy" if whole else "work"
+    if TIME not in explicit(of.value).free_symbols:
+        return "energy" if whole else "conserved"
+    return "changing_energy" if whole else "changing"
+
+
+def _of_given(of: Quantity) -> str:
+    """Of a Lagrangian that is given no energy is known, but whether the function is conserved."""
+    if not is_zero(_power_beside(of)):
+        return "given_work"
+    return "given_changing" if TIME in explicit(of.value).free_symbols else "given_conserved"
+
+
+def _power_beside(of: Quantity) -> Expr:
+    """What forces do that have no potential energy, and those that keep a condition which itself moves."""
+    matter = of.needed(Matter)
+    loads = [load for load in matter.others if isinstance(load, Load)]
+    works = [rate(q) * load.work_along(q) for q in matter.coordinates for load in loads]
+    return explicit(Add(*works, *_powers_of_conditions(of)))
+
+
+def _powers_of_conditions(of: Quantity) -> list[Expr]:
+    """Of each condition that moves, -lambda df/dt: a force that keeps one which stays does no work."""
+    kept, moving = of.fact(Kept), list(of.coordinates)
+    still = {rate(q): Integer(0) for q in moving}
+    moved = [(c.force, c.velocity(moving).xreplace(still)) for c in (kept.constraints if kept else ())]
+    return [-force * v for force, v in moved if v != 0]
+
+
+def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
+    """What T + U has more than the energy function, and the same by the parts of T."""
+    if energies_of(of) is None:
+        return {}
+    excess = by_rates(tidied(of.needed(Energies).whole - value), [q.symbol for q in coordinates_of(of)])
+    if is_zero(excess):
+        return {}
+    kinetic = of.needed(Energies).kinetic.value
+    by_parts = part_of_degree(kinetic, rates, 1) + 2 * part_of_degree(kinetic, rates, 0)
+    pairs = [(excess, by_parts), (by_parts, excess)]
+    pairs += [(factor(form), other) for form, other in pairs if not form.has(*rates)]
+    return {"excess": min(pairs, key=lambda pair: length(pair[0]))}
+
+
+def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_function") -> Quantity:
+    """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
+
+    of   the Lagrangian, J
+    Second route: T_2 - T_0 + U, with the parts of T that are of degree 2 and 0 in the rates; where L is given, what L
+    gains where all rates are stretched, and by the energy identity its rate as a function of time.
+    Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
+    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U);
+    given_conserved, given_changing, given_work (L is given).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
+    """
+    moving = coordinates_of(of)
+    rates = [q.rate for q in moving]
+    energies, matter = energies_of(of), of.needed(Matter)
+
+    def law(L: Expr) -> Expr:
+        return Terms(*(Factors(Partial(L, v), v) for v in rates), -L)
+
+    def by_degree(found: Expr) -> tuple[Expr, Expr]:
+        assert energies is not None
+        kinetic = energies.kinetic.value
+        parts = part_of_degree(kinetic, rates, 2) - part_of_degree(kinetic, rates, 0)
+        return found, parts + energies.potential.value
+
+    def identity(found: Expr) -> tuple[Expr, Expr]:
+        assert isinstance(matter, Varied)
+        return by_functions_of_time(found, matter.coordinates), rate_of_energy(matter)
+
+    def stretched(found: Expr) -> tuple[Expr, Expr]:
+        assert isinstance(matter, Varied)
+        return found, energy_of(matter)
+
+    carried = Add(*(explicit(Partial(of.value, v)) * v for v in rates))
+    plain = beside_potential(explicit(carried - of.value), of, [], [q.symbol for q in moving])
+    return establish(
+        "energy.energy_function",
+        scalar(symbol or free_letter("h")),
+        law,
+        {"lagrangian": of},
+        lines=Lines(put_in=None, result=False, arranged=lambda _: plain, after=kinetic_first(plain, rates)),
+        routes={"by_degree": by_degree}
+        if energies is not None
+        else {"energy_identity": identity, "stretched": stretched},
+        outcome=lambda value: outcome_of_energy(value, of),
+        phrase_data=PhraseData(formulas=told_of_excess(plain, of, rates)),
+        key=key,
+        kind=of.step.kind,
+        facts=[FromLagrangian(of)],
+    )
+
+
+def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
+    """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt, the time being what occurs in L
+    by itself; and -lambda df/dt for each condition f = 0 that moves.
+
+    of   the energy function, J
+    The generalized forces Q are steps of their own.
+    Second route: h as a function of time, less the sum of q_dot (m a - F) . dr/dq, which vanishes by d'Alembert's
+    principle.
+    Outcomes: conserved (L does not contain the time), changes, work (forces without a potential energy do work), lost
+    (it can only decrease), work_and_time (both).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4, 2.5 and 2.7.
+    """
+    L = of.needed(FromLagrangian).lagrangian
+    matter, kept = L.needed(Matter), L.fact(Kept)
+    every = coordinates_of(L)
+    moving = [q.symbol for q in every]
+    forces = [(q, applied_force(L, q)) for q in every] if L.fact(ActedOn) is not None else []
+    applied = [(q, force) for q, force in forces if not is_zero(force.value)]
+    held = _powers_of_conditions(L)
+    in_time = explicit(-Partial(L.value, TIME))
+    powers = [explicit(force.value) * q.rate for q, force in applied]
+    rate_of_it = Add(by_terms(in_time), by_rates(Add(*powers), moving), *held)
+
+    def law(h: Expr, L: Expr, *forces: Expr) -> Relation:
+        works = [Factors(force, q.rate) for force, (q, _) in zip(forces, applied, strict=True)]
+        terms = [*works, *held, *([-Partial(L, TIME)] if in_time != 0 or not (works or held) else [])]
+        return Relation(TimeRate(h, *moving), "=", Terms(*terms) if len(terms) > 1 else terms[0])
+
+    def along_the_motion(found: Relation) -> tuple[Any, Any]:
+        work = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in moving]
+        work += [c.force * c.velocity(moving) for c in (kept.constraints if kept else ())]  # which vanishes
+        by_time = by_functions_of_time(of.value, moving)
+        both = [found.left, found.right, int(found.mark == "=")]
+        return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])
+
+    return establish(
+        "energy.energy_function_rate",
+        None,
+        law,
+        {"energy": of, "lagrangian": L, **{force.key: force for _, force in applied}},
+        lines=Lines(
+            put_in=None,
+            result=False,
+            arranged=lambda found: found,
+            after=[Form(Relation(TimeRate(of.symbol, *moving), "=", rate_of_it), "result")],
+        ),
+        routes=matter.named({"along_the_motion": along_the_motion}),
+        outcome=_sort_of_rate(rate_of_it, in_time, moving),
+        phrase_data=PhraseData(outcome_data={"moving": tuple(moving)}),
+        key=key or f"{of.key}_rate",
+        parents=[of, L],
+        facts=[FromLagrangian(L)],
+        scope=Scope(coordinates={c.force: c.kind_of_force or "" for c in (kept.constraints if kept and held else ())}),
+    )
+
+
+def _sort_of_rate(found: Expr, in_time: Expr, moving: Sequence[Symbol]) -> str:
+    if is_zero(found):
+        return "conserved"
+    if is_zero(found - in_time):
+        return "changes"
+    if in_time != 0:
+        return "work_and_time"
+    return "lost" if all(_takes(term, moving) for term in Add.make_args(found.expand())) else "work"
+
+
+def _takes(term: Expr, moving: Sequence[Symbol]) -> bool:
+    """Whether a term is a square of rates with a minus sign."""
+    return bool(term.is_nonpositive) and term.has(*(rate(q) for q in moving))

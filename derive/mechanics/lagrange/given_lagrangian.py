@@ -1,0 +1,204 @@
+"""A Lagrangian that is given as a formula: no mass points and no forces stand behind it.
+
+What bodies tell of other Lagrangians, the action tells of this one: momenta and forces are the first order of L where
+a rate or a coordinate is varied, and the energy identity dh/dt + dL/dt = q_dot (d/dt dL/dq_dot - dL/dq) checks an
+equation of motion without a derivative of L by its coordinate.
+
+Source: Landau, Lifshitz, *Mechanics*, sections 2 and 6; Goldstein, Poole, Safko, *Classical Mechanics*, section 2.3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, together
+
+from derive.algebra.expressions import TIME, Relation, bound, explicit, rate, scalar
+from derive.algebra.ranges import sign_within, take_as_positive
+from derive.algebra.taylor import slope
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import by_functions_of_time
+from derive.mechanics.lagrange.applied_forces import acting_on
+from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.model.described import Described, described
+from derive.mechanics.model.forces import Damper, GivenForce
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.record import assume, coordinates_in, free_letter
+from derive.steps.step import Quantity, Route
+from derive.steps.subject import Subject
+
+__all__ = ["given_lagrangian"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Varied(Matter):
+    """What a given Lagrangian does where it is varied, in the place of mass points and forces.
+
+    function   the Lagrangian
+    """
+
+    function: Expr = ZERO
+
+    def __add__(self, other: Matter) -> Matter:
+        if other != self:
+            raise Rejected(Complaint("different-subjects", "these belong to different Lagrangians"))
+        return self
+
+    @property
+    def is_known(self) -> bool:
+        return True
+
+    def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
+        return {f"given_{name}": route for name, route in routes.items()}
+
+    def kinetic_energy(self) -> Expr:
+        raise Rejected(Complaint("given-lagrangian", "of a Lagrangian that is given no kinetic energy is known"))
+
+    def momentum_along(self, q: Symbol) -> Expr:
+        """What L gains where the rate of q alone is varied."""
+        return slope(self.function, rate(q))
+
+    def turning_along(self, q: Symbol) -> Expr:
+        """What L gains where q alone is varied."""
+        return slope(self.function, q)
+
+    def inertia_along(self, q: Symbol) -> Expr:
+        """What the action loses where q is varied, per unit of time: dp/dt less the slope of L."""
+        return by_functions_of_time(self.momentum_along(q), self.coordinates) - self.turning_along(q)
+
+    def further_routes(self, q: Symbol) -> dict[str, Route]:
+        """The rate of the energy of q alone, the others being what they are as functions of time, less what these do,
+        is the power of what acts along q: no derivative of L by q is taken."""
+
+        def power(found: Any) -> tuple[Any, Any]:
+            others = [s for s in self.coordinates if s != q]
+            own = rate(q) * self.momentum_along(q) - self.function
+            changed = by_functions_of_time(own, self.coordinates)
+            given = by_functions_of_time(self.function, others)
+            along = (changed + given) / rate(q) - self.other_force_along(q)
+            return found, Relation(along, "=", 0)
+
+        return {"energy_identity": power}
+
+    def change_along(self, shift: Mapping[Symbol, Expr]) -> Expr:
+        """The first order of L where every coordinate is shifted by a formula."""
+        small = Dummy("epsilon", real=True)
+        moved: dict[Symbol, Expr] = {}
+        for q, x in shift.items():
+            moved.update({q: q + small * x, rate(q): rate(q) + small * by_functions_of_time(x, self.coordinates)})
+        return slope(bound(self.function, moved), small).xreplace({small: ZERO})
+
+
+@dataclass(frozen=True, eq=False)
+class WithoutBodies:
+    """What a given Lagrangian is about: its coordinates, and what acts along them besides."""
+
+    function: Expr
+    given_forces: tuple[GivenForce, ...] = ()
+    dampers: tuple[Damper, ...] = ()
+    constraints: tuple[Constraint, ...] = ()
+    called: str = ""
+
+    @cached_property
+    def coordinates(self) -> Mapping[Symbol, str]:
+        return coordinates_in(ImmutableDenseMatrix([self.function]))
+
+    @cached_property
+    def matter(self) -> Varied:
+        moving = tuple(self.coordinates)
+        loads = [*(each.load(moving) for each in self.given_forces), *(each.load(moving) for each in self.dampers)]
+        return Varied((), (), moving, tuple(loads), (), self.function)
+
+    @cached_property
+    def described(self) -> Described:
+        """What the witness is given of it: the function, and what acts along its coordinates."""
+        return Described(
+            described((*self.given_forces, *self.dampers), (), (), {}, None, self.coordinates, self.function)
+        )
+
+
+def given_lagrangian(
+    function: Expr,
+    *acting: GivenForce | Damper,
+    kind: str | None = "energy",
+    symbol: str | None = None,
+    key: str = "lagrangian",
+) -> Quantity:
+    """A Lagrangian that is given as a formula, L = f(q, q_dot, t): a premise, which is derived from nothing, as a
+    definition is.
+
+    function   a formula in coordinates, their rates and the time
+    acting     what acts along coordinates besides: couples, and drag against a rate
+    kind       what it is, an energy where it is that of a mechanical system
+    What stands below its roots is taken to be positive.
+    Errors: it holds no rate of a coordinate, or an acceleration.
+    Source: Landau, Lifshitz, *Mechanics*, section 2.
+    """
+    whole = explicit(function)
+    system = WithoutBodies(
+        whole,
+        tuple(each for each in acting if isinstance(each, GivenForce)),
+        tuple(each for each in acting if isinstance(each, Damper)),
+    )
+    moving = system.coordinates
+    if not whole.has(*(rate(q) for q in moving)) if moving else True:
+        message = "a Lagrangian that is given needs the rates of coordinates"
+        raise Rejected(Complaint("wrong-argument", message, help="the rate of x is `x_dot`"))
+    for q in moving:
+        if whole.has(rate(q, 2), rate(q, 3)):
+            message = f"a Lagrangian that is given holds coordinates and their rates, but not {rate(q, 2).name}"
+            raise Rejected(Complaint("wrong-argument", message))
+    strange = [q for each in acting for c in each.at for q in coordinates_in(ImmutableDenseMatrix([c]))]
+    for q in (q for q in strange if q not in moving):
+        message = f"a force or drag acts along {q.name}, which is no coordinate of the Lagrangian"
+        raise Rejected(Complaint("wrong-argument", message))
+    for base in sorted(_radicands(whole), key=str):
+        _take_as_real(base)
+    return establish(
+        "lagrangian.given",
+        scalar(symbol or free_letter("L")),
+        lambda: function,
+        {},
+        key=key,
+        kind=kind,
+        definition=True,
+        lines=Lines(put_in=None, arranged=lambda value: value),
+        facts=[system.matter, *acting_on(system), system.described],
+        scope=Scope(coordinates=moving, about=Subject(body=system)),
+    )
+
+
+def _radicands(whole: Expr) -> set[Expr]:
+    return {p.base for p in whole.atoms(Pow) if p.exp.is_Rational and p.exp.q % 2 == 0}
+
+
+def _take_as_real(base: Expr) -> None:
+    """The Lagrangian is real: what stands below its roots is positive, which the page tells where it is not known."""
+    above, below = together(base).as_numer_denom()
+    if base.is_nonnegative or sign_within(base) == 1:
+        return
+    if below.is_positive:
+        base = above.expand()
+    taken = Add(*(-term for term in Add.make_args(base) if term.could_extract_minus_sign()))
+    take_as_positive(base)
+    assume(Relation(base + taken, ">", taken))
+
+
+def energy_of(matter: Varied) -> Expr:
+    """h, by the first order of L where all rates are stretched by one factor: q_dot p summed, less L."""
+    stretch = Dummy("u", real=True)
+    rates = {rate(q): (1 + stretch) * rate(q) for q in matter.coordinates}
+    return slope(bound(matter.function, rates), stretch).xreplace({stretch: ZERO}) - matter.function
+
+
+def rate_of_energy(matter: Varied) -> Expr:
+    """What dh/dt is by the energy identity, for all functions of time: the sum of q_dot times each equation, less
+    dL/dt, the time being what occurs in L by itself."""
+    works = (rate(q) * matter.inertia_along(q) for q in matter.coordinates)
+    return Add(*works) - slope(matter.function, TIME)

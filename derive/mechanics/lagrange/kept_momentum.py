@@ -1,0 +1,90 @@
+"""What a constant momentum says of the rates once its value is known: I_z (psi_dot + phi_dot cos theta) = I_z S."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+
+from derive.algebra.expressions import Relation, bound, explicit, rate
+from derive.algebra.tidy import common_factor, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import OfCoordinate, by_functions_of_time
+from derive.mechanics.model.dalembert import Matter
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Form, Level, Quantity
+
+__all__ = ["value_kept"]
+
+
+@dataclass(frozen=True)
+class KeptMomentum(Fact):
+    """The letter of a momentum, the value that it keeps, and the rate of its coordinate that follows from that."""
+
+    missing = "is not the value of a conserved momentum"
+    momentum: Symbol
+    value: Expr
+    coordinate: Symbol
+    turning: Expr
+
+
+def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Quantity:
+    """That a conserved momentum has a value at all times, p_q = c: an equation of first order.
+
+    momentum   as `conserved` yields it
+    value      which it has at the start: a premise
+    matter     the mass points whose momentum it is
+    Second route: the sum of m v . dr/dq over the mass points is that value; and its rate by functions of time is the
+    sum of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
+    Errors: the value is not constant.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
+    """
+    require_constant("conserved", "value", value)
+    q = momentum.needed(OfCoordinate).coordinate
+    moving, p = list(momentum.coordinates), explicit(momentum.value).expand()
+    inertia = tidied(diff(p, q.rate))
+    if inertia == 0 or inertia.has(q.rate):
+        raise Rejected(Complaint("wrong-argument", f"`conserved`: `{momentum.key}` is not linear in {q.rate.name}"))
+    common = common_factor([*Add.make_args(p), explicit(value)])
+    common = common if common.is_positive else Integer(1)
+    rates = {rate(s) for s in moving}
+    terms = Add.make_args((p / common).expand())
+    with_rates = Add(*(term for term in terms if term.free_symbols & rates))
+    found = Relation(with_rates, "=", tidied((value - p) / common + with_rates))
+    turning = tidied((value - bound(p, {q.rate: Integer(0)})) / inertia)
+
+    def along_the_motion(here: Relation) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
+        left, right = (common * side for side in here.sides)
+        at_work = matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
+        marked = {"=": Integer(0)}.get(here.mark, Integer(1))
+        changing = by_functions_of_time(left - right, moving)
+        ours = [left - right, changing, marked]
+        return ImmutableDenseMatrix(ours), ImmutableDenseMatrix([matter.momentum_along(q.symbol) - value, at_work, 0])
+
+    return establish(
+        "effective.value_kept",
+        None,
+        lambda p, v: Relation(p, "=", v),
+        {"momentum": momentum, "value": value},
+        lines=Lines(
+            put_in=None,
+            result=False,
+            arranged=lambda _: found,
+            law=Level.FULL,
+            after=[Form(found, "divided", nonzero=(common,))],
+        ),
+        routes=matter.named({"along_the_motion": along_the_motion}),
+        phrase_data=PhraseData(outcome_data={"coordinate": q.symbol}),
+        key=key,
+        facts=[OfCoordinate(q), KeptMomentum(momentum.symbol, explicit(value), q.symbol, turning)],
+    )
+
+
+@dataclass(frozen=True)
+class WithMomenta(Fact):
+    """An equation of motion in which momenta have the values that they keep: the Lagrangian, and these values."""
+
+    missing = "is not an equation of motion with the values of conserved momenta put in"
+    lagrangian: Quantity
+    kept: tuple[KeptMomentum, ...]

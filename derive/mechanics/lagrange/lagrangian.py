@@ -1,0 +1,344 @@
+"""Lagrange's equations: energies in generalized coordinates, the Lagrangian, and the equation of motion of each.
+
+The second routes go back to places and forces (`derive.mechanics.model.dalembert`): momenta as mass times velocity
+along the motion of one coordinate, equations of motion by d'Alembert's principle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
+
+from derive.algebra.collect import by_accelerations, by_rates
+from derive.algebra.expressions import Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.length import length
+from derive.algebra.taylor import slope
+from derive.algebra.tidy import common_factor
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
+from derive.mechanics.lagrange.applied_forces import ActedOn, acting, forced_equation
+from derive.mechanics.lagrange.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
+from derive.mechanics.lagrange.given_lagrangian import Varied
+from derive.mechanics.model.constraint import Kept
+from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.model.system import System
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.record import changes, free_letter
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
+
+__all__ = [
+    "equation_of_motion",
+    "equations_of_motion",
+    "generalized_force",
+    "generalized_momentum",
+    "lagrangian",
+    "momentum_rate",
+]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class FromLagrangian(Fact):
+    """The Lagrangian that an equation of motion or a momentum comes from."""
+
+    missing = "does not come from a Lagrangian"
+    lagrangian: Quantity
+
+
+@dataclass(frozen=True)
+class Energies(Fact):
+    """The energies that a Lagrangian is the difference of."""
+
+    missing = "is not the Lagrangian that `lagrangian` yields"
+    kinetic: Quantity
+    potential: Quantity
+    magnetic: Quantity | None = None
+
+    @property
+    def whole(self) -> Expr:
+        return explicit(self.kinetic.value + self.potential.value)
+
+
+def energies_of(lagrangian: Quantity) -> Energies | None:
+    """The energies that it is the difference of; nothing where it is given."""
+    return None if lagrangian.fact(Varied) is not None else lagrangian.needed(Energies)
+
+
+def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian") -> Quantity:
+    """Lagrangian, L = T - U; of charges in magnetic fields L = T - U + sum of q v . A.
+
+    system   particles and bodies, and what acts on them; with the symbol "L_2" its energies are T_2 and U_2
+    Second route: the sum of q_dot dL/dq_dot, less L, is the energy T + U, for constraints that do not move; where the
+    time itself occurs, or a magnetic field, L and U less q v . A are the kinetic energy of the mass points.
+    Errors: this is no system.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
+    """
+    if not isinstance(system, System):
+        raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a `System`"))
+    symbol = symbol or free_letter("L")
+    base, _, index = symbol.partition("_")
+    own = f"_{index}" if index else ""
+    letters = [free_letter(f"{letter}{own}") for letter in "TU"]
+    kinetic = kinetic_energy_of(system, letters[0], f"kinetic_energy{own}")
+    potential = potential_energy_of(system, letters[1], f"potential_energy{own}")
+    moving = {**kinetic.coordinates, **potential.coordinates}
+
+    matter = (kinetic.fact(Matter) or Matter()) + (potential.fact(Matter) or Matter())
+    magnetic = None
+    if system.fields:
+        magnetic = magnetic_term_of(system, f"{base}_B{own}", f"magnetic_term{own}")
+        matter += magnetic.needed(Matter)
+    beside = {"magnetic": magnetic} if magnetic is not None else {}
+
+    def energy(found: Expr) -> tuple[Expr, Expr]:
+        carried = Add(*(rate(q) * slope(found, rate(q)) for q in moving))
+        return carried - found, kinetic.value + potential.value
+
+    def of_mass_points(found: Expr) -> tuple[Expr, Expr]:
+        return found + potential.value - matter.energy_in_fields(), matter.kinetic_energy()
+
+    driven = matter.is_driven or bool(beside) or changes(potential.value) is not None
+
+    return establish(
+        "lagrangian.lagrangian",
+        scalar(symbol),
+        lambda t, u, *b: _side_by_side(*Add.make_args(t), *(-term for term in Add.make_args(u)), *b),
+        {"kinetic": kinetic, "potential": potential, **beside},
+        lines=Lines(put_in=Level.BRIEF, result=False, arranged=explicit),
+        routes={"mass_points": of_mass_points} if driven else {"energy": energy},
+        key=key,
+        kind="energy",
+        outcome="in_field" if beside else "generic",
+        facts=[matter, Energies(kinetic, potential, magnetic), *acting(kinetic, potential)],
+    )
+
+
+def _side_by_side(*terms: Expr) -> Expr:
+    """Terms as they stand, without one that is 0."""
+    present = [term for term in terms if term != 0]
+    return Terms(*present) if len(present) > 1 else Add(*present)
+
+
+def coordinates_of(of: Quantity) -> list[Coordinate]:
+    """The coordinates whose motion a Lagrangian governs."""
+    matter = of.needed(Matter)
+    return [Coordinate(q, kind) for q, kind in of.coordinates.items() if q in matter.coordinates]
+
+
+def equation_of_motion(
+    of: Quantity, q: Coordinate, key: str = "equation_of_motion", derivatives: bool = True
+) -> Quantity:
+    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0; with other forces and constraints, see `forced_equation`.
+
+    of   the Lagrangian, J
+    q    one of its coordinates
+    derivatives   whether the force dL/dq, the momentum dL/dq_dot and its rate are steps of their own
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
+    Outcomes: generic, cyclic (L does not contain q, so its momentum is constant).
+    Errors: L does not depend on q.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
+    """
+    required(of.coordinates, q, "equation_of_motion", of)
+    matter = of.needed(Matter)
+    moving = list(of.coordinates)
+    found: list[Quantity] = []
+    if derivatives:
+        momentum = generalized_momentum(of, q)
+        found = [generalized_force(of, q), momentum, momentum_rate(momentum, q)]
+    if of.fact(ActedOn) or of.fact(Kept):
+        return forced_equation(of, q, found, key)
+
+    def by_virtual_work() -> Relation:
+        return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
+
+    whole = explicit(of.value)
+    gathered = by_accelerations(
+        explicit(
+            found[2].value - found[0].value
+            if found
+            else TimeRate(slope(whole, q.rate), *moving) - slope(whole, q.symbol)
+        ),
+        moving,
+    )
+    if found and of.fact(Varied) is not None:
+        terms = explicit(found[2].value) - explicit(found[0].value)
+        gathered = min((gathered, terms), key=length)
+    alone = len(coordinates_of(of)) == 1  # of several, what is divided out would spoil the symmetry of the whole
+    left = _without_common_factor(gathered, moving) if alone else gathered
+
+    return establish(
+        "lagrangian.equation_of_motion",
+        None,
+        lambda L: Relation(Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol)), "=", 0),
+        {"lagrangian": of},
+        lines=Lines(
+            between=[
+                *(
+                    Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL)
+                    for force, _, changing in ([found] if found else [])
+                ),
+                Form(Relation(gathered, "=", 0), "result"),
+            ],
+            put_in=None,
+            arranged=lambda _: Relation(left, "=", 0),
+        ),
+        routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
+        outcome="cyclic" if is_zero(slope(explicit(of.value), q.symbol)) else "generic",
+        phrase_data=PhraseData(named={"coordinate": q.symbol}),
+        key=key,
+        parents=found,
+        facts=[FromLagrangian(of), OfCoordinate(q), matter],
+    )
+
+
+def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
+    """l theta_ddot + g sin(theta) of m l^2 theta_ddot + m g l sin(theta): what is positive in all terms is left out.
+
+    Not what holds a coordinate, which would stand with the acceleration, nor what is below; numbers that are in
+    brackets count as well.
+    """
+    terms = Add.make_args(left)
+    factors = Mul.make_args(common_factor(list(terms)))
+    constant = [f for f in factors if f.is_positive and not f.has(*moving) and not f.as_base_exp()[1].is_negative]
+    common = Mul(*(f for f in constant if not f.is_number))
+    divided = [part for term in terms for part in Add.make_args(_divided(term, common))]
+    forms = [Add(*each, evaluate=False) for each in (_in_whole_numbers(divided), divided)]
+    return min((*forms, left), key=length)
+
+
+def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
+    """2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2: no number that all have in common.
+
+    But I + M a^2/4 stays what it is, a moment of inertia.
+    """
+    apart: list[tuple[Expr, list[Expr]]] = []
+    for term in terms:
+        parts = [
+            each.primitive() if each.is_Add and not _has_some_fractions(each) else each.as_coeff_Mul()
+            for each in Mul.make_args(term)
+        ]
+        apart.append((Mul(*(number for number, _ in parts)), [rest for _, rest in parts if rest != 1]))
+    below = ilcm(1, 1, *(number.q for number, _ in apart))
+    shared = Rational(igcd(0, *(int(number * below) for number, _ in apart)), below)
+    if below > 1 and any(map(_has_some_fractions, (f for _, factors in apart for f in factors))):
+        return list(terms)
+    return [_product(number / shared, *factors) for number, factors in apart]
+
+
+def _has_some_fractions(factor: Expr) -> bool:
+    """A sum in which some terms have a number below and some have none."""
+    below = {term.as_coeff_Mul()[0].q > 1 for term in Add.make_args(factor)} if factor.is_Add else set()
+    return len(below) == 2
+
+
+def _product(*factors: Expr) -> Expr:
+    """Its sums stay in their brackets."""
+    written = any(each.is_Add for each in factors)
+    return Mul(*(each for each in factors if each != 1 or not written), evaluate=not written)
+
+
+def _divided(term: Expr, common: Expr) -> Expr:
+    """Factor by factor, so that brackets stay."""
+    for factor in Mul.make_args(common):
+        term = term / factor
+    return term
+
+
+def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantity, ...]:
+    """Lagrange's equations, one for each coordinate, d/dt dL/dq_dot - dL/dq = 0.
+
+    of            the Lagrangian, J
+    derivatives   whether dL/dq, dL/dq_dot and its rate are steps of their own
+    Keys: motion_ and the name of the coordinate.
+    Second route: as `equation_of_motion`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
+    """
+    return tuple(equation_of_motion(of, q, f"motion_{q.symbol.name}", derivatives) for q in coordinates_of(of))
+
+
+def _difference(first: Expr, second: Expr) -> Expr:
+    return Terms(first, -Group(second)) if second != 0 else first
+
+
+def _key_of(lagrangian: Quantity, name: str) -> str:
+    """Steps of a second Lagrangian on the page begin with its own key, or with the name of its system."""
+    own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
+    plain = f"{own}_lagrangian" if own else "lagrangian"
+    return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"
+
+
+def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """Generalized force of the Lagrangian, dL/dq.
+
+    of   the Lagrangian, J
+    q    one of its coordinates
+    Second route: the sum of F . dr/dq over the loads and of m v . d(dr/dq)/dt over the mass points.
+    Outcomes: generic, zero (q does not occur).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
+    """
+    matter = of.needed(Matter)
+    return establish(
+        "lagrangian.generalized_force",
+        Partial(of.symbol, q.symbol),
+        lambda L: Partial(L, q.symbol),
+        {"lagrangian": of},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
+        routes=matter.named(
+            {
+                "virtual_work": compared_with(
+                    lambda: (
+                        matter.force_along(q.symbol)
+                        - matter.other_force_along(q.symbol)
+                        + matter.turning_along(q.symbol)
+                    )
+                ),
+            }
+        ),
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        phrase_data=PhraseData(named={"coordinate": q.symbol}),
+        key=key or _key_of(of, f"force_{q.symbol.name}"),
+    )
+
+
+def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """Generalized momentum, p = dL/dq_dot.
+
+    of   the Lagrangian, J
+    q    one of its coordinates
+    Second route: the sum of m v . dr/dq over the mass points.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
+    """
+    matter = of.needed(Matter)
+    return establish(
+        "lagrangian.generalized_momentum",
+        Partial(of.symbol, q.rate),
+        lambda L: Partial(L, q.rate),
+        {"lagrangian": of},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
+        routes=matter.named({"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))}),
+        key=key or _key_of(of, f"momentum_{q.symbol.name}"),
+        facts=[FromLagrangian(of), OfCoordinate(q)],
+    )
+
+
+def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """Rate of a generalized momentum, dp/dt, by the chain rule.
+
+    momentum   dL/dq_dot
+    q          its coordinate
+    Check: the coordinates as functions of t, each by its Taylor series.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
+    """
+    moving = list(momentum.coordinates)
+    return establish(
+        "lagrangian.momentum_rate",
+        TimeRate(momentum.symbol, *moving),
+        lambda p: TimeRate(p, *moving),
+        {"momentum": momentum},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_accelerations(value, moving)),
+        routes={"functions_of_time": compared_with(lambda: by_functions_of_time(momentum.value, moving))},
+        key=key or f"{momentum.key}_rate",
+    )

@@ -1,0 +1,95 @@
+"""Conjugate momenta, p_q = dL/dq_dot: their letters, their kinds, and how they are written."""
+
+from __future__ import annotations
+
+from sympy import (
+    Add,
+    Expr,
+    Symbol,
+)
+
+from derive.algebra.collect import by_rates
+from derive.algebra.expressions import Partial, explicit, scalar
+from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, coordinate, required
+from derive.mechanics.lagrange.lagrangian import FromLagrangian, coordinates_of, energies_of
+from derive.mechanics.model.dalembert import Matter
+from derive.solving.presentation import _shortest
+from derive.steps.establish import Lines, establish
+from derive.steps.step import Quantity, compared_with
+
+__all__ = ["conjugate", "conjugate_momentum", "momenta"]
+
+
+def letter_of_momentum(q: Coordinate) -> Symbol:
+    return scalar(f"p_{q.symbol.name}")
+
+
+def kind_of_momentum(kind: str, lagrangian: str | None = "energy") -> str | None:
+    """A length has a momentum, an angle an angular momentum; what has another dimension may have one without a name,
+    as where the Lagrangian is no energy."""
+    if lagrangian is None:
+        return None
+    return kind_of_dimension(
+        dimension_of_kind(lagrangian) * dimension_of_kind("time") / dimension_of_kind(kind),
+    )
+
+
+def conjugate(of: Coordinate) -> Coordinate:
+    """The momentum p_q as a letter of its own beside the coordinate, to write functions of both: `x*p_y - y*p_x`.
+
+    of   the coordinate, an angle or a length
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    kind = kind_of_momentum(of.kind)
+    if kind is None:
+        raise Rejected(Complaint("no-such-kind", f"the momentum of a quantity of the kind `{of.kind}` has no name"))
+    return coordinate(letter_of_momentum(of).name, kind)
+
+
+def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, key: str | None = None) -> Quantity:
+    """Momentum that belongs to a coordinate, p_q = dL/dq_dot.
+
+    of   the Lagrangian, J
+    q    one of its coordinates
+    Second route: the sum of m v . dr/dq over the mass points.
+    Outcomes: generic, zero.
+    Errors: L does not depend on q.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.6 and 8.1.
+    """
+    required(of.coordinates, q, "conjugate_momentum", of)
+    matter = of.needed(Matter)
+    letter = scalar(symbol) if symbol else letter_of_momentum(q)
+    return establish(
+        "canonical.conjugate_momentum",
+        letter,
+        lambda L: Partial(L, q.rate),
+        {"lagrangian": of},
+        lines=Lines(put_in=None, arranged=lambda value: written_momentum(value, of)),
+        routes=matter.named({"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))}),
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        key=key or letter.name,
+        kind=kind_of_momentum(q.kind, of.step.kind),
+        facts=[FromLagrangian(of), OfCoordinate(q)],
+    )
+
+
+def written_momentum(value: Expr, of: Quantity) -> Expr:
+    """By rates; of a Lagrangian that is given term by term where that is shorter, as beside a root."""
+    forms = [by_rates(value, list(of.coordinates))]
+    if energies_of(of) is None:
+        forms.append(Add(*(tidied(term) for term in Add.make_args(explicit(value)))))
+    return _shortest(forms)
+
+
+def momenta(of: Quantity) -> tuple[Quantity, ...]:
+    """Momenta of all coordinates, p_q = dL/dq_dot.
+
+    of   the Lagrangian, J
+    Keys: p_ and the name of the coordinate.
+    Second route: as `conjugate_momentum`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    return tuple(conjugate_momentum(of, q) for q in coordinates_of(of))

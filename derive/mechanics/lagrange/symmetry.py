@@ -1,0 +1,178 @@
+"""Noether's theorem: a shift of the coordinates that leaves the Lagrangian as it is gives a constant of the motion.
+
+Source: Landau, Lifshitz, *Mechanics*, sections 7 and 9; Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+
+from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.expressions import Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.normal_form import vanishes
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, required
+from derive.mechanics.lagrange.given_lagrangian import Varied
+from derive.mechanics.lagrange.lagrangian import FromLagrangian, coordinates_of
+from derive.mechanics.lagrange.momenta import conjugate_momentum, written_momentum
+from derive.mechanics.model.dalembert import Matter
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.step import Form, Level, Quantity
+
+__all__ = ["noether"]
+
+ZERO = Integer(0)
+
+
+def noether(
+    of: Quantity,
+    shift: Mapping[Coordinate, Any],
+    gained: Any = ZERO,
+    symbol: str = "Q",
+    key: str = "noether",
+) -> Quantity:
+    """Constant of the motion that belongs to a symmetry, Q = sum of p_q xi_q - F.
+
+    of       the Lagrangian, J
+    shift    coordinate -> xi, a formula in coordinates and the time: each q becomes q + epsilon xi
+    gained   F in coordinates and the time, where the shift adds epsilon dF/dt to L; nothing unless it is given
+    That L stays, and the momenta, are steps of their own.
+    Second route: its rate by functions of time is d'Alembert's sum along the shift, sum of xi (m a - F) . dr/dq, which
+    vanishes; and it is the sum of m v . dr and q A . dr, the mass points being carried along by the shift.
+    Outcomes: symmetry, with_gain.
+    Errors: L does not stay as it is: what is left is told; the shift holds a rate, or moves nothing.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
+    """
+    xi = _formulas(of, shift)
+    gain = _plain(gained, "gained", of)
+    changed = _change(of, xi, gain, key)
+    matter = of.needed(Matter)
+    moving = [q.symbol for q in coordinates_of(of)]
+    momenta = {q: conjugate_momentum(of, q) for q in shift}
+
+    def law(*p: Expr) -> Expr:
+        carried = [_times(each, x) for each, x in zip(p, xi.values(), strict=True) if x != 0]
+        return Terms(*carried, *(term for term in Add.make_args(-gain) if term != 0))
+
+    def along_the_shift(found: Expr) -> tuple[Expr, Expr]:
+        work = [x * (matter.inertia_along(q) - matter.force_along(q)) for q, x in xi.items()]
+        return by_functions_of_time(found, moving), Add(*work)
+
+    def carried(found: Expr) -> tuple[Expr, Expr]:
+        if isinstance(matter, Varied):
+            return found, Add(*(x * matter.momentum_along(q) for q, x in xi.items())) - gain
+        in_fields = (x * matter.field_momentum_along(q) for q, x in xi.items())
+        return found, Add(*(m * way * v for m, way, v in _ways(matter, xi)), *in_fields) - gain
+
+    return establish(
+        "symmetry.noether",
+        scalar(symbol),
+        law,
+        {f"momentum_{q.symbol.name}": p for q, p in momenta.items()},
+        lines=Lines(put_in=None, arranged=lambda value: written_momentum(value, of)),
+        routes=matter.named({"along_the_shift": along_the_shift, "carried": carried}),
+        outcome="with_gain" if gain != 0 else "symmetry",
+        phrase_data=PhraseData(outcome_data={"gain": gain}, points_to={"change": changed}),
+        key=key,
+        parents=[of, changed],
+        facts=[FromLagrangian(of)],
+    )
+
+
+def _formulas(of: Quantity, shift: Mapping[Coordinate, Any]) -> dict[Symbol, Expr]:
+    named: list[Any] = list(shift)
+    for q in named:
+        if not isinstance(q, Coordinate):
+            message = "`noether` needs the shift of each coordinate: {x: 1}, or {x: -y, y: x}"
+            raise Rejected(Complaint("wrong-argument", message))
+        required(of.coordinates, q, "noether", of)
+    found = {q.symbol: _plain(x, f"shift of {q.symbol.name}", of) for q, x in shift.items()}
+    if all(x == 0 for x in found.values()):
+        raise Rejected(Complaint("wrong-argument", "`noether`: this shift moves nothing"))
+    return found
+
+
+def _plain(value: Any, role: str, of: Quantity) -> Expr:
+    """A formula in coordinates and the time, without rates."""
+    found = value.symbol if isinstance(value, Coordinate) else Integer(value) if isinstance(value, int) else value
+    if not isinstance(found, Expr) or found.has(*(rate(q, n) for q in of.coordinates for n in (1, 2))):
+        message = f"`noether`: the {role} is a formula in the coordinates and the time, without rates"
+        raise Rejected(Complaint("wrong-argument", message))
+    return found
+
+
+def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Quantity:
+    """The first order of the change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt, which must vanish or be dF/dt."""
+    matter = of.needed(Matter)
+    moving = [q.symbol for q in coordinates_of(of)]
+    L = explicit(of.value)
+    ways = {q: x for q, x in xi.items() if x != 0 and L.has(q)}
+    ways.update({rate(q): v for q, x in xi.items() if (v := explicit(TimeRate(x, *moving))) != 0 and L.has(rate(q))})
+    left = Add(*(diff(L, s) * x for s, x in ways.items())) - explicit(TimeRate(gain, *moving))
+    if not vanishes(left):
+        message = (
+            f"`noether`: the shift is no symmetry, it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
+        )
+        raise Rejected(Complaint("no-symmetry", message, help="a change by the rate of some F is told by `gained=F`"))
+
+    told: dict[str, Expr] = {}
+    for i, (q, x) in enumerate(xi.items(), 1):
+        told.update({f"q_{i}": q, **({f"xi_{i}": x} if x != 1 else {})})
+
+    def law(L: Expr, *_: Expr) -> Relation:
+        terms = [_times(Partial(L, s), x) for s, x in ways.items()]
+        still = [Partial(L, q) for q, x in xi.items() if x != 0]
+        return Relation(Terms(*(terms or still)), "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
+
+    def changed_by(gain: Expr) -> Expr:
+        return by_functions_of_time(gain, moving)
+
+    def by_places(found: Relation) -> tuple[Any, Any]:
+        """What the points gain of (1/2) m v.v on their way, and the work of the loads on it."""
+        if isinstance(matter, Varied):
+            left = matter.change_along(xi)
+            return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([left, changed_by(gain)])
+        done = [m * by_functions_of_time(way, moving) * v for m, way, v in _ways(matter, xi)]
+        done += [matter.force_along(q) * x for q, x in xi.items()]
+        done += [by_functions_of_time(matter.field_momentum_along(q) * x, moving) for q, x in xi.items()]
+        both = [found.left, found.right]
+        return ImmutableDenseMatrix(both), ImmutableDenseMatrix([Add(*done), changed_by(gain)])
+
+    return establish(
+        "symmetry.change",
+        None,
+        law,
+        {"lagrangian": of, **told},
+        lines=Lines(put_in=None, result=False, arranged=explicit, after=_worked(L, ways, gain, moving)),
+        routes=matter.named({"places": by_places}),
+        outcome="none" if explicit(TimeRate(gain, *moving)) == 0 else "gain",
+        phrase_data=PhraseData(outcome_data={"moved": tuple(ways)}),
+        key=f"{key}_change",
+    )
+
+
+def _worked(L: Expr, ways: Mapping[Symbol, Expr], gain: Expr, moving: Sequence[Symbol]) -> list[Form]:
+    """The derivatives put in, where there are any that do not vanish."""
+    terms = [_times(by_rates(diff(L, s), moving), x) for s, x in ways.items()]
+    right = by_rates(explicit(TimeRate(gain, *moving)), moving)
+    return [Form(Relation(Terms(*terms), "=", right), "put_in", Level.STANDARD)] if terms else []
+
+
+def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, Expr]]:
+    """Mass, way and velocity of each point along each axis, as the shift carries it."""
+    found: list[tuple[Expr, Expr, Expr]] = []
+    for point in matter.points:
+        for c in point.place:
+            way = Add(*(diff(c, q) * x for q, x in xi.items()))
+            found.append((point.mass, way, by_functions_of_time(c, matter.coordinates)))
+    return found
+
+
+def _times(derivative: Expr, factor: Expr) -> Expr:
+    """The product, kept in its bracket where it would be multiplied out."""
+    both = factor != 1 and (factor.is_Add or derivative.is_Add)
+    return Factors(factor, derivative) if both else factor * derivative

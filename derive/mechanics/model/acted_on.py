@@ -1,0 +1,101 @@
+"""What acts on a system acts on its particles, and back on what exerts it; what keeps a constraint can do so."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+from sympy import Add, Expr, Symbol
+
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.described import Described, conditions_that_nothing_keeps, places_that_move_alone
+from derive.mechanics.model.forces import GivenForce
+from derive.steps.step import is_zero
+
+WHERE_IT_ACTS: Mapping[str, str] = {
+    "force": "name the body whose particle it acts on, `of: ball`, or write `of: massless` for a part without mass",
+    "drag": "name the body whose particle it acts on, `of: ball`, or write `of: massless` for a part without mass",
+    "spring": "end it at a particle or a point of a body, or write `massless: true` for a joint without mass",
+    "central force": "end it at a particle or a point of a body, or write `massless: true` for a joint without mass",
+}
+
+
+class ActsOnNothing(Rejected):
+    """A part of a system that acts on no particle, or of which the other side is not stated."""
+
+    part: Any = None
+
+    @classmethod
+    def of(cls, part: Any, complaint: Complaint) -> ActsOnNothing:
+        found = cls(complaint)
+        found.part = part
+        return found
+
+
+class WithParts(Protocol):
+    """A system, with the places at which its parts act: each part, what it is called, and where."""
+
+    @property
+    def described(self) -> Described: ...
+    @property
+    def acting(self) -> Sequence[tuple[Any, str, tuple[Expr, ...]]]: ...
+    @property
+    def masses(self) -> Sequence[tuple[Expr, Location]]: ...
+    @property
+    def given_forces(self) -> tuple[GivenForce, ...]: ...
+    @property
+    def constraints(self) -> tuple[Constraint, ...]: ...
+
+
+def check_what_is_acted_on(system: WithParts) -> None:
+    """Refuse a place that moves with nothing, friction without its other side, and a constraint without a gradient."""
+    _check_particles(system)
+    _check_gradients(system)
+    _check_partners(system)
+
+
+def _check_particles(system: WithParts) -> None:
+    """Each place moves with a body, a particle or the ground."""
+    acting = system.acting
+    for i in places_that_move_alone(system.described.description, [place for _, _, place in acting]):
+        part, what, place = acting[i]
+        where = ", ".join(map(str, place))
+        message = f"the {what} at ({where}) acts on no particle: that place moves with no body and no particle here"
+        raise ActsOnNothing.of(part, Complaint("which-body", message, help=WHERE_IT_ACTS[what]))
+
+
+def check_ground(system: WithParts, ground: object) -> None:
+    """A place of the surface on which a body rolls moves with a body, a particle or the ground."""
+    if isinstance(ground, Location) and places_that_move_alone(system.described.description, [ground.components]):
+        where = ", ".join(map(str, ground.components))
+        message = f"the place ({where}) of the ground moves with no body and no particle here"
+        help_line = "give a place that is fixed on the surface, or the axes in which the surface is at rest"
+        raise Rejected(Complaint("which-body", message, help=help_line))
+
+
+def _check_gradients(system: WithParts) -> None:
+    """A force keeps a constraint along its gradient, which does not vanish where the constraint holds."""
+    for lost in conditions_that_nothing_keeps(system.described.description):
+        part = next((each for each in system.constraints if each.force == lost.multiplier), None)
+        message = f"the gradient of {lost.residual} vanishes wherever it is zero, so no force can keep it at zero"
+        help_line = "without a square it can be kept: `x - y` in place of `(x - y)**2`"
+        raise ActsOnNothing.of(part, Complaint("constrained", message, help=help_line))
+
+
+def _check_partners(system: WithParts) -> None:
+    """A force in proportion to a force of constraint acts between two: the opposite one acts on the other."""
+    letters: set[Symbol] = {each.force for each in system.constraints}
+    touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]
+    open_ = [f for f in touching if f.by is None]
+    if len(system.masses) < 2 or not open_:
+        return
+    size = len(open_[0].components)
+    resultant = [Add(*(f.components[i] for f in touching if len(f.components) == size)) for i in range(size)]
+    if all(is_zero(c) for c in resultant):
+        return
+    (letter, *_) = sorted({s.name for c in open_[0].components for s in c.free_symbols & letters})
+    message = f"a force with {letter} acts between two bodies, but it is not stated which body exerts it"
+    help_line = "name the body on which the opposite force acts, `by: plank`, or write `by: ground`"
+    raise ActsOnNothing.of(open_[0], Complaint("which-body", message, help=help_line))

@@ -1,0 +1,72 @@
+"""How far apart two places of a system are, as a step with a letter of its own, where the formula is long."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from sympy import Add, Expr, Pow, Rational, sqrt
+
+from derive.algebra.expressions import Terms, explicit, scalar
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import Central, System
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.record import given_letters
+from derive.steps.step import Quantity, compared_with
+from derive.steps.subject import Subject
+
+__all__: list[str] = []
+
+Lengths: TypeAlias = list[Quantity]
+
+LONG = 4  # so many terms under a root are a formula to be written once
+LETTERS = ("s", "u", "w")
+
+
+def long_distances(system: System) -> Lengths:
+    """The lengths of springs, and other distances of which a potential energy is one, that are long formulas."""
+    long = [each for each in system.between if _is_long(each.length)]
+    letter = next((each for each in LETTERS if not _is_taken(each, system)), LETTERS[0])
+    names = [f"{letter}_{i}" for i in range(1, len(long) + 1)] if len(long) > 1 else [letter]
+    return [_distance(system, each, name) for each, name in zip(long, names, strict=False)]
+
+
+def _is_long(length: Expr) -> bool:
+    return any(
+        root.exp == Rational(1, 2) and len(Add.make_args(root.base.expand())) >= LONG for root in length.atoms(Pow)
+    )
+
+
+def _is_taken(letter: str, system: System) -> bool:
+    return any(name.partition("_")[0] == letter for name in (*given_letters(), *(q.name for q in system.coordinates)))
+
+
+def _distance(system: System, each: Central, name: str) -> Quantity:
+    """Distance of two places, s = sqrt((x_2 - x_1)^2 + (y_2 - y_1)^2 + ...), in m.
+
+    Second route: the law of cosines, s^2 = r_1^2 + r_2^2 - 2 r_1 . r_2.
+    Outcomes: spring (the only one), springs, other (no spring).
+    Source: Taylor, *Classical Mechanics*, section 1.2.
+    """
+    way = [c for c in (each.end - each.start).components if c != 0]
+    return establish(
+        "systems.distance",
+        scalar(name),
+        lambda: sqrt(Terms(*(Pow(c, 2) for c in way))) if len(way) > 1 else each.length,
+        {},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"law_of_cosines": compared_with(lambda: sqrt(_by_cosines(each.start, each.end)))},
+        outcome=_outcome(system, each),
+        key=f"distance_{name.partition('_')[2]}" if "_" in name else "distance",
+        kind="length",
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
+    )
+
+
+def _outcome(system: System, each: Central) -> str:
+    several = sum(other.is_spring for other in system.between) > 1
+    return "other" if not each.is_spring else "springs" if several else "spring"
+
+
+def _by_cosines(one: Location, other: Location) -> Expr:
+    squares = Add(*(c**2 for place in (one, other) for c in place.components))
+    return explicit(squares - 2 * Add(*(a * b for a, b in zip(one.components, other.components, strict=True))))

@@ -1,0 +1,223 @@
+"""What acts on a system besides its weight and its springs: given forces and couples, drag, charges in fields, and any
+potential energy of the coordinates.
+
+A couple on an angle, and a drag on a coordinate, act along that coordinate alone; everything else acts at a place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+
+from derive.algebra.expressions import TIME, TimeRate, as_expr, explicit, rate
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.dalembert import Load, MagneticForce
+from derive.mechanics.model.material import GROUND, MaterialPoint, material_point
+from derive.steps.record import coordinates_in, require_constant
+from derive.steps.step import is_zero
+
+__all__ = ["charge", "couple", "damping", "force", "potential"]
+
+Vector = tuple[Expr, ...]
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class GivenForce:
+    """A force at a place, N, or along a coordinate what does the work Q dq: for an angle a couple, N m.
+
+    of   what it acts on, if that is stated: a body, a particle, or "massless"
+    by   what exerts it: a body or particle, on which the opposite force acts, or "ground"
+    """
+
+    components: Vector
+    at: Vector
+    of: Any = None
+    by: Any = None
+
+    @cached_property
+    def point(self) -> MaterialPoint:
+        """What it acts on, as that moves."""
+        return material_point("force", self.of, Location(self.at))
+
+    def load(self, moving: Sequence[Symbol]) -> Load:
+        return Load(self.components, self.point.place, self.point.held)
+
+    @property
+    def opposite(self) -> GivenForce | None:
+        """The force on what exerts this one, at the same place."""
+        if self.by is None or self.by == GROUND:
+            return None
+        return GivenForce(tuple(-c for c in self.components), self.at, self.by, self.of)
+
+
+@dataclass(frozen=True)
+class Damper:
+    """A drag -c v against the velocity of a place, or the rate of a coordinate; `of` as for forces."""
+
+    constant: Expr
+    at: Vector
+    of: Any = None
+
+    @cached_property
+    def point(self) -> MaterialPoint:
+        """What it acts on, as that moves."""
+        return material_point("damping", self.of, Location(self.at))
+
+    def velocity(self, moving: Sequence[Symbol]) -> Vector:
+        return tuple(explicit(TimeRate(c, *moving)).xreplace(self.point.values) for c in self.point.place)
+
+    def load(self, moving: Sequence[Symbol]) -> Load:
+        drag = tuple(-self.constant * v for v in self.velocity(moving))
+        return Load(drag, self.point.place, self.point.held)
+
+
+@dataclass(frozen=True)
+class StoredEnergy:
+    """A potential energy of the coordinates and the time, J."""
+
+    energy: Expr
+
+    def loads(self, moving: Sequence[Symbol]) -> list[Load]:
+        """Along each coordinate the force -dU/dq; as the time passes it loses -dU/dt."""
+        slopes = [(q, -diff(self.energy, q)) for q in (*moving, TIME)]
+        return [Load((slope,), (q,)) for q, slope in slopes if slope != 0]
+
+
+@dataclass(frozen=True)
+class InUniformField(StoredEnergy):
+    """The energy of a charge in a uniform electric field; the force q E at its place is known without it."""
+
+    force: Vector
+    at: Vector
+
+    def loads(self, moving: Sequence[Symbol]) -> list[Load]:
+        """The force; and as the field changes, the energy loses (dF/dt) . r."""
+        changes = Add(*(diff(f, TIME) * c for f, c in zip(self.force, self.at, strict=True)))
+        return [Load(self.force, self.at), *([Load((changes,), (TIME,))] if changes != 0 else [])]
+
+
+@dataclass(frozen=True)
+class Charge:
+    """A charge in given fields, which need not be the same everywhere: the force q(E + v x B)."""
+
+    charge: Expr
+    at: Location
+    electric: Vector
+    magnetic: Vector
+
+    @property
+    def stored(self) -> StoredEnergy:
+        """In a uniform electric field, U = -q E . r."""
+        place = self.at.components
+        energy = -self.charge * Add(*(e * c for e, c in zip(self.electric, place, strict=True)))
+        return InUniformField(energy, tuple(self.charge * e for e in self.electric), place)
+
+    @property
+    def deflected(self) -> MagneticForce:
+        return MagneticForce(self.charge, self.at.components, self.magnetic)
+
+
+def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
+    values = given.components if isinstance(given, Location) else given
+    if not isinstance(values, tuple | list) or len(values) != count:
+        message = f"`{verb}` needs {count} components as its `{role}`, as many as its place has"
+        raise Rejected(Complaint("wrong-argument", message))
+    try:
+        return tuple(as_expr(value) for value in values)
+    except TypeError:
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs expressions as its `{role}`")) from None
+
+
+def _place(verb: str, at: Any) -> Location:
+    if not isinstance(at, Location):
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` acts at a place that `point` or `place` gives"))
+    return at
+
+
+def force(components: Any, at: Location, of: Any = None, by: Any = None) -> GivenForce:
+    """A given force at a place, N: constants, formulas of the coordinates, or of the time t.
+
+    of   the body or particle that it acts on, where the place does not move with it; "massless" for a part without mass
+    by   the body or particle that exerts it, on which the opposite force acts; or "ground"
+    """
+    place = _place("force", at)
+    found = GivenForce(_vector("force", "components", components, len(place.components)), place.components, of, by)
+    for each in (found, found.opposite):
+        if each is not None:
+            each.load(())  # which refuses what nothing can act on
+    return found
+
+
+def couple(torque: Any, on: Any) -> GivenForce:
+    """A given torque that turns by an angle, N m; a coordinate, or an angle made of coordinates."""
+    along = as_expr(on)
+    if not coordinates_in(along):
+        raise Rejected(Complaint("wrong-argument", f"`couple` turns something, but {along} does not move"))
+    return GivenForce((as_expr(torque),), (along,))
+
+
+def damping(constant: Any, at: Any, of: Any = None) -> Damper:
+    """A drag against the velocity of a place, -c v with c in kg/s, or of a coordinate, -c q_dot.
+
+    of   the body or particle whose particle at that place it acts on, where the place does not move with it
+    """
+    require_constant("damping", "constant", constant)
+    if isinstance(at, Location):
+        found = Damper(constant, at.components, of)
+        found.load(())  # which refuses what nothing can act on
+        return found
+    if not isinstance(at, Coordinate | Expr) or not coordinates_in(as_expr(at)):
+        message = "`damping` acts against the velocity of a place or against the rate of a coordinate"
+        raise Rejected(Complaint("wrong-argument", message))
+    return Damper(constant, (as_expr(at),))
+
+
+def potential(energy: Any) -> StoredEnergy:
+    """A potential energy of the coordinates, J, and of the time where it is driven."""
+    given: Expr = explicit(as_expr(energy))
+    moving = coordinates_in(given)
+    fast = [q for q in moving if given.has(rate(q), rate(q, 2))]
+    if fast:
+        message = f"`potential` needs an energy of the coordinates, but it depends on the rate of {fast[0].name}"
+        raise Rejected(Complaint("wrong-argument", message))
+    if not moving:
+        raise Rejected(Complaint("wrong-argument", f"`potential` needs an energy of coordinates, but {given} has none"))
+    return StoredEnergy(given)
+
+
+def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
+    """A charge, C, at a place in a uniform electric field E, V/m, and a uniform magnetic field B, T.
+
+    E   as many components as the place has
+    B   three components; in a plane the one across it, towards the reader
+    """
+    place = _place("charge", at)
+    count = len(place.components)
+    electric = _vector("charge", "E", E, count) if E is not None else (ZERO,) * count
+    if B is None:
+        magnetic: Vector = (ZERO,) * (3 if count == 3 else 1)
+    elif count == 2:
+        magnetic = (as_expr(B),) if not isinstance(B, tuple | list | Location) else _vector("charge", "B", B, 1)
+    else:
+        magnetic = _vector("charge", "B", B, 3)
+    require_constant("charge", "charge", as_expr(amount))
+    for role, field in (("electric field", electric), ("magnetic field", magnetic)):
+        for component in field:
+            if coordinates_in(component):
+                help_line = "give another field by `potential` or `force`"
+                message = f"`charge` needs a uniform {role}, but {component} changes from place to place"
+                raise Rejected(Complaint("changes", message, help=help_line))
+    for component in magnetic:
+        require_constant("charge", "magnetic field", component)
+    return Charge(as_expr(amount), place, electric, magnetic)
+
+
+def is_nothing(vector: Vector) -> bool:
+    return is_zero(ImmutableDenseMatrix(vector))

@@ -1,0 +1,116 @@
+"""Where something is: the components of a place as steps of their own, and conditions on rates, integrated."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from sympy import Expr, ImmutableDenseMatrix
+
+from derive.algebra.expressions import explicit, rate, scalar
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.kinematics.coordinates import by_functions_of_time
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.system import KnownCoordinate
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.record import coordinates_in
+from derive.steps.step import Level, Quantity
+
+__all__ = ["components", "integrated"]
+
+NAMES = {2: ("x", "y"), 3: ("x", "y", "z")}
+
+
+def integrated(condition: Quantity, key: str | None = None) -> Quantity:
+    """A condition on rates with constant factors, integrated: s = R theta of s_dot = R theta_dot.
+
+    condition   as `no_slip` yields it, where it gives one rate by others with constant factors
+    Coordinates are counted from where all of them are zero.
+    Check: differentiated as a function of t it is the condition again; and all are zero together.
+    Errors: the condition cannot be integrated.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
+    """
+    known = condition.needed(KnownCoordinate)
+    q, function = known.coordinate, known.function
+    if condition.symbol == q:
+        return condition
+    moving = coordinates_in(ImmutableDenseMatrix([q, function]))
+    at_zero = dict.fromkeys(moving, 0)
+
+    def differentiated(found: Expr) -> tuple[Expr, Expr]:
+        return by_functions_of_time(found, list(moving)), condition.value.residual.subs(rate(q), 0) * -1
+
+    return establish(
+        "located.integrated",
+        q,
+        lambda *_: function,
+        {},
+        lines=Lines(put_in=None, arranged=explicit),
+        routes={"differentiated": differentiated, "start": lambda found: (found.subs(at_zero), 0 * q)},
+        key=key or q.name,
+        kind=moving.get(q),
+        phrase_data=PhraseData(points_to={"condition": condition}),
+        parents=[condition],
+        facts=[known],
+    )
+
+
+def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence[str] = ()) -> tuple[Quantity, ...]:
+    """The components of a place, or of the centre of mass of a body, with what conditions of rolling make of them.
+
+    of           a body that is placed or held, or a place, m
+    conditions   as `no_slip` yields them: the coordinates that they give by others are put in
+    names        of the components, which are their keys; x, y and z, the last of them upwards, unless given
+    A place that `point` makes of them is called by their letters in speeds and energies.
+    Check: the velocity, with what the conditions make of the rates, is that of the result; and so is the place
+    where all coordinates are zero.
+    Outcomes: centre (of a body), place.
+    Errors: a condition cannot be integrated; the names are not as many as the components.
+    Source: Taylor, *Classical Mechanics*, section 7.3.
+    """
+    place = of.centre if isinstance(of, PlacedBody) else of
+    called = tuple(names) or NAMES[len(place.components)]
+    if len(called) != len(place.components):
+        message = f"`components` needs {len(place.components)} names, not {len(called)}"
+        raise Rejected(Complaint("wrong-argument", message))
+    known = {f"known_{i}": integrated(condition) for i, condition in enumerate(conditions)}
+    body = of if isinstance(of, PlacedBody) else None
+    return tuple(_component(body, c, i, known, called[i]) for i, c in enumerate(place.components))
+
+
+def _component(
+    body: PlacedBody | None, component: Expr, i: int, conditions: Mapping[str, Quantity], name: str
+) -> Quantity:
+    """One of them.
+
+    Outcomes: centre, place.
+    Source: that of `components`.
+    """
+    used = {role: q for role, q in conditions.items() if component.has(q.symbol)}
+    letters = [q.symbol for q in used.values()]
+    values = {q.symbol: q.value for q in used.values()}
+    moving = list(coordinates_in(component))
+
+    def same_velocity(found: Expr) -> tuple[Expr, Expr]:
+        velocity = by_functions_of_time(component, moving)
+        rates = {rate(s): by_functions_of_time(value, moving) for s, value in values.items()}
+        return by_functions_of_time(found, moving), velocity.subs(rates).subs(values)
+
+    def at_zero(found: Expr) -> tuple[Expr, Expr]:
+        zero = dict.fromkeys(moving, 0)
+        return found.subs(zero), component.subs(zero)
+
+    centre = {"centre": body.moved(values).centre.components[i]} if body is not None else {}
+    return establish(
+        "located.component",
+        scalar(name),
+        lambda *known: component.xreplace(dict(zip(letters, known, strict=True))),
+        used,
+        lines=Lines(put_in=Level.STANDARD, arranged=explicit),
+        routes={"velocity": same_velocity, "start": at_zero},
+        outcome="place" if body is None else "centre",
+        phrase_data=PhraseData(outcome_data=centre),
+        key=name,
+        kind="length",
+        scope=Scope(coordinates=coordinates_in(component.subs(values))),
+    )

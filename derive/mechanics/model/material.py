@@ -1,0 +1,69 @@
+"""Material points: the particle that a body has at a place, and how it moves.
+
+A place in space may move like no particle at all, as the contact point of a ball that slides. What acts on a body acts
+on the particle that is there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from sympy import Expr, ImmutableDenseMatrix, Symbol
+
+from derive.algebra.expressions import stand_in
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.placed import PlacedBody, after
+from derive.mechanics.kinematics.places import Axes, Location
+
+Vector: TypeAlias = tuple[Expr, ...]
+Held: TypeAlias = tuple[tuple[Symbol, Expr], ...]
+GROUND, MASSLESS = "ground", "massless"
+
+
+@dataclass(frozen=True)
+class MaterialPoint:
+    """A particle: its place, with letters for where it is in its body, and what these letters are.
+
+    place   to be differentiated, with the letters held constant
+    held    letter -> its value, to be substituted afterwards
+    """
+
+    place: Vector
+    held: Held = ()
+
+    @property
+    def values(self) -> dict[Symbol, Expr]:
+        return dict(self.held)
+
+
+def particle_of(body: PlacedBody, at: Location) -> MaterialPoint:
+    """The particle that a rigid body has at a place: r(q) + R(q) rho with rho = R^T (r_place - r) held constant."""
+    arm = ImmutableDenseMatrix((at - body.at).components)
+    names = [stand_in(f"rho_{i}") for i in range(len(arm))]
+    turn = body.turned.in_space if isinstance(body.turned, Axes) else after(((2, body.turned),))[:2, :2]
+    carried = turn * ImmutableDenseMatrix(names)
+    place = tuple(a + b for a, b in zip(body.at.components, carried, strict=True))
+    return MaterialPoint(place, tuple(zip(names, turn.T * arm, strict=True)))
+
+
+def at_rest_in(axes: Axes, at: Location) -> MaterialPoint:
+    """The particle of a surface that is at rest in these axes, such as a turntable, at a place."""
+    arm = axes.in_space.T * ImmutableDenseMatrix(at.components)
+    names = [stand_in(f"rho_{i}") for i in range(len(arm))]
+    return MaterialPoint(tuple(axes.in_space * ImmutableDenseMatrix(names)), tuple(zip(names, arm, strict=True)))
+
+
+def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
+    """What moves at a place: the particle of a body, a particle itself, or the place as it is given.
+
+    of   a placed body; a particle, wherever it is; "massless" for a part without mass that moves as the place does
+    """
+    if of is None or of == MASSLESS:
+        return MaterialPoint(at.components)
+    if isinstance(of, PlacedBody):
+        return particle_of(of, at)
+    if hasattr(of, "mass") and isinstance(getattr(of, "at", None), Location):
+        return MaterialPoint(of.at.components)
+    message = f"`{verb}` acts on a particle or on a body that is placed or held"
+    raise Rejected(Complaint("wrong-argument", message, help='give one of these as `of=`, or "massless"'))

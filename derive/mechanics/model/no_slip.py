@@ -1,0 +1,337 @@
+"""Rolling without slipping: the particle of a body that touches a surface has the velocity of the surface there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, factor, sqrt
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.collect import by_rates
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import Relation, TimeRate, as_expr, column, explicit, rate, scalar, stand_in
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.taylor import slope
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.bodies.placed import PlacedBody, after
+from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time
+from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.material import MaterialPoint, at_rest_in, particle_of
+from derive.mechanics.model.system import KnownCoordinate
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.record import assume, changes, coordinates_in
+from derive.steps.step import Fact, Form, Level, Quantity, is_zero
+
+__all__ = ["no_slip", "rolling_constraint"]
+
+ZERO = Integer(0)
+Ground: TypeAlias = Location | Axes
+
+
+def no_slip(
+    body: PlacedBody,
+    at: Location,
+    ground: Ground | None = None,
+    key: str = "no_slip",
+    fixes: Coordinate | None = None,
+) -> Quantity | tuple[Quantity, ...]:
+    """Condition of rolling without slipping, v + omega x (r_contact - r) = 0, solved for a rate.
+
+    body     a body that is placed or held; v is the velocity of the point r where that is
+    at       where it touches the surface, m
+    ground   a place of the surface, where that moves without rotating, or the axes in which the surface is at rest, as
+             for a turntable; by default it is at rest
+    fixes    the coordinate whose rate is to stand alone, if it can; by default that of the body's last turn
+    One condition for each rate that it fixes. Given to a `System` as one of its
+    parts, it gives a coordinate by others where it can be integrated.
+    Second route: the place that the particle at the contact has in the body, held fast and differentiated with it; the
+    condition follows from that being at rest, and is no more.
+    Errors: the body is at rest there in any case, or cannot roll.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
+    """
+    found: dict[Symbol, Quantity] = {}
+    for condition in _independent(body, at, ground, fixes):
+        name = key if not found else f"{key}_{len(found) + 1}"
+        found[condition.q] = _solved(body, at, ground, condition, name, fixes)
+    return next(iter(found.values())) if len(found) == 1 else tuple(found.values())
+
+
+def rolling_constraint(
+    body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
+) -> tuple[Constraint, ...]:
+    """The conditions of rolling, each kept by a force: F, or F_1, F_2 where there are several."""
+    conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
+    _check_against_particle(body, at, ground, conditions)
+    letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
+    return tuple(
+        Constraint(each, ZERO, scalar(letter), in_rates=True) for each, letter in zip(conditions, letters, strict=True)
+    )
+
+
+def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr]:
+    """The components of the velocity of slipping along directions at right angles: friction has the same components.
+
+    The velocity is a sum of the conditions, each times a vector; the directions are those of these vectors, made
+    perpendicular to one another.
+    """
+    vectors: list[ImmutableMatrix] = []
+    for each in conditions:
+        fast = rate(each.q)
+        before = [(vector, derivative(other.left, fast)) for vector, other in zip(vectors, conditions, strict=False)]
+        own = velocity.applyfunc(lambda c, fast=fast: derivative(c, fast))
+        for vector, share in before:
+            own = own - vector * share
+        vectors.append(ImmutableDenseMatrix((own / each.factor).applyfunc(tidied)))
+    ways: list[ImmutableMatrix] = []
+    for vector in vectors:
+        across = vector
+        for way in ways:
+            across = across - way * tidied(way.dot(vector))
+        length = tidied(sqrt(tidied(across.dot(across))))
+        ways.append(ImmutableDenseMatrix((across / length).applyfunc(tidied)))
+    return [_sum_of([tidied(way.dot(vector)) for vector in vectors], conditions) for way in ways]
+
+
+def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
+    """By its rates; a condition alone stays as it is."""
+    parts = [(share, each.left) for share, each in zip(shares, conditions, strict=True) if share != 0]
+    if len(parts) == 1 and parts[0][0] == 1:
+        return parts[0][1]
+    whole = Add(*(share * left for share, left in parts))
+    by_rate = {rate(q): derivative(whole, rate(q)) for q in coordinates_in(whole)}
+    plain = whole.xreplace(dict.fromkeys(by_rate, ZERO))
+    return Add(*(tidied(along) * fast for fast, along in by_rate.items()), tidied(plain))
+
+
+def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
+    """No line of a page shows that these say neither more nor less than that the particle at the contact is at rest."""
+    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    at_rest = velocity_of_particle(body, at, ground)
+    ranks = {_rank(lines, moving) for lines in (at_rest, conditions, [*at_rest, *conditions])}
+    if len(ranks) > 1:
+        message = "the conditions of rolling are not those of a particle that is at rest where the body touches"
+        raise Unverified(Complaint("unverified", message))
+    if not _are_as_long(conditions, at_rest):
+        message = "the conditions of rolling are not components of the velocity of slipping"
+        raise Unverified(Complaint("unverified", message))
+
+
+@dataclass(frozen=True)
+class Rolling(Fact):
+    """The body that rolls, the place of contact, and a place of what it rolls on, if that moves."""
+
+    missing = "is not a condition of rolling"
+    body: PlacedBody
+    at: Location
+    ground: Ground | None
+
+
+class _Condition:
+    """A sum of rates that vanishes, and the coordinate for whose rate it is solved."""
+
+    def __init__(self, left: Expr, q: Symbol, known: dict[Symbol, Expr]):
+        self.left, self.q, self.known = left, q, known
+
+    @property
+    def factor(self) -> Expr:
+        return derivative(self.left, rate(self.q))
+
+    @property
+    def rate(self) -> Expr:
+        return tidied(-(self.left - self.factor * rate(self.q)) / self.factor)
+
+
+def _independent(
+    body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None = None
+) -> Iterator[_Condition]:
+    """Conditions of which none follows from the others."""
+    _check(body, at, ground)
+    known: dict[Symbol, Expr] = {}
+    first = [fixes.symbol] if fixes is not None else []
+    order = list(dict.fromkeys([*first, *_order(body, at)]))
+    for left in _conditions(contact_velocity(body, at, ground)):
+        rest = tidied(left.subs(known))
+        present = [q for q in order if not is_zero(derivative(rest, rate(q)))]
+        steady = [q for q in present if changes(derivative(rest, rate(q)), order) is None]
+        q = next(iter([*steady, *present]), None)
+        if q is None:
+            if not is_zero(rest):
+                raise Rejected(Complaint("wrong-argument", f"the body cannot roll there: {rest} would have to vanish"))
+            continue
+        condition = _Condition(rest, q, dict(known))
+        known[rate(q)] = condition.rate
+        yield condition
+    if not known:
+        raise Rejected(Complaint("wrong-argument", "the particle of the body at the contact is at rest in any case"))
+
+
+def _check(body: Any, at: Location, ground: Ground | None) -> None:
+    if not isinstance(body, PlacedBody):
+        message = "`no_slip` needs a body that is placed or held"
+        raise Rejected(Complaint("wrong-argument", message, help="put it somewhere with `.placed` or `.held`"))
+    for place in (at, ground):
+        if (
+            place is not None
+            and not isinstance(place, Axes)
+            and (not isinstance(place, Location) or len(place.components) != len(body.at.components))
+        ):
+            raise Rejected(Complaint("wrong-argument", "`no_slip` needs a contact with as many components as the body"))
+    _check_reaches(body, at)
+
+
+def _check_reaches(body: PlacedBody, at: Location) -> None:
+    """A round body touches what is not beyond its radius."""
+    radius = getattr(body.body, "radius", None)
+    if not isinstance(radius, Expr) or not body.is_plane:
+        return
+    way = (at - body.centre).components
+    beyond = tidied(Add(*(c**2 for c in way)) - radius**2)
+    if not coordinates_in(ImmutableDenseMatrix([beyond])) and strict_sign_within(beyond) == 1:
+        where = ", ".join(map(str, at.components))
+        message = f"{body.body.name} of radius {radius} does not reach ({where}), so it does not touch anything there"
+        raise Rejected(Complaint("no-contact", message, help="give the place where it touches as `at`"))
+
+
+def _order(body: PlacedBody, at: Location) -> list[Symbol]:
+    """The coordinates of the last turn first, then those of the turns before it, and then the others."""
+    if isinstance(body.turned, Axes):
+        turning = [q for _, angle in reversed(body.turned.turns) for q in coordinates_in(angle)]
+    else:
+        turning = list(coordinates_in(as_expr(body.turned)))
+    everything = coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components]))
+    return list(dict.fromkeys([*turning, *everything]))
+
+
+def contact_velocity(body: PlacedBody, at: Location, ground: Ground | None) -> ImmutableMatrix:
+    """Of the particle of the body at the contact, as seen from the surface: v + omega x (r_contact - r)."""
+    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    arm = ImmutableDenseMatrix((at - body.at).components)
+    v = ImmutableDenseMatrix([explicit(TimeRate(c, *moving)) for c in body.at.components])
+    if isinstance(body.turned, Axes):
+        turns = body.turned.turns
+        omega = column(0, 0, 0)
+        for i, (axis, angle) in enumerate(turns):
+            about = after(turns[:i]) * column(*(int(k == axis) for k in range(3)))
+            omega = omega + explicit(TimeRate(angle, *moving)) * about
+        v = v + omega.cross(arm)
+    else:
+        speed = explicit(TimeRate(body.turned, *moving))
+        v = v + ImmutableDenseMatrix([-speed * arm[1], speed * arm[0]])
+    if ground is not None:
+        v = v - _velocity_of_ground(ground, at)
+    return ImmutableDenseMatrix(v.applyfunc(tidied))
+
+
+def _velocity_of_ground(ground: Ground, at: Location) -> ImmutableMatrix:
+    """Of the surface at the contact: of axes that turn, omega x r with omega from R_dot R^T."""
+    if isinstance(ground, Location):
+        return ImmutableDenseMatrix([explicit(TimeRate(c, *coordinates_in(c))) for c in ground.components])
+    turn, moving = ground.in_space, list(coordinates_in(ground.in_space))
+    turning = turn.applyfunc(lambda entry: explicit(TimeRate(entry, *moving))) * turn.T
+    return ImmutableDenseMatrix(turning * ImmutableDenseMatrix(at.components))
+
+
+def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
+    """What vanishes: of components that are multiples of one expression in the rates, that one alone."""
+    parts = [_rates_alone(component) for component in velocity if component != 0]
+    if parts and all(is_zero(part - parts[0]) or is_zero(part + parts[0]) for part in parts):
+        return parts[:1]
+    return [component for component in velocity if component != 0]
+
+
+def _rates_alone(component: Expr) -> Expr:
+    """The component without the factors that hold no rate."""
+    fast = {s for q in coordinates_in(component) for s in (rate(q),)}
+    kept = [f for f in Mul.make_args(factor(component)) if f.free_symbols & fast]
+    return Mul(*kept) if kept else component
+
+
+def _solved(
+    body: PlacedBody, at: Location, ground: Ground | None, condition: _Condition, key: str, fixes: Coordinate | None
+) -> Quantity:
+    """The condition as the rate that it fixes."""
+    q, found = condition.q, condition.rate
+    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    marks = [stand_in(f"delta_{i}") for i in range(len(at.components))]
+
+    def at_rest(relation: Relation) -> tuple[Expr, Expr]:
+        """The particle of the body at the contact is at rest there, all conditions taken together."""
+        velocity = velocity_of_particle(body, at, ground)
+        known = {**_all_rates(body, at, ground, fixes), relation.left: relation.right}
+        return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
+
+    def no_more(relation: Relation) -> tuple[Expr, Expr]:
+        """It follows from the particle being at rest: as a further line it leaves the rank of that as it is."""
+        lines = velocity_of_particle(body, at, ground)
+        return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
+
+    coefficients = [derivative(found, rate(other)) for other in moving]
+    plain = found - Add(*(c * rate(other) for c, other in zip(coefficients, moving, strict=True)))
+    constant = all(changes(c, moving) is None for c in coefficients) and is_zero(plain)
+    facts: list[Fact] = [Rolling(body, at, ground)]
+    if constant:
+        function = Add(*(c * other for c, other in zip(coefficients, moving, strict=True)))
+        facts.append(KnownCoordinate(q, function))  # but for a constant, which is zero where both angles are
+    factors = tuple(f.as_base_exp()[0] for f in Mul.make_args(condition.factor) if not f.is_nonzero)
+    for each in factors:
+        assume(Relation(each, "!=", ZERO))
+    solved = Relation(rate(q), "=", found)
+    return establish(
+        "rolling.no_slip",
+        None,
+        lambda: Relation(by_rates(condition.left, moving), "=", ZERO),
+        {},
+        lines=Lines(
+            law=Level.FULL,
+            put_in=None,
+            result=False,
+            after=[Form(solved, "result", Level.BRIEF, factors)],
+            arranged=lambda _: solved,
+        ),
+        routes={"at_rest": at_rest, "no_more": no_more},
+        key=key,
+        facts=facts,
+        scope=Scope(coordinates=coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components]))),
+    )
+
+
+def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
+    """Of linear conditions on the rates, at a place of no significance."""
+    rates = [rate(q) for q in moving]
+    still = dict.fromkeys(rates, ZERO)
+    rows = Matrix([[*(slope(line, v) for v in rates), line.xreplace(still)] for line in lines])
+    letters = sorted(rows.free_symbols, key=str)
+    there = {letter: Rational(3 * i + 7, 2 * i + 11) for i, letter in enumerate(letters)}
+    return int(rows.xreplace(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
+
+
+def _are_as_long(components: list[Expr], vector: list[Expr]) -> bool:
+    """Whether the squares of both add up to the same, with a number for every letter."""
+    apart = Add(*(c**2 for c in components), *(-(c**2) for c in vector))
+    there = {s: Rational(5 * i + 3, 3 * i + 8) for i, s in enumerate(sorted(apart.free_symbols, key=str))}
+    return bool(abs(apart.xreplace(there).evalf(30)) < Rational(1, 10**15))
+
+
+def _all_rates(body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None) -> dict[Symbol, Expr]:
+    found: dict[Symbol, Expr] = {}
+    for condition in _independent(body, at, ground, fixes):
+        found = {fixed: value.subs(rate(condition.q), condition.rate) for fixed, value in found.items()}
+        found[rate(condition.q)] = condition.rate
+    return found
+
+
+def velocity_of_particle(body: PlacedBody, at: Location, ground: Ground | None) -> list[Expr]:
+    """The particle is where the contact is: held fast in the body, its place is differentiated as a function of t."""
+    point = particle_of(body, at)
+    place = list(point.place)
+    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    fast = [by_functions_of_time(c, moving).subs(point.values) for c in place]
+    if ground is None:
+        return fast
+    surface = at_rest_in(ground, at) if isinstance(ground, Axes) else MaterialPoint(ground.components)
+    slow = [by_functions_of_time(c, list(coordinates_in(c))).subs(surface.values) for c in surface.place]
+    return [a - b for a, b in zip(fast, slow, strict=True)]

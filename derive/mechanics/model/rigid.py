@@ -1,0 +1,188 @@
+"""How a body turns, and the inertia with which it does: about the point at which it is held, or its centre of mass."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from sympy import Add, Expr, ImmutableDenseMatrix, MatAdd, Mul, cos, eye, factor, sin
+from sympy.matrices import ImmutableMatrix
+from sympy.simplify.fu import TR5, TR6
+
+from derive.algebra.expressions import TimeRate, as_expr, column, explicit, scaled, vector
+from derive.algebra.length import length
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.placed import XYZ, PlacedBody, after
+from derive.mechanics.kinematics.coordinates import by_functions_of_time
+from derive.mechanics.kinematics.places import Axes, space
+from derive.mechanics.rotation.inertia import inertia_tensor, moment_seen
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.record import coordinates_in, established
+from derive.steps.step import Quantity, compared_with, is_zero
+from derive.steps.subject import NOTHING, Subject
+
+__all__ = ["angular_velocity"]
+
+Inertia: TypeAlias = Quantity | Expr  # a step, or the letter of a moment across the plane
+_SQUARES = (lambda value: value, TR5, TR6)  # as it is, by cosines, by sines
+
+
+def angular_velocity(
+    axes: Axes,
+    along: Axes | None = None,
+    body: Any = None,
+    symbol: str = "omega",
+    key: str = "angular_velocity",
+) -> Quantity:
+    """Angular velocity of axes that turn, omega = sum of alpha_i_dot n_i over their turns, in 1/s.
+
+    axes    each of their turns is about one of the axes that the turns before it led to
+    along   the axes along which its components are: `space`, or those after some of the turns; by default all turns
+    body    the body that turns with the axes, where it has a name of its own
+    Second route: the rotation matrix R differentiated as a function of t: the antisymmetric matrix R_dot R^T.
+    Outcomes: body (components along the axes themselves), following (along axes that share all turns but the last
+    ones), space.
+    Errors: the axes do not turn; `along` are none that the turns pass.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
+    """
+    count = len(axes.turns) if along is None else len(along.turns)
+    if along is not None and axes.turns[:count] != along.turns:
+        message = "`angular_velocity` has components along axes from which, or to which, these axes are turned"
+        raise Rejected(Complaint("wrong-axis", message, help="give `along=space`, or axes between space and these"))
+    moving = list(coordinates_in(axes.in_space))
+    terms = [
+        (explicit(TimeRate(angle, *moving)), _seen_from(axes, i, count)) for i, (_, angle) in enumerate(axes.turns)
+    ]
+    turning = [(speed, around) for speed, around in terms if speed != 0]
+    if not turning:
+        raise Rejected(
+            Complaint("wrong-argument", "`angular_velocity` needs axes that turn, but these stay as they are")
+        )
+    whole = [scaled(speed, around) for speed, around in turning]
+
+    def by_rotation_matrix() -> ImmutableMatrix:
+        matrix, frame = axes.in_space, after(axes.turns[:count])
+        rows, columns = frame.T * by_functions_of_time(matrix, moving), matrix.T * frame
+        return column(*((rows[i, :] * columns[:, j])[0].expand() for i, j in ((2, 1), (0, 2), (1, 0))))
+
+    return establish(
+        "rigid.angular_velocity",
+        vector(symbol),
+        lambda *_: MatAdd(*whole) if len(whole) > 1 else whole[0],
+        {f"turn_{n}": angle for n, (_, angle) in enumerate(axes.turns, 1)},
+        lines=Lines(put_in=None, arranged=lambda value: ImmutableDenseMatrix(explicit(value).applyfunc(by_squares))),
+        routes={"rotation_matrix": compared_with(by_rotation_matrix)},
+        outcome="space" if count == 0 else "body" if count == len(axes.turns) else "following",
+        phrase_data=PhraseData(outcome_data={"in_space": axes.in_space, "frame": after(axes.turns[:count])}),
+        key=key,
+        kind="angular speed",
+        scope=Scope(
+            coordinates=coordinates_in(axes.in_space), about=Subject(body=body) if body is not None else NOTHING
+        ),
+    )
+
+
+def by_squares(value: Expr) -> Expr:
+    """-cos^2 a/sin a, not (sin^2 a - 1)/sin a, whichever is shorter."""
+    value = tidied(value)
+    above, below = value.as_numer_denom()
+    uppers, lowers = (_factored_by_squares(part.expand()) for part in (above, below))
+    forms = [upper / lower for upper in uppers for lower in lowers]
+    return min((value, *forms), key=lambda form: (length(form) + _minuses_below(form), len(form.atoms(Add))))
+
+
+def _factored_by_squares(value: Expr) -> list[Expr]:
+    forms = dict.fromkeys(f(value).expand() for f in _SQUARES) if value.has(sin, cos) else [value]
+    return [factor(form) for form in forms]
+
+
+def _minuses_below(value: Expr) -> int:
+    sums = [f for f in Mul.make_args(value.as_numer_denom()[1]) if f.is_Add]
+    return sum(term.could_extract_minus_sign() for f in sums for term in f.args)
+
+
+def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
+    """The unit vector about which the turn of this number goes, along the axes after so many turns."""
+    about = column(*(int(k == axes.turns[i][0]) for k in range(3)))
+    if i < count:
+        return ImmutableDenseMatrix(after(axes.turns[i + 1 : count]).T * about)
+    return ImmutableDenseMatrix(after(axes.turns[count : i + 1]) * about)
+
+
+def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
+    """Those along which the inertia of a body in space is constant, and the components of its angular velocity short.
+
+    Where the last turns are about an axis of symmetry, these are the axes before them.
+    """
+    axes: Any = placed.turned
+    count = len(axes.turns)
+    if count > 1:
+        last = axes.turns[-1][0]
+        while count > 1 and axes.turns[count - 1][0] == last and _is_symmetric(inertia, last):
+            count -= 1
+    return Axes(after(axes.turns[:count]), axes.turns[:count]) if count else space
+
+
+def _is_symmetric(inertia: ImmutableMatrix, axis: int) -> bool:
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    off = [inertia[axis, j], inertia[axis, k], inertia[j, k], inertia[j, j] - inertia[k, k]]
+    return is_zero(ImmutableDenseMatrix(off))
+
+
+def turning_rate_of(placed: PlacedBody) -> Expr:
+    """Of a body in a plane, without its sign."""
+    angle: Any = placed.turned
+    found: Expr = tidied(TimeRate(angle, *coordinates_in(as_expr(angle))))
+    return -found if found.could_extract_minus_sign() else found
+
+
+def is_about_the_point(placed: PlacedBody) -> bool:
+    """Whether the body is held, and its inertia is known about the point at which it is."""
+    if not placed.is_held:
+        return False
+    body, point = placed.body, placed.point
+    if hasattr(body, "point_called"):
+        return is_zero(point.position - body.point.position) if body.about == "fixed_point" else _at_centre(placed)
+    if _at_centre(placed):
+        return True
+    named = {**body.points()}.get(point.name)
+    return named is not None and named.position == point.position and named.axes == ImmutableDenseMatrix(eye(3))
+
+
+def _at_centre(placed: PlacedBody) -> bool:
+    return is_zero(placed.point.position - placed.body.middle.position)
+
+
+def inertia_of(placed: PlacedBody) -> Inertia:
+    """The tensor of a body in space, the moment across the plane of one in a plane.
+
+    Errors: the moments that are given are about another point than the one needed.
+    """
+    body, axis = placed.body, placed.across
+    about = "centre" if _at_centre(placed) or not is_about_the_point(placed) else placed.point.name
+    if hasattr(body, "point_called"):
+        _check_moments(placed)
+        moments: tuple[Expr, ...] = body.moments
+        tensor: Inertia = body.tensor if axis is None else getattr(body, "across_plane", None) or moments[axis]
+        return tensor
+    if axis is None:
+        return inertia_tensor(body, about=about)
+    return moment_seen(body, XYZ[axis], about, "I", "moment_of_inertia", {"seen": "across_plane"})
+
+
+def _check_moments(placed: PlacedBody) -> None:
+    """Moments about the pivot serve a body that is held there; all others are about the centre of mass."""
+    body = placed.body
+    if body.about == "fixed_point" and any(body.centre) and not is_about_the_point(placed):
+        where = "moves freely" if not placed.is_held else f"is held at its {placed.point.name}"
+        message = f"the moments of {body.name} are about its pivot, but it {where}"
+        help_line = 'give the moments about the centre of mass, with `about="centre_of_mass"`'
+        raise Rejected(Complaint("wrong-point", message, help=help_line))
+    if body.about == "fixed_point" and any(body.centre):
+        for found in established():
+            at = getattr(found.subject.point, "name", None)
+            if found.symbol in body.moments and at in ("centre", "centre_of_mass"):
+                message = (
+                    f"`{found.key}` is about the centre of mass, but {body.name} has it as a moment about its pivot"
+                )
+                raise Rejected(Complaint("wrong-point", message, help="find the moments about the pivot"))

@@ -1,0 +1,438 @@
+"""A mechanical system: particles and bodies, the forces on them, and the conditions on their motion.
+
+Places are formulas in the coordinates, so that whatever ties particles together is built into them. The energies are
+made of the places alone; so are the mass points and forces by which every second route goes (d'Alembert's principle).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, TypeAlias
+
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, diff, factor, sqrt
+
+from derive.algebra.expressions import TIME, Factors, Relation, Terms, column, explicit, rate
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
+from derive.mechanics.bodies.possible import require_positive
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.acted_on import check_what_is_acted_on
+from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.dalembert import Load, MassPoint, Matter, Reaction
+from derive.mechanics.model.described import Described, described
+from derive.mechanics.model.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
+from derive.steps.known_numbers import taken_positive
+from derive.steps.record import assume, coordinates_in, require_constant
+from derive.steps.step import Fact, Quantity, is_zero
+from derive.witness import description as plain
+
+__all__ = ["Particle", "System", "central", "spring", "weight"]
+
+HALF, ZERO = Rational(1, 2), Integer(0)
+DISTANCE = Dummy("r", positive=True)
+
+
+@dataclass(frozen=True)
+class Particle:
+    """A particle of a constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1.
+
+    name   what it is, for its drawing: a "bob" hangs on a rod, a "bead" is on a wire
+    """
+
+    mass: Expr
+    at: Location
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.mass, Expr | int) or not isinstance(self.at, Location):
+            message = "`Particle` needs the expression of a mass and a place that `point` or `place` gives"
+            raise Rejected(Complaint("wrong-argument", message))
+        require_constant("Particle", "mass", self.mass)
+        require_positive("`Particle`", "mass", self.mass)
+
+
+@dataclass(frozen=True)
+class Weight:
+    """The weight of every particle, downwards along the last axis, with the gravity g in m/s^2."""
+
+    gravity: Expr
+
+
+@dataclass(frozen=True)
+class Central:
+    """A potential energy U(r) of the distance between two places, J, and the pull along the line between them, N.
+
+    branch   which of u and -u is the distance |u| of two places on one line, where the system takes one of them
+    """
+
+    start: Location
+    end: Location
+    distance: Symbol
+    energy: Expr
+    pull: Expr
+    massless: bool = False
+    branch: Expr | None = None
+
+    @property
+    def is_spring(self) -> bool:
+        return self.distance is DISTANCE
+
+    @cached_property
+    def along(self) -> Expr | None:
+        """What has the distance as its absolute value, where the way between the places stays on one line."""
+        components = [c for c in (self.end - self.start).components if c != 0]
+        if len(components) == 1 and _is_sum_of_letters(components[0]):
+            return components[0]
+        length = sqrt(factor(tidied(Add(*(c**2 for c in components)))))
+        sizes = length.atoms(Abs)
+        if len(sizes) != 1 or length.has(Pow):
+            return None
+        (size,) = sizes
+        return length.xreplace({size: size.args[0]})
+
+    @cached_property
+    def length(self) -> Expr:
+        """The distance; one of its branches where the system takes one, and then the page states the condition."""
+        if self.branch is not None:
+            assume(Relation(self.branch, ">", ZERO), self.is_spring)
+            return self.branch
+        if self.along is not None:
+            return Abs(self.along)
+        return sqrt(factor(tidied(Add(*(c**2 for c in (self.end - self.start).components)))))
+
+    def pulls(self) -> tuple[Load, Load]:
+        """The forces at its two ends, towards each other where the energy grows with the distance."""
+        way = (self.end - self.start).components
+        size = self.pull.xreplace({self.distance: self.length})
+        pull = tuple(size * c / self.length for c in way)
+        return Load(pull, self.start.components), Load(tuple(-c for c in pull), self.end.components)
+
+
+def weight(gravity: Expr) -> Weight:
+    """The weight of all particles of a system."""
+    require_constant("weight", "gravity", gravity)
+    return Weight(gravity)
+
+
+def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO, massless: bool = False) -> Central:
+    """A spring without mass between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m.
+
+    massless   whether it may end at a joint without mass; else each end moves with a body, a particle or the ground
+    """
+    require_constant("spring", "spring constant", constant)
+    require_constant("spring", "natural length", natural)
+    energy = Factors(HALF, constant, Pow(Terms(DISTANCE, -natural) if natural != 0 else DISTANCE, 2))
+    return Central(start, end, DISTANCE, energy, constant * DISTANCE - constant * natural, massless)
+
+
+def central(energy: Expr, distance: Symbol, start: Location, end: Location, massless: bool = False) -> Central:
+    """A potential energy U(r) of the distance r between two places: `central(-G*M*m/r, r, sun, planet)`.
+
+    massless   as for `spring`
+    """
+    if TIME in energy.free_symbols:
+        raise Rejected(
+            Complaint("changes", "`central` needs an energy of the distance alone, but it depends on the time t")
+        )
+    return Central(start, end, distance, energy, diff(energy, distance), massless)
+
+
+PartOfSystem: TypeAlias = (
+    Particle | PlacedBody | Weight | Central | StoredEnergy | Charge | GivenForce | Damper | Constraint | Quantity
+)
+_PARTS = (Particle, PlacedBody, Weight, Central, StoredEnergy, Charge, GivenForce, Damper, Constraint, Quantity)
+
+
+@dataclass(frozen=True)
+class KnownCoordinate(Fact):
+    """A coordinate that a condition makes a function of others, with the function."""
+
+    missing = "is not a condition that gives a coordinate by others"
+    coordinate: Symbol
+    function: Expr
+
+
+@dataclass(frozen=True)
+class Eliminated(Fact):
+    """The coordinates that conditions of a system give by others: what rests on it does not depend on them."""
+
+    missing = "has no coordinate that is given by others"
+    eliminates: tuple[Symbol, ...]
+
+
+class System:
+    """Particles and bodies, the forces on them, and the conditions on their motion.
+
+    name   "first": keys of its steps begin with `first_`, letters have the index `first`
+    """
+
+    def __init__(self, *parts: PartOfSystem, name: str = ""):
+        unknown = [part for part in parts if not isinstance(part, _PARTS)]
+        if unknown:
+            made_of = "particles, placed bodies, a weight, springs and other forces, and constraints"
+            message = f"`System` is made of {made_of}, not of {type(unknown[0]).__name__}"
+            help_line = "put a body somewhere with `.placed` or `.held`" if isinstance(unknown[0], Placeable) else None
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
+        if name and not re.fullmatch(r"[a-z]+( [a-z]+)?", name):
+            help_line = 'give one or two words in small letters, "first"'
+            raise Rejected(Complaint("name", f"`{name}` is not a name for a system", help=help_line))
+        self.called = name
+        self.conditions = tuple(part for part in parts if isinstance(part, Quantity))
+        known = dict(_known_by(condition) for condition in self.conditions)
+        self.known: Mapping[Symbol, Expr] = known
+        self.eliminated = tuple(known)
+        self.put_in = tuple(c for c in self.conditions if _is_put_into(c, parts))
+        self._described = parts
+        parts = tuple(_with_known(part, known) for part in parts) if known else parts
+        self.particles = tuple(part for part in parts if isinstance(part, Particle))
+        self.bodies = tuple(part for part in parts if isinstance(part, PlacedBody))
+        self.weights = tuple(part for part in parts if isinstance(part, Weight))
+        self.between: tuple[Central, ...] = tuple(part for part in parts if isinstance(part, Central))
+        self.charges = tuple(part for part in parts if isinstance(part, Charge))
+        charged = tuple(c.stored for c in self.charges if not is_nothing(c.electric))
+        self.stored = (*(part for part in parts if isinstance(part, StoredEnergy)), *charged)
+        self.fields = tuple(c.deflected for c in self.charges if not is_nothing(c.magnetic))
+        given = [part for part in parts if isinstance(part, GivenForce)]
+        self.given_forces: tuple[GivenForce, ...] = (*given, *(each.opposite for each in given if each.opposite))
+        self.dampers = tuple(part for part in parts if isinstance(part, Damper))
+        self.constraints = tuple(part for part in parts if isinstance(part, Constraint))
+        self._check()
+        self.between = _with_branches(self)
+
+    def _check(self) -> None:
+        if not self.particles and not self.bodies:
+            raise Rejected(Complaint("wrong-argument", "a `System` needs a particle or a body that is placed or held"))
+        for placed in self.bodies:
+            if placed.body.mass is None:
+                raise Rejected(Complaint("wrong-argument", f"`System` needs the mass of {placed.body.name}"))
+        for mass, _ in self.masses:
+            if taken_positive(explicit(mass)) != 1:
+                raise Rejected(Complaint("no-such-body", f"a mass of a `System` must be positive, but {mass} is not"))
+        if len(self.weights) > 1:
+            raise Rejected(Complaint("wrong-argument", "a `System` has one weight, that of all its particles"))
+        if len({len(place.components) for place in self.places}) > 1:
+            message = "some places of this `System` have two components, others three: the last one is upwards"
+            raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
+        if not self.coordinates:
+            message = "nothing in this `System` moves: its places depend on no coordinate"
+            raise Rejected(Complaint("wrong-argument", message, help='name what varies with `coordinate("theta")`'))
+        self._check_what_acts()
+        check_what_is_acted_on(self)
+        for condition in self.conditions:
+            _check_kept(condition)
+        letters = [each.force.name for each in self.constraints]
+        if len(set(letters)) < len(letters):
+            message = "two constraints of this `System` have forces of one letter"
+            raise Rejected(Complaint("letter-clash", message, help='give them letters, `constraint(..., force="N")`'))
+
+    def _check_what_acts(self) -> None:
+        """Forces and constraints are those of what moves here, and of nothing else."""
+        acting = [ImmutableDenseMatrix([e.energy]) for e in self.stored]
+        acting += [ImmutableDenseMatrix(each.at) for each in self._others]
+        acting += [ImmutableDenseMatrix([each.residual]) for each in self.constraints]
+        for values in acting:
+            for q in coordinates_in(values):
+                if q not in self.coordinates:
+                    message = f"a force or constraint of this `System` depends on {q.name}, but nothing in it moves so"
+                    raise Rejected(Complaint("wrong-argument", message))
+
+    @property
+    def places(self) -> list[Location]:
+        """Those of its particles and bodies, and the ends of what acts between them."""
+        at = [particle.at for particle in self.particles] + [placed.centre for placed in self.bodies]
+        at += [each.at for each in self.charges]
+        return at + [end for s in self.between for end in (s.start, s.end)]
+
+    @property
+    def masses(self) -> list[tuple[Expr, Location]]:
+        """The masses of its particles and bodies, with the places of their centres of mass."""
+        own = [(particle.mass, particle.at) for particle in self.particles]
+        return own + [(placed.body.mass, placed.centre) for placed in self.bodies]
+
+    @property
+    def _others(self) -> tuple[GivenForce | Damper, ...]:
+        return *self.given_forces, *self.dampers
+
+    @property
+    def gravity(self) -> Expr:
+        return self.weights[0].gravity if self.weights else Integer(0)
+
+    @cached_property
+    def coordinates(self) -> Mapping[Symbol, str]:
+        """Those that its places and the turning of its bodies depend on, with their kinds."""
+        entries = [c for place in self.places for c in place.components]
+        return coordinates_in(ImmutableDenseMatrix([*entries, *(e for b in self.bodies for e in b.depends_on)]))
+
+    @property
+    def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
+        """The places at which parts act of which it is not stated on what, with these parts and what they are."""
+        found: list[tuple[Any, str, tuple[Expr, ...]]] = []
+        for each in (part for part in self._described if isinstance(part, GivenForce | Damper)):
+            if each.of is None and len(each.at) > 1:
+                found.append((each, "force" if isinstance(each, GivenForce) else "drag", each.at))
+        for pair in (part for part in self._described if isinstance(part, Central)):
+            if not pair.massless:
+                what = "spring" if pair.is_spring else "central force"
+                found += [(pair, what, end.components) for end in (pair.start, pair.end)]
+        return found
+
+    @property
+    def described_bodies(self) -> list[PlacedBody]:
+        """Its bodies as they were described, in the order in which the witness has them."""
+        return [part for part in self._described if isinstance(part, PlacedBody)]
+
+    @cached_property
+    def described(self) -> Described:
+        """What the witness is given of it: its parts before coordinates that conditions give by others are left out."""
+        gravity = self.weights[0].gravity if self.weights else None
+        moving = {**self.coordinates, **coordinates_in(ImmutableDenseMatrix([*self.known, ZERO]))}
+        particles = [plain.Particle(p.mass, p.at.components) for p in self._described if isinstance(p, Particle)]
+        pairs = [
+            plain.Pair(p.start.components, p.end.components, p.distance, explicit(p.energy))
+            for p in self._described
+            if isinstance(p, Central)
+        ]
+        return Described(described(self._described, tuple(particles), tuple(pairs), self.known, gravity, moving))
+
+    @cached_property
+    def matter(self) -> Matter:
+        """Its mass points, and the forces on them."""
+        moving = list(self.coordinates)
+        points = [MassPoint(particle.mass, particle.at.components) for particle in self.particles]
+        points += [point for placed in self.bodies for point in mass_points(placed)]
+        loads = [self._weight_of(mass, at) for mass, at in self.masses] if self.weights else []
+        loads += [load for each in self.between for load in each.pulls()]
+        loads += [load for each in self.stored for load in each.loads(moving)]
+        others: list[Load | Reaction] = [each.load(moving) for each in self._others]
+        others += [Reaction(c.force, tuple((q, c.along(q)) for q in moving)) for c in self.constraints]
+        return Matter(tuple(points), tuple(loads), tuple(moving), tuple(others), self.fields)
+
+    def _weight_of(self, mass: Expr, at: Location) -> Load:
+        *across, _ = at.components
+        return Load((*(ZERO for _ in across), -mass * self.weights[0].gravity), at.components)
+
+
+def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
+    found = condition.fact(KnownCoordinate)
+    if found is None:
+        message = f"`{condition.key}` does not give a coordinate by others, so it cannot be put into the energies"
+        help_line = "a condition of rolling that cannot be integrated is kept by forces: `*rolling_constraint(...)`"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
+    return found.coordinate, found.function
+
+
+def _check_kept(condition: Quantity) -> None:
+    """With the coordinate that it gives by others, a condition on rates holds whatever these do."""
+    q, function = _known_by(condition)
+    value = explicit(condition.value)
+    if isinstance(value, Relation):
+        its_rate = Add(*(diff(function, each) * rate(each) for each in coordinates_in(function)))
+        left = value.residual.xreplace({rate(q): its_rate}).xreplace({q: function})
+    else:
+        left = value - function
+    if not is_zero(left):
+        raise Unverified(Complaint("unverified", f"`{condition.key}` is not kept by {q} = {function}"))
+
+
+def _is_put_into(condition: Quantity, parts: Sequence[PartOfSystem]) -> bool:
+    """Whether a part depends on the coordinate that a condition gives by others."""
+    known = dict([_known_by(condition)])
+    return any(_with_known(part, known) != part for part in parts if not isinstance(part, Quantity))
+
+
+def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:
+    """A part of a system with some of the coordinates given by others."""
+    if isinstance(part, PlacedBody):
+        return part.moved(known)
+    if isinstance(part, Particle):
+        return replace(part, at=_moved(part.at, known))
+    if isinstance(part, Central):
+        return replace(part, start=_moved(part.start, known), end=_moved(part.end, known))
+    if isinstance(part, Charge):
+        return replace(part, at=_moved(part.at, known))
+    if isinstance(part, StoredEnergy):
+        return StoredEnergy(part.energy.subs(known))
+    if isinstance(part, GivenForce):
+        at = tuple(c.subs(known) for c in part.at)
+        return replace(part, at=at, of=_with_known(part.of, known), by=_with_known(part.by, known))
+    if isinstance(part, Damper):
+        return replace(part, at=tuple(c.subs(known) for c in part.at), of=_with_known(part.of, known))
+    return part
+
+
+def _moved(place: Location, known: Mapping[Symbol, Expr]) -> Location:
+    return place.with_values(known)
+
+
+def mass_points(placed: PlacedBody) -> list[MassPoint]:
+    """The mass of a body at its centre of mass, and second moments on unit vectors that turn as it does.
+
+    The moments are those of its particles, so that no inertia tensor is used.
+    """
+    spread = central_second_moments(placed.body)
+    points = [MassPoint(placed.body.mass, placed.centre.components)]
+    axes = placed.in_plane if placed.is_plane else (0, 1, 2)
+    arms = {i: column(*(int(i == k) for k in range(3))) for i in axes}
+    for i in axes:
+        alone = spread[i, i] - sum((spread[i, j] for j in axes if j != i), ZERO)
+        points.append(MassPoint(alone, placed.seen_in_space(arms[i]).components))
+        pairs = [j for j in axes if j > i and spread[i, j] != 0]
+        points += [MassPoint(spread[i, j], placed.seen_in_space(arms[i] + arms[j]).components) for j in pairs]
+    return [point for point in points if point.mass != 0]
+
+
+def _with_branches(system: System) -> tuple[Central, ...]:
+    """Springs and other potentials of a distance, each with the branch of |x - d| that it has near rest.
+
+    A distance along a line is |u|, and which of u and -u it is depends on the side. One of the two is taken only where
+    the place at which all coordinates are zero is singled out: there the spring has its natural length, or there all
+    forces with a potential energy balance. Then the coordinates are displacements from that place, as for carts at
+    x_1 and d + x_2, and the page states that u keeps its sign. Elsewhere, as for a cart at x with a spring to a wall at
+    d, nothing favours a side: |x - d| stays, and whatever solves for x solves for both sides.
+    """
+    sided = tuple(_near_rest(each) for each in system.between)
+    balanced = all(each is not None for each in sided) and _is_balanced(system, [each for each in sided if each])
+    return tuple(
+        near if near is not None and (balanced or _has_natural_length(near)) else each
+        for each, near in zip(system.between, sided, strict=True)
+    )
+
+
+def _near_rest(each: Central) -> Central | None:
+    """With the branch that is positive where all coordinates are zero; itself where there are no branches."""
+    if each.along is None:
+        return each
+    at_rest = _undriven(each.along)
+    if not coordinates_in(each.along) or not at_rest.is_nonzero:
+        return None
+    return replace(each, branch=each.along if at_rest.is_positive else -each.along)
+
+
+def _has_natural_length(each: Central) -> bool:
+    return each.branch is not None and is_zero(each.pull.xreplace({each.distance: _undriven(each.branch)}))
+
+
+def _is_balanced(system: System, between: Sequence[Central]) -> bool:
+    """Whether no coordinate has a force with a potential energy where all coordinates are zero."""
+    energy = Add(*(each.energy.xreplace({each.distance: each.branch or each.length}) for each in between))
+    energy += Add(*(each.energy for each in system.stored))
+    energy += Add(*(mass * system.gravity * at.height for mass, at in system.masses))
+    return all(is_zero(_at_zero(diff(explicit(energy), q))) for q in system.coordinates)
+
+
+def _at_zero(value: Expr) -> Expr:
+    return value.xreplace(dict.fromkeys(coordinates_in(value), ZERO))
+
+
+def _undriven(way: Expr) -> Expr:
+    """The way between two places where all coordinates are zero, without what a prescribed motion adds to it."""
+    return Add(*(term for term in Add.make_args(_at_zero(way).expand()) if not term.has(TIME)))
+
+
+def _is_sum_of_letters(way: Expr) -> bool:
+    """Whether it is a sum of letters, each with its sign and nothing else: such a sum is in no factors."""
+    return way.is_Add and all(term.is_Symbol or (-term).is_Symbol for term in way.args)

@@ -1,0 +1,1 @@
+"""First integrals, motion in one dimension, steady motions, loss of contact."""

@@ -1,0 +1,224 @@
+"""What the equations of motion make of a quantity: its rate of change, and whether it is conserved.
+
+As on paper: each equation is multiplied by a factor, the products are added, and what is left is recognised as the rate
+of change of the quantity. The factors are not guessed. The rate of Q holds the highest rates linearly, so those factors
+are wanted for which the equations, added up, hold them alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, gcd_list
+
+from derive.algebra.collect import by_products
+from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, bound, explicit, rate
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import by_functions_of_time, kind_of_rate, require_all_times
+from derive.mechanics.motion.trajectory import followed
+from derive.mechanics.rotation.vectors import Acting, RateByParticles
+from derive.solving.highest_rates import _equation, highest_rates
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.step import Form, Level, Quantity, compared_with
+
+__all__ = ["rate_under"]
+
+
+def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | None = None) -> Quantity:
+    """Rate of change of a quantity along every motion that obeys the equations, dQ/dt.
+
+    quantity    a scalar Q in coordinates and their rates; its unit per second is that of the result
+    equations   equations of motion, as many as they have highest rates, and linear in these
+    Each equation times its factor is a step, and so is the sum of these, where there are several.
+    Second route: Q as a function of time, its highest rates put in as the equations give them; the same less the sum of
+    the equations, for all motions alike; where Q belongs to a body, also what its particles contribute, the sum put
+    back, and what a body does whose tensor is not diagonal; and one motion followed in numbers.
+    Outcomes: conserved (the rate is zero), changes.
+    Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
+    """
+    require_all_times("rate_under", quantity)
+    moving = _moving([quantity, *equations])
+    motion = highest_rates(equations, moving)
+    own_rate = explicit(TimeRate(quantity.value, *moving))
+    common, factors = _multipliers(own_rate, equations, list(motion))
+    of_body = quantity.fact(RateByParticles)
+    acting = next((torque for equation in equations if (torque := equation.fact(Acting))), None)
+    needed = [(equation, factor) for equation, factor in zip(equations, factors, strict=True) if factor != 0]
+    products = [_product(quantity, equation, factor, motion, len(needed)) for equation, factor in needed]
+    known = [_sum(quantity, products, needed, motion)] if len(products) > 1 else products
+
+    in_time = by_functions_of_time(quantity.value, moving)
+    taken_off = common * Add(*(_equation(equation).residual for equation in known))  # zero along the motion
+
+    return establish(
+        "conservation.rate_under",
+        TimeRate(quantity.symbol, *moving),
+        lambda q: TimeRate(q, *moving),
+        {"quantity": quantity},
+        lines=Lines(
+            between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)], put_in=Level.FULL, motion=motion
+        ),
+        routes={
+            "functions_of_time": compared_with(lambda: bound(in_time, motion)),
+            "sum": compared_with(lambda: in_time - taken_off),
+            **({"matter": lambda value: (value + taken_off, of_body.rate())} if of_body else {}),
+            **({"any_axes": lambda value: (value, of_body.in_any_axes(acting.torque))} if of_body and acting else {}),
+            "followed": lambda value: followed(quantity.value, value, motion),
+        },
+        outcome=lambda value: "conserved" if value == 0 else "changes",
+        parents=known,
+        key=key or f"{quantity.key}_rate",
+        kind=kind_of_rate(quantity.step.kind) if quantity.step.kind else None,
+    )
+
+
+def _moving(quantities: Sequence[Quantity]) -> list[Symbol]:
+    return list(dict.fromkeys(q for quantity in quantities for q in quantity.coordinates))
+
+
+def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequence[Symbol]) -> tuple[Expr, list[Expr]]:
+    """A number and the factors for which the equations, added up, hold each highest rate as the rate of Q does.
+
+    The number is what is common to all of them: on paper nobody multiplies by it.
+    """
+    matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
+    wanted = Matrix([diff(own_rate, a) for a in unknown])
+    if wanted.has(*unknown) or own_rate.has(*(rate(a) for a in unknown)):
+        raise Rejected(Complaint("wrong-argument", "the quantity has higher rates than the equations of motion give"))
+    factors = [tidied(factor) for factor in matrix.T.LUsolve(wanted)]
+    common = gcd_list([factor.as_coeff_Mul()[0] for factor in factors if factor != 0] or [Integer(1)])
+    return common, [factor / common for factor in factors]
+
+
+def _product(
+    quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr], of_many: int
+) -> Quantity:
+    """An equation of motion times a factor, multiplied out.
+
+    Outcomes: alone, one_of_several (which are added up).
+    """
+    written = equation.value
+    return establish(
+        "conservation.product",
+        None,
+        lambda f, _: Relation(Factors(f, written.left), "=", _times(f, written.right)),
+        {"factor": factor, "quantity": quantity},
+        lines=Lines(
+            arranged=lambda value: _by_sides(value, _moving([quantity, equation])), law=Level.FULL, put_in=None
+        ),
+        routes={
+            "motion": lambda value: _sides(value, motion),
+            "divided": lambda value: _divided(value, factor, written, motion),
+        },
+        outcome="alone" if of_many == 1 else "one_of_several",
+        phrase_data=PhraseData(outcome_data={"written": written, "of_many": Integer(of_many)}),
+        parents=[equation],
+        key=f"{quantity.key}_{equation.key}",
+    )
+
+
+def _divided(found: Relation, factor: Expr, written: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Any, Any]:
+    """Where the factor is not zero, each side divided by it is that of the equation: by its rates, and what is left."""
+
+    def parts(relation: Relation, divisor: Expr) -> list[Expr]:
+        at_rest = dict.fromkeys(motion, Integer(0))
+        sides = [explicit(side) for side in relation.sides]
+        return [x / divisor for side in sides for x in (*(diff(side, a) for a in motion), bound(side, at_rest))]
+
+    mark = {"=": Integer(1)}.get(found.mark, Integer(0))
+    return ImmutableDenseMatrix([*parts(found, factor), mark]), ImmutableDenseMatrix([*parts(written, Integer(1)), 1])
+
+
+def _one_by_one(found: Relation, products: Sequence[Quantity]) -> tuple[Any, Any]:
+    """Each side less those of the products, one after another: nothing is left."""
+    left = [explicit(side) for side in found.sides]
+    for product in products:
+        left = [side - explicit(other) for side, other in zip(left, product.value.sides, strict=True)]
+    mark = {"=": Integer(0)}.get(found.mark, Integer(1))
+    return ImmutableDenseMatrix([*left, mark]), ImmutableDenseMatrix([0, 0, 0])
+
+
+def _times(factor: Expr, side: Expr) -> Expr:
+    return Integer(0) if side == 0 else Factors(factor, side)
+
+
+def _sum(
+    quantity: Quantity,
+    products: Sequence[Quantity],
+    of: Sequence[tuple[Quantity, Expr]],
+    motion: Mapping[Symbol, Expr],
+) -> Quantity:
+    """The sum of the products, collected.
+
+    Outcomes: plain, cancel (the terms without a rate do), remain.
+    """
+    sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
+    moving = _moving([quantity, *products])
+    return establish(
+        "conservation.sum",
+        None,
+        lambda: Relation(Terms(*_added(sides[0])), "=", Terms(*_added(sides[1]))),
+        {},
+        lines=Lines(
+            between=_gathered(of, moving, list(motion)) if not any(sides[1]) else [],
+            arranged=lambda value: _by_sides(value, moving),
+            law=Level.FULL,
+            put_in=None,
+        ),
+        routes={
+            "motion": lambda value: _sides(value, motion),
+            "one_by_one": lambda value: _one_by_one(value, products),
+        },
+        outcome=_left_over(sides[0], list(motion)),
+        phrase_data=PhraseData(
+            named={f"factor_{i}": factor for i, (_, factor) in enumerate(of, 1)},
+            points_to={f"equation_{i}": equation for i, (equation, _) in enumerate(of, 1)},
+            outcome_data={"highest": list(motion), "products": sides[0]},
+        ),
+        parents=[*(equation for equation, _ in of), *products],
+        key=f"{quantity.key}_sum",
+    )
+
+
+def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
+    """The terms with highest rates = (c_1 + c_2 + ...) times the one product of components that the others have."""
+    with_rates, rest = [], []
+    for equation, factor in of:
+        number, moved = factor.as_independent(*moving, as_Add=False)
+        for term in Add.make_args(equation.value.left):
+            if term.has(*highest):
+                with_rates.append(factor * term)
+                continue
+            own, product = term.as_independent(*moving, as_Add=False)
+            rest.append((-own if number == 1 else Factors(number, -own), moved * product))
+    if len({product for _, product in rest}) != 1:
+        return []
+    right = Factors(Terms(*(coefficient for coefficient, _ in rest)), rest[0][1])
+    return [Form(Relation(by_products(Add(*with_rates), moving), "=", right), "gathered", Level.STANDARD)]
+
+
+def _added(sides: Sequence[Expr]) -> list[Expr]:
+    """The terms of several sums in a row; nothing is written for a zero, unless there is nothing else."""
+    return [term for side in sides for term in side.as_ordered_terms() if term != 0] or [Integer(0)]
+
+
+def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
+    """What becomes of the terms without a highest rate: there were none, they cancel, or some remain."""
+    without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
+    if all(rest == 0 for rest in without):
+        return "plain"
+    return "cancel" if Add(*without).expand() == 0 else "remain"
+
+
+def _sides(value: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
+    left, right = (bound(explicit(side), motion) for side in value.sides)
+    return left, right
+
+
+def _by_sides(value: Relation, moving: Sequence[Symbol]) -> Relation:
+    """Both sides multiplied out and gathered, the terms with rates first."""
+    left, right = (by_products(explicit(side), moving) for side in value.sides)
+    return Relation(left, value.mark, right)

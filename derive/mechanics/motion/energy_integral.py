@@ -1,0 +1,266 @@
+"""What conservation of energy gives for one coordinate: its rate at any place, and the period of a swing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import islice
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, pi, sqrt
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expansion import Approach, NoExpansion
+from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.samples import letters_of, points, seed_of
+from derive.algebra.swing import SwingTime, half_swing, quarter_swing
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.motion.turning_points import ByEnergy
+from derive.solving.presentation import presented
+from derive.solving.unknowns import residual_of, with_unknown
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.numeric import WholeSwing
+from derive.steps.record import free_letter, letter_of_limit
+from derive.steps.step import Form, Level, Quantity, approximations_among, is_zero, value_behind
+
+__all__ = ["period_by_energy", "speed_from_energy"]
+
+ZERO, TWO = Integer(0), Integer(2)
+FIGURES = 30
+NOISE = 1e-9  # what the numbers may differ by near the turning points, where most figures cancel
+
+
+def speed_from_energy(
+    energy: Quantity,
+    q: Coordinate,
+    start: Expr | Quantity,
+    start_rate: Expr | Quantity = ZERO,
+    motion: Quantity | None = None,
+    key: str | None = None,
+) -> Quantity:
+    """Square of a coordinate's rate by conservation of energy, q_dot^2 = 2 (E - V(q))/m(q), for E = m q_dot^2/2 + V.
+
+    energy       of the motion, J: a conserved quantity in this one coordinate and its rate
+    q            the coordinate
+    start        its value at the start
+    start_rate   its rate at the start, 0 where it is released from rest
+    motion       the equation of motion, or q_ddot as it gives that, for an energy without mass points and forces
+    That the energy keeps the value of the start is a step of its own.
+    Second route: along every motion of the mass points the energy does not change (d'Alembert's principle); the
+    acceleration q_ddot is half the derivative of q_dot^2 by q, and at the start the rate is that of the start.
+    Errors: the energy is not conserved, contains another coordinate, or is not quadratic in the rate.
+    Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
+    """
+    value = explicit(energy.value)
+    first, initial = (explicit(value_behind(each)) for each in (start, start_rate))
+    acceleration = _acceleration(energy, q, motion)
+    _check_one_coordinate(energy, value, q)
+    letter, speed = q.symbol, q.rate
+    along = explicit(TimeRate(value, letter)).xreplace({q.acceleration: acceleration})
+    if not is_zero(along):
+        message = f"`speed_from_energy`: `{energy.key}` is not conserved"
+        raise Rejected(Complaint("not-conserved", message, help="give an energy that keeps its value in this motion"))
+    mass = tidied(diff(value, speed, 2))
+    rest = value.xreplace({speed: ZERO})
+    if mass.has(speed) or mass == 0 or not is_zero(value - rest - mass * speed**2 / 2):
+        message = f"`speed_from_energy`: `{energy.key}` is no sum of m q_dot^2/2 and an energy of place"
+        raise Rejected(Complaint("wrong-argument", message))
+    at_start = tidied(value.xreplace({letter: first, speed: initial}))
+
+    about = approximations_among(start, start_rate)
+    kept_key = f"{energy.key}_kept" if key is None else f"{key}_energy"
+    conserved = _energy_kept(energy, q, first, initial, acceleration, kept_key, about)
+
+    def by_motion(found: Expr) -> tuple[Any, Any]:
+        """q_ddot = (1/2) d(q_dot^2)/dq, and the rate at the start."""
+        expected = with_unknown(acceleration, speed**2, found)
+        there = found.xreplace({letter: first})
+        return ImmutableDenseMatrix([diff(found, letter) / 2, there]), ImmutableDenseMatrix([expected, initial**2])
+
+    return establish(
+        "energy_integral.speed_from_energy",
+        speed**2,
+        lambda *_: Ratio(Factors(TWO, Terms(at_start, -rest)), mass),
+        {"kept": conserved},
+        lines=Lines(
+            law=Level.FULL,
+            put_in=None,
+            arranged=presented,
+            means={speed: sqrt(2 * (at_start - rest) / mass)},
+        ),
+        routes={"motion": by_motion},
+        phrase_data=PhraseData(outcome_data={"coordinate": letter, "start": first, "start_rate": initial}),
+        key=key or f"{letter.name}_dot_squared",
+        facts=[ByEnergy(letter, first, initial, acceleration)],
+    )
+
+
+def _energy_kept(
+    energy: Quantity,
+    q: Coordinate,
+    first: Expr,
+    initial: Expr,
+    acceleration: Expr,
+    key: str,
+    about: Sequence[Quantity],
+) -> Quantity:
+    """The energy keeps the value that it has at the start."""
+    value, letter, speed = explicit(energy.value), q.symbol, q.rate
+    at_start = tidied(value.xreplace({letter: first, speed: initial}))
+
+    def keeps(found: Relation) -> tuple[Any, Any]:
+        """It holds at the start, and its rate vanishes along the motion; the right side is a constant."""
+        there = found.residual.xreplace({letter: first, speed: initial})
+        changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
+        is_equation = int(found.mark == "=")
+        return ImmutableDenseMatrix([there, changing, found.left, is_equation]), ImmutableDenseMatrix([0, 0, value, 1])
+
+    return establish(
+        "energy_integral.energy_kept",
+        None,
+        lambda e: Relation(e, "=", at_start),
+        {"energy": energy},
+        lines=Lines(put_in=Level.BRIEF, law=Level.FULL, result=False, arranged=explicit),
+        routes={"motion": keeps},
+        outcome="from_rest" if initial == 0 else "moving",
+        key=key,
+        phrase_data=PhraseData(
+            named={"place": Relation(letter, "=", first)},
+            outcome_data={"initial": initial},
+        ),
+        parents=about,
+    )
+
+
+def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> Expr:
+    """What the equation of motion, or else d'Alembert's principle, makes of q_ddot."""
+    matter = energy.fact(Matter)
+    if motion is not None and motion.symbol == q.acceleration:
+        return tidied(explicit(motion.value))
+    if motion is not None:
+        left = residual_of("speed_from_energy", motion)
+    elif matter is not None and tuple(matter.coordinates) == (q.symbol,):
+        left = matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
+    else:
+        message = f"`speed_from_energy`: `{energy.key}` does not say by which forces {q.symbol.name} moves"
+        raise Rejected(Complaint("wrong-argument", message, help="give the equation of motion as `motion=...`"))
+    factor = tidied(diff(left, q.acceleration))
+    if factor == 0 or factor.has(q.acceleration):
+        message = f"`speed_from_energy`: the motion does not give {q.acceleration.name}"
+        raise Rejected(Complaint("wrong-argument", message))
+    return tidied(-left.xreplace({q.acceleration: ZERO}) / factor)
+
+
+def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
+    others = [c for c in energy.coordinates if c != q.symbol and value.has(c, rate(c))]
+    if others or TIME in value.free_symbols or not value.has(q.rate):
+        what = (
+            others[0].name if others else "the time t" if TIME in value.free_symbols else f"no rate of {q.symbol.name}"
+        )
+        message = (
+            f"`speed_from_energy` needs an energy of {q.symbol.name} and its rate alone, but `{energy.key}` has {what}"
+        )
+        raise Rejected(Complaint("wrong-argument", message))
+
+
+def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = None, key: str = "period") -> Quantity:
+    """Period of a swing to and fro, 4 times the integral of dq/q_dot from 0 to the amplitude A, in powers of A.
+
+    squared   q_dot^2 as `speed_from_energy` yields it for a release from rest at q = A, the same for q and -q, 1/s^2
+    order     the highest power of the amplitude that is kept
+    The series has a letter of its own, tau_lim; the numbers of the period are those of the integral itself.
+    Second route: for small amplitudes it is that of the linearised equation of motion, 2 pi/omega_0; and the integral
+    in numbers.
+    Outcomes: exact (the period does not depend on the amplitude), expanded.
+    Errors: it did not start from rest at a letter; the motion is not the same to both sides.
+    Source: Landau, Lifshitz, *Mechanics*, section 11.
+    """
+    known = squared.needed(ByEnergy)
+    q, amplitude, value = known.coordinate, known.start, explicit(squared.value)
+    if not isinstance(amplitude, Symbol) or known.start_rate != 0:
+        message = (
+            f"`period_by_energy` needs a release from rest at a letter, the amplitude, but `{squared.key}` has none"
+        )
+        raise Rejected(Complaint("wrong-argument", message))
+    if not is_zero(value.subs(q, -q) - value):
+        message = f"`period_by_energy`: `{squared.key}` is not the same at {q.name} and -{q.name}"
+        raise Rejected(Complaint("wrong-argument", message, help="measure the coordinate from the middle of the swing"))
+    try:
+        found = 4 * quarter_swing(value, q, amplitude, order)
+        leading = quarter_swing(value, q, amplitude, 0)
+    except NoExpansion:
+        message = f"`period_by_energy`: the motion of `{squared.key}` is no oscillation about {q.name} = 0"
+        raise Rejected(Complaint("no-oscillation", message)) from None
+    stiffness = tidied((pi / 2 / leading) ** 2)
+    exact = is_zero(value - stiffness * (amplitude**2 - q**2))
+
+    def linearised(result: Expr) -> tuple[Expr, Expr]:
+        slope = tidied(diff(known.acceleration, q).subs({q: ZERO, rate(q): ZERO}))
+        return result.subs(amplitude, 0) ** 2 * -slope, 4 * pi**2
+
+    period, integral = scalar(symbol or free_letter("tau")), SwingTime(value, q, amplitude, Integer(order))
+    return establish(
+        "energy_integral.period_by_energy",
+        period if exact else letter_of_limit(period, amplitude, ZERO),
+        lambda *_: Factors(Integer(4), integral),
+        {"squared": squared, "approach": Approach(amplitude, ZERO)},
+        lines=Lines(
+            law=Level.BRIEF,
+            put_in=None,
+            after=[Form(found, "result") if exact else Form(_written(found, amplitude), "series")],
+            result=False,
+            arranged=lambda _: found,
+        ),
+        routes={
+            "linearised": linearised,
+            "quadrature": lambda result: _by_quadrature(value, q, amplitude, result, order),
+        },
+        outcome="exact" if exact else "expanded",
+        key=key,
+        kind="time",
+        phrase_data=PhraseData(
+            named={"amplitude": amplitude},
+            outcome_data={"value": value, "coordinate": q, "acceleration": known.acceleration},
+        ),
+        scope=Scope() if exact else Scope(approximates=period),
+        facts=[] if exact else [WholeSwing(Integer(4), integral)],
+    )
+
+
+def _written(value: Expr, amplitude: Symbol) -> Expr:
+    """2 pi sqrt(l/g) (1 + A^2/16), in ascending powers."""
+    whole = value.subs(amplitude, 0)
+    rest = tidied(value / whole).expand()
+    terms = sorted(Add.make_args(rest), key=lambda term: int(term.as_coeff_exponent(amplitude)[1]))
+    return Factors(whole, Terms(*terms)) if len(terms) > 1 else whole * rest
+
+
+def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order: int) -> Verdict:
+    """The integral over the whole swing in numbers, at two amplitudes: the rest shrinks faster than the last power."""
+    from mpmath import mp
+
+    letters = (letters_of(value) | letters_of(found)) - {q, amplitude}
+    drawn = islice(points(letters, seed_of(value)), 40)
+    point = next((p for p in drawn if _swings(found, {**p, amplitude: Rational(1, 40)})), None)
+    if point is None:
+        return Verdict(Grade.REFUTED, "the period is real for no numbers that were tried")
+    figures = FIGURES + 5 * order  # what is left is compared with that power of a small amplitude
+    with mp.workdps(figures):
+        rests = []
+        for small in (Rational(1, 40), Rational(1, 80)):
+            there = {**point, amplitude: small}
+            half = half_swing(value.xreplace(there), q, small, figures - 15)
+            if half is None:
+                return Verdict(Grade.REFUTED, "the integral does not converge")
+            told = Rational(str(found.xreplace(there).evalf(mp.dps)))
+            rests.append(mp.mpf(str((abs(2 * half / told - 1) / small**order).evalf(mp.dps))))
+    if not (rests[1] <= rests[0] * 0.6 or rests[1] <= NOISE):
+        return Verdict(Grade.REFUTED, f"the integral in numbers differs by {mp.nstr(rests[1], 5)} of the last power")
+    return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, in numbers")
+
+
+def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:
+    """Whether the period is real there, and the force drives back."""
+    return bool(found.subs(point).evalf().is_positive)

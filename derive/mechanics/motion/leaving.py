@@ -1,0 +1,229 @@
+"""Where a contact that can only push is lost: the normal force vanishes, and the motion gets there."""
+
+from __future__ import annotations
+
+from itertools import islice
+
+from sympy import Expr, Integer, Mul, Rational
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import Relation, explicit, rate
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.motion.turning_points import ByEnergy, condition_to_reach, part_of_the_way, squared_by_energy
+from derive.solving.relations import conditions_told, divided_out, existence, number_of, solved_for_unknown, unsolvable
+from derive.solving.signs import of_the_size
+from derive.solving.unknowns import (
+    left_over,
+    letter_of,
+    mark_for,
+    meaning,
+    unknown_of,
+    with_unknown,
+    without_factors_beside,
+)
+from derive.solving.zeros import positive
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.step import Form, Level, Quantity, is_zero
+
+__all__ = ["leaves_contact"]
+
+POINTS = 40
+ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))  # and beyond
+
+
+def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "leaves_contact") -> Quantity:
+    """Where a contact that can only push is lost: the normal force vanishes, N = 0, solved for one letter.
+
+    force    the normal force, positive while it pushes, N; or the tension of a string, which can only pull
+    letter   what stands alone in the end: a coordinate, or such as `cos(theta)`
+    start    the value of that letter at the start, where the surfaces touch
+    The motion must get there: where the force rests on a squared rate, q_dot^2 = f(q) by conservation of energy, f is
+    positive at the place. If that depends on the letters it is a condition; if it never is, contact is not lost.
+    Factors of the force that are positive in the ranges of the letters, sin(theta) for 0 < theta < pi/2, take no part.
+    Check: a little towards the start the force is still positive, a little beyond it would be negative; where
+    there are such factors also numerically, along the coordinate itself. Witness: the described motion, followed from
+    the start until the multiplier vanishes.
+    Outcomes: lost; lost_later (at the start itself the force is zero, and positive from then on); never (the force is
+    positive whatever the letter is); turns_back (it would vanish at a place that the motion does not reach);
+    turns_there (it vanishes only where the motion turns back).
+    Errors: the force is not positive from the start on, or it is not linear in the letter; the motion need not get
+    there.
+    Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
+    """
+    value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
+    if sign_known(value) == 1:
+        return establish(
+            "conditions.leaves_contact",
+            None,
+            lambda v: Relation(v, ">", 0),
+            {"force": force},
+            lines=Lines(put_in=Level.STANDARD, result=False, arranged=explicit),
+            routes={"size": lambda found: (found.residual, of_the_size(value, found.mark))},
+            outcome="never",
+            key=key,
+        )
+    held, pushing = _held(value, unknown)
+    begin = explicit(start)
+    at_start = tidied(with_unknown(pushing, unknown, begin))
+    if left_over(pushing, unknown) and left_over(with_unknown(pushing, unknown, mark_for(unknown)), unknown):
+        raise _unsolvable_contact(force, unknown)
+    if sign_known(at_start) != 1:
+        message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
+        raise Rejected(Complaint("no-contact", message, help="give the value at which the surfaces touch"))
+    alone, solved, _ = solved_for_unknown(force, pushing, "=", unknown)
+    if alone != unknown:
+        raise unsolvable(force, unknown)
+    speed = _speed_behind(force, unknown)
+    if speed is not None:
+        _check_starts_there(force, speed, unknown, begin)
+    squared = None if speed is None else squared_by_energy(speed)
+    there = None if squared is None else tidied(with_unknown(squared, unknown, solved))
+    if squared is not None and there is not None and sign_known(there) in (0, -1):
+        return _turns_back(force, unknown, (begin, solved), squared, key)
+    reached = None if speed is None else condition_to_reach(force, speed, unknown, solved)
+    result = Relation(unknown, "=", solved)
+    existing = existence(force, unknown, "=", solved)
+
+    def on_both_sides(found: Relation) -> tuple[object, object]:
+        """N at the place, and on the way there from the start, but for the factor that stays positive."""
+        place = explicit(found.right)
+        u = part_of_the_way()
+        on_the_way = tidied(with_unknown(pushing, unknown, place + u * (begin - place)))
+        at_place = tidied(with_unknown(pushing, unknown, place))
+        return Relation(found.left, found.mark, on_the_way + 7 * at_place), Relation(unknown, "=", u * at_start)
+
+    return establish(
+        "conditions.leaves_contact",
+        None,
+        lambda v: Relation(v, "=", 0),
+        {"force": force},
+        lines=Lines(
+            law=Level.STANDARD,
+            put_in=Level.FULL,
+            after=[Form(result, "solved", nonzero=(*divided_out(value, unknown, solved), *Mul.make_args(held)))],
+            result=False,
+            arranged=lambda _: result,
+        ),
+        routes={
+            "on_the_way": on_both_sides,
+            **({} if held == 1 else {"in_numbers": lambda found: _pushes_until(found, value, unknown, begin)}),
+        },
+        outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
+        phrase_data=PhraseData(
+            formulas=conditions_told(existing=existing and _as_positive(existing), reached=reached),
+            named={"from": Relation(unknown, "=", start)},
+            outcome_data={
+                "unknown": unknown,
+                "start": begin,
+                **({"squared": squared} if squared is not None else {}),
+            },
+        ),
+        key=key,
+    )
+
+
+def _as_positive(condition: Relation) -> Relation:
+    """An inequality without what is positive whatever the letters are: v^2 < 5 g l."""
+    return positive(condition.residual if condition.mark in (">", ">=") else -condition.residual)
+
+
+def _speed_behind(force: Quantity, unknown: Expr) -> Quantity | None:
+    """The squared rate of the coordinate, f(q) by conservation of energy, that a force rests on."""
+    q = letter_of(unknown)
+    return next((a for a in force.ancestors() if (known := a.fact(ByEnergy)) and known.coordinate == q), None)
+
+
+def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: Expr) -> None:
+    """The contact begins where the motion does from which the force was found."""
+    known = speed.needed(ByEnergy)
+    begun = unknown.xreplace({known.coordinate: known.start})
+    if not is_zero(tidied(begun - start)):
+        message = f"`leaves_contact`: `{force.key}` is that of a motion from {unknown} = {begun}, not from {start}"
+        raise Rejected(Complaint("contradiction", message, help=f"give the start of that motion, `start: {begun}`"))
+
+
+def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
+    """The motion turns back before the place where the force would vanish, or just there.
+
+    Outcomes: turns_back, turns_there.
+    Source: that of `leaves_contact`.
+    """
+    begin, place = ends
+    value = tidied(explicit(number_of(force)))
+    there = tidied(with_unknown(squared, unknown, place))
+    mark = ">=" if sign_known(there) == 0 else ">"
+    ((q, angle),) = meaning(unknown, place).items()
+    at_angle = squared.xreplace({q: angle})
+
+    def on_the_way(found: Relation) -> tuple[object, object]:
+        """From the start to the place the force is positive; only at the place would it vanish."""
+        u = part_of_the_way()
+        between = tidied(with_unknown(value, unknown, place + u * (begin - place)))
+        sure = int(sign_known(between) == 1 and found.mark == mark)
+        return found.residual * 0 + sure, Integer(1)
+
+    return establish(
+        "conditions.leaves_contact",
+        None,
+        lambda v: Relation(v, mark, 0),
+        {"force": force},
+        lines=Lines(law=Level.BRIEF, put_in=Level.STANDARD, result=False, arranged=explicit),
+        routes={"on_the_way": on_the_way},
+        outcome="turns_there" if mark == ">=" else "turns_back",
+        phrase_data=PhraseData(
+            formulas={"impossible": (Relation(rate(q) ** 2, "=", there), Relation(rate(q) ** 2, "=", at_angle))},
+            named={"place": Relation(unknown, "=", place)},
+            outcome_data={"unknown": unknown, "start": begin, "squared": squared},
+        ),
+        key=key,
+    )
+
+
+def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
+    """Of sin(theta)(a cos(theta) - b) the sine, where it is known to be positive, and the bracket."""
+    u = mark_for(unknown)
+    rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
+    held = Mul(*beside)
+    return (held, rest.xreplace({u: unknown})) if sign_known(held) == 1 else (Integer(1), value)
+
+
+def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:
+    """Whether a factor that is positive on the way is zero at the start, as sin(theta) of what stands upright."""
+    (letter, there) = next(iter(meaning(unknown, explicit(start)).items()))
+    return bool(tidied(held.xreplace({letter: there})) == 0)
+
+
+def _unsolvable_contact(force: Quantity, unknown: Expr) -> Rejected:
+    letter = letter_of(unknown)
+    message = f"`leaves_contact`: `{force.key}` has factors with {letter} beside {unknown}, of unknown sign"
+    help_line = f"give the coordinate the range in which it moves, `{letter}: angle in (0, pi/2)`"
+    return Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def _pushes_until(found: Relation, value: Expr, unknown: Expr, start: Expr) -> Verdict:
+    """In numbers, along the coordinate itself: the force is positive on the way, zero at the place, negative beyond."""
+    letter = letter_of(unknown)
+    value, begin, end = (with_numbers(each) for each in (value, start, explicit(found.right)))
+    letters = letters_of(value) | letters_of(begin) | letters_of(end)
+    seen = 0
+    for point in islice(points(letters - {letter}, seed_of(value)), POINTS):
+        try:
+            first, last = (value_at(_inverse(unknown, each), point) for each in (begin, end))
+            if not (first.is_real and last.is_real) or first == last:
+                continue
+            there = [value_at(value, {**point, letter: first + (last - first) * way}) for way in ON_THE_WAY]
+        except (Undefined, NoNumber, TypeError):
+            continue
+        if not all(force > 0 for force in there[:-1]) or not there[-1] < 0:
+            return Verdict(Grade.REFUTED, "the force is not positive on the way, or is so beyond it")
+        seen += 1
+    return (
+        Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    )
+
+
+def _inverse(unknown: Expr, value: Expr) -> Expr:
+    return next(iter(meaning(unknown, value).values()))

@@ -1,0 +1,215 @@
+"""Steady motions: the cyclic coordinates turn at constant rates while the others do not move; and what small
+oscillations there are about them, the momenta of the cyclic coordinates held constant.
+
+Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.6 and 5.7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Dummy, Expr, Integer, Mul, Symbol
+
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import TIME, Partial, Relation, as_expr, bound, explicit, rate
+from derive.algebra.ranges import never_vanishes_within, strict_sign_within
+from derive.algebra.taylor import slope
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.lagrange.applied_forces import ActedOn
+from derive.mechanics.lagrange.kept_momentum import WithMomenta
+from derive.mechanics.lagrange.lagrangian import coordinates_of
+from derive.mechanics.model.dalembert import Load, Matter
+from derive.solving.presentation import presented
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Level, Quantity, compared_with, require_kind
+
+__all__ = ["steady_motion"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Steady(Fact):
+    """A steady motion: the values of what does not move, the rates of what turns, and what they must fulfil."""
+
+    missing = "is not the condition of a steady motion, as `steady_motion` yields it"
+    lagrangian: Quantity
+    values: Mapping[Symbol, Expr]
+    rates: Mapping[Symbol, Expr]
+    conditions: tuple[Expr, ...]
+
+
+def steady_motion(
+    of: Quantity,
+    rates: Mapping[Any, Any] | None = None,
+    at: Mapping[Any, Any] | None = None,
+    key: str = "steady_motion",
+) -> Quantity | tuple[Quantity, ...]:
+    """Condition of a steady motion, dL/dq = 0 with q_dot = 0 for each coordinate that is not cyclic, the cyclic ones
+    turning at constant rates; one for each coordinate that is not cyclic.
+
+    of      the Lagrangian, J, which does not contain the time; or the equation of motion of one coordinate, into which
+            the values of conserved momenta were put: they tell the rates of their coordinates
+    rates   of the cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its own letter
+    at      where the others stay, `{theta: alpha}`; one that is not given keeps its own letter
+    key     what the keys begin with; with the name of the coordinate where there are several
+    Second route: the mass points carried along by this very motion, their accelerations as functions of the time:
+    sum of (m a - F) . dr/dq = 0.
+    Outcomes: generic, always (it holds whatever the rates are), of_equation.
+    Errors: L contains the time, has no cyclic coordinate or no other; a force without a potential energy acts; a rate
+    is given of a coordinate that is not cyclic; it can never hold.
+    Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
+    """
+    known = of.fact(WithMomenta)
+    equation, of = (of, known.lagrangian) if known is not None else (None, of)
+    require_kind("steady_motion", "of", of, "energy")
+    L = explicit(of.value)
+    if L.has(TIME) or of.fact(ActedOn) is not None:
+        why = "holds the time itself" if L.has(TIME) else "has forces beside it that have no potential energy"
+        raise Rejected(Complaint("changes", f"`steady_motion`: `{of.key}` {why}"))
+    every = coordinates_of(of)
+    turning = [q for q in every if not L.has(q.symbol)]
+    still = [q for q in every if L.has(q.symbol)]
+    if not turning or not still:
+        missing = "coordinate that is not cyclic" if turning else "cyclic coordinate, so nothing turns steadily"
+        raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has no {missing}"))
+    given_rates, values = _given("rate", rates, turning, still), _given("value", at, turning, still)
+    given_rates |= {k.coordinate: bound(k.turning, values) for k in (known.kept if known is not None else ())}
+    steady_rates = {q.symbol: given_rates.get(q.symbol, q.rate) for q in turning}
+    places = {q.symbol: values.get(q.symbol, q.symbol) for q in still}
+    motion = {letter: ZERO for q in every for letter in (q.rate, q.acceleration)}
+    motion |= {rate(q): value for q, value in steady_rates.items()} | values
+    conditions = tuple(presented(bound(derivative(L, q.symbol), motion)) for q in still)
+    steady = Steady(of, places, steady_rates, conditions)
+    if equation is not None:
+        return _of_equation(equation, steady, equation.needed(OfCoordinate).coordinate, motion, key)
+    single = len(still) == 1
+    found = tuple(_condition(steady, q, motion, key if single else f"{key}_{q.symbol.name}") for q in still)
+    return found[0] if single else found
+
+
+def _of_equation(
+    equation: Quantity, steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key: str
+) -> Quantity:
+    """What is left of an equation of motion where its own coordinate stays and the cyclic ones turn at constant rates.
+
+    Outcomes: of_equation.
+    Source: that of `steady_motion`.
+    """
+    turning = set(steady.rates)
+    still = {letter: value for letter, value in motion.items() if letter not in {rate(s) for s in turning}}
+    matter = steady.lagrangian.needed(Matter)
+    left = _rates_first(presented(bound(equation.value.left, still)), steady)
+    core = _without_positive(left)
+    if core.is_nonzero:
+        raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
+    told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
+    kept = {s: v for s, v in steady.rates.items() if rate(s) != v}
+    return establish(
+        "steady.motion",
+        None,
+        lambda *_: Relation(bound(equation.value.left, still), "=", 0),
+        {"equation": equation, "coordinate": q.symbol},
+        lines=Lines(law=Level.FULL, put_in=None, arranged=lambda _: Relation(core, "=", 0)),
+        routes=matter.named(
+            {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
+        ),
+        outcome="of_equation",
+        phrase_data=PhraseData(
+            named={role: Relation(s, "=", v) for role, (s, v) in told.items()},
+            outcome_data={"lagrangian": steady.lagrangian.value, "constant": tuple(kept)},
+        ),
+        key=key,
+        facts=[steady, OfCoordinate(q)],
+    )
+
+
+def _given(
+    role: str, given: Mapping[Any, Any] | None, turning: Sequence[Coordinate], still: Sequence[Coordinate]
+) -> dict[Symbol, Expr]:
+    """What is given for each coordinate, all of it constant."""
+    known = {q.symbol for q in (turning if role == "rate" else still)}
+    moving = {TIME, *(s for q in (*turning, *still) for s in (q.symbol, q.rate))}
+    found: dict[Symbol, Expr] = {}
+    for q, value in (given or {}).items():
+        letter = q.symbol if isinstance(q, Coordinate) else q
+        if letter not in known:
+            wrong = "not cyclic" if role == "rate" else "cyclic, or no coordinate of it"
+            message = f"`steady_motion`: a {role} is given for {letter}, which is {wrong}"
+            raise Rejected(Complaint("wrong-argument", message))
+        number = value.value if isinstance(value, Quantity) else as_expr(value)
+        held = {s for s in number.free_symbols if any(s == q.rate for q in turning)}  # constant in this very motion
+        held |= ({number} if isinstance(number, Symbol) else set()) - moving  # what the rate, or the place, is called
+        require_constant("steady_motion", role, number.xreplace({s: Dummy("held", real=True) for s in held}))
+        found[letter] = number
+    return found
+
+
+def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key: str) -> Quantity:
+    """The condition that belongs to one coordinate.
+
+    Outcomes: generic, always.
+    Source: that of `steady_motion`.
+    """
+    of, matter = steady.lagrangian, steady.lagrangian.needed(Matter)
+    force = bound(derivative(explicit(of.value), q.symbol), motion)
+    core = _without_positive(_rates_first(presented(-force), steady))
+    if core.is_nonzero or core != 0 and never_vanishes_within(core):
+        raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
+    told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
+    told |= {f"turns_{n}": (rate(s), v) for n, (s, v) in enumerate(steady.rates.items(), 1) if rate(s) != v}
+    return establish(
+        "steady.motion",
+        None,
+        lambda L: Relation(Partial(L, q.symbol), "=", 0),
+        {"lagrangian": of},
+        lines=Lines(put_in=None, motion=motion, arranged=lambda _: Relation(core, "=", 0)),
+        routes=matter.named(
+            {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
+        ),
+        outcome="always" if core == 0 else "generic",
+        phrase_data=PhraseData(
+            named={role: Relation(s, "=", v) for role, (s, v) in told.items()},
+            outcome_data={"coordinate": q.symbol},
+        ),
+        key=key,
+        facts=[steady, OfCoordinate(q)],
+    )
+
+
+def _rates_first(value: Expr, steady: Steady) -> Expr:
+    """With a plus sign before the highest power of a rate."""
+    for letter in sorted({s for v in steady.rates.values() for s in v.free_symbols}, key=str):
+        for each in Mul.make_args(value):
+            polynomial = each.as_poly(letter)
+            if each.is_Add and polynomial is not None and polynomial.degree() > 1:
+                return presented(-value) if polynomial.LC().could_extract_minus_sign() else value
+    return value
+
+
+def _without_positive(value: Expr) -> Expr:
+    return Mul(
+        *(f for f in Mul.make_args(value) if strict_sign_within(f) != 1 and not (f.is_Rational and f.is_nonzero))
+    )
+
+
+def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
+    """What is left of d'Alembert's principle for mass points whose places are those of this motion at each time."""
+    motion: dict[Symbol, Expr] = {**steady.values}
+    motion |= {s: s + v * TIME for s, v in steady.rates.items()}
+    rates = {rate(s): steady.rates.get(s, ZERO) for s in matter.coordinates}
+    left: Expr = ZERO
+    for point in matter.points:
+        for c in (explicit(x) for x in point.place):
+            speed = slope(c.xreplace(motion), TIME)
+            left += point.mass * slope(speed, TIME) * slope(c, q).xreplace(motion)
+    fields = [field.load(matter.coordinates) for field in matter.fields]
+    works = (load.work_along(q) for load in (*matter.loads, *fields, *matter.others) if isinstance(load, Load))
+    return left - explicit(Add(*works)).xreplace(rates).xreplace(motion)
+
+
+# --- small oscillations about it --------------------------------------------------------------------------------------

@@ -1,0 +1,119 @@
+"""Whether a motion of one coordinate gets to a place: by conservation of energy it does not turn back before it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import islice
+
+from sympy import Dummy, Expr, Integer, Rational, Symbol, oo
+
+from derive.algebra.expressions import Relation, explicit, rate
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.solving.unknowns import left_over, letter_of, mark_for, meaning, with_unknown
+from derive.solving.zeros import positive
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.record import assume, assumed
+from derive.steps.step import Fact, Quantity
+
+TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # of the way to a place
+
+
+@dataclass(frozen=True)
+class ByEnergy(Fact):
+    """Where a motion of one coordinate started, and its acceleration by the equation of motion."""
+
+    missing = "is not the square of a rate by conservation of energy"
+    coordinate: Symbol
+    start: Expr
+    start_rate: Expr
+    acceleration: Expr
+
+
+def squared_by_energy(speed: Quantity) -> Expr:
+    """The squared rate that conservation of energy gives, f(q); the error of the fact for anything else."""
+    assert speed.symbol == rate(speed.needed(ByEnergy).coordinate) ** 2
+    return explicit(speed.value)
+
+
+def condition_to_reach(
+    of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None
+) -> Relation | None:
+    """The condition on the letters under which a motion gets to a place; None where it always does.
+
+    of        the result that says something of the place
+    speed     the squared rate of a coordinate by conservation of energy, f(q)
+    unknown   the coordinate q or a function of it, cos(q), and `place` its value there, which may be infinite
+    there     f at the place, where it is a limit
+    The motion turns back where f = 0. It gets to the place if f is negative neither there nor between the start and the
+    place. If the sign of f at the place depends on the letters, the condition is f > 0 there. Between the two the sign
+    is decided by algebra or, where that does not decide, by numbers.
+    Errors: the motion turns back before the place, always or for some of the letters.
+    """
+    q = speed.needed(ByEnergy).coordinate
+    there = tidied(_put(explicit(speed.value), unknown, place) if there is None else there)
+    if sign_known(there) == -1:
+        message = f"`{of.key}`: the motion does not get to {unknown} = {place}, since {rate(q)}**2 would be negative"
+        raise Rejected(Complaint("not-reached", message, help=f"it would be {there}"))
+    if not _is_free_by_algebra(speed, unknown, place) and _is_barred(speed, unknown, place, there):
+        message = f"`{of.key}`: the motion need not get to {unknown} = {place}: on the way {rate(q)}**2 can be negative"
+        raise Rejected(Complaint("not-reached", message, help="state what lets it pass with `assume:`"))
+    return positive(there) if sign_known(there) is None else None
+
+
+def assume_reached(of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None) -> None:
+    """What is put in at a place holds only if the motion gets there: the page states the condition."""
+    condition = condition_to_reach(of, speed, unknown, place, there)
+    if condition is not None:
+        assume(Relation(condition.left, ">=", condition.right))
+
+
+def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
+    """Whether algebra shows that the squared rate, if it is not negative at the place, is positive before it."""
+    squared, mark = explicit(speed.value), mark_for(unknown)
+    written = with_unknown(squared, unknown, mark)
+    if left_over(written, unknown) or place in (oo, -oo):
+        return False
+    polynomial = written.as_poly(mark)
+    if polynomial is not None and polynomial.degree() <= 1:
+        return True  # a linear function that is not negative at both ends is not so between them
+    known = speed.needed(ByEnergy)
+    begin = unknown.xreplace({known.coordinate: known.start})
+    return sign_known(tidied(written.xreplace({mark: place + part_of_the_way() * (begin - place)}))) == 1
+
+
+def _put(squared: Expr, unknown: Expr, place: Expr) -> Expr:
+    """The squared rate where the unknown has this value; by the coordinate where that stands in another way too."""
+    found = with_unknown(squared, unknown, place)
+    return squared.xreplace(meaning(unknown, place)) if left_over(found, unknown) else found
+
+
+def part_of_the_way() -> Expr:
+    """Any number between 0 and 1."""
+    way = Dummy("s", positive=True)
+    return way / (1 + way)
+
+
+def _is_barred(speed: Quantity, unknown: Expr, place: Expr, there: Expr) -> bool:
+    """Whether, with numbers for the letters, the squared rate is negative between the start and a place."""
+    known = speed.needed(ByEnergy)
+    q = letter_of(unknown)
+    squared, start, there = map(with_numbers, (explicit(speed.value), known.start, there))
+    is_far = place in (oo, -oo)
+    finite = Integer(0) if is_far else with_numbers(meaning(unknown, place)[q])
+    conditions = [with_numbers(each.residual) * SIGNS[each.mark[0]] for each in assumed() if each.mark[0] in SIGNS]
+    letters = set().union(*map(letters_of, (squared, start, there, finite, *conditions))) - {q}
+    for point in islice(points(letters, seed_of(squared)), TRIED):
+        try:
+            if value_at(there, point) < 0 or any(value_at(each, point) < 0 for each in conditions):
+                continue
+            begin, end = value_at(start, point), value_at(finite, point)
+            for part in PARTS:
+                far = (1 if place == oo else -1) * (abs(begin) + 1) * part / (1 - part)
+                here = begin + (far if is_far else (end - begin) * part)
+                if value_at(squared, {**point, q: here}) < 0:
+                    return True
+        except (Undefined, NoNumber, TypeError):
+            continue
+    return False

@@ -1,0 +1,1 @@
+"""Equilibria and their stability."""

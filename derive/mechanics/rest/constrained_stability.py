@@ -1,0 +1,207 @@
+"""Stability of a state of rest where forces keep constraints between the coordinates.
+
+Only the displacements z with grad f . z = 0 are allowed. With grad U = sum of lambda_a grad f_a at rest, the potential
+energy along the constraints is, to second order, (1/2) z . (U'' - sum of lambda_a f_a'') z.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Matrix, MatrixBase, Symbol
+
+from derive.algebra.amplitudes import Amplitudes
+from derive.algebra.definite import leading_minors, sign_of_form
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import TIME, Relation, explicit, scalar
+from derive.algebra.taylor import coefficient_along
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.model.constraint import Constraint, Kept
+from derive.mechanics.model.system import System
+from derive.solving.signs import sign_by_factors
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.step import Quantity, is_zero
+
+__all__: list[str] = []
+
+MOST = 3  # directions that a sentence tells
+
+
+def constraints_of(of: Quantity) -> tuple[Constraint, ...]:
+    """The constraints that forces keep in the system of an energy or an equation of motion."""
+    kept, body = of.fact(Kept), of.subject.body
+    return kept.constraints if kept is not None else body.constraints if isinstance(body, System) else ()
+
+
+@dataclass(frozen=True)
+class Allowed:
+    """The potential energy, the constraints, and the values of the coordinates at rest."""
+
+    energy: Expr
+    constraints: tuple[Constraint, ...]
+    place: Mapping[Symbol, Expr]
+
+    @property
+    def coordinates(self) -> list[Symbol]:
+        return list(self.place)
+
+    def there(self, value: Expr) -> Expr:
+        return tidied(value.xreplace(dict(self.place)))
+
+    @cached_property
+    def gradients(self) -> MatrixBase:
+        """One row for each constraint."""
+        rows = [[self.there(derivative(c.residual, q)) for q in self.coordinates] for c in self.constraints]
+        return ImmutableDenseMatrix(rows)
+
+    @cached_property
+    def ways(self) -> list[MatrixBase]:
+        """Displacements that the constraints allow; all others are sums of them."""
+        columns = Matrix(self.gradients).nullspace(iszerofunc=is_zero)
+        return [ImmutableDenseMatrix(column.applyfunc(tidied)) for column in columns]
+
+    @cached_property
+    def multipliers(self) -> list[Expr] | None:
+        """lambda of grad U = sum of lambda grad f; nothing where a force is left along the constraints."""
+        slopes = ImmutableDenseMatrix([self.there(derivative(self.energy, q)) for q in self.coordinates])
+        if any(not is_zero((way.T * slopes)[0]) for way in self.ways):
+            return None
+        normal = self.gradients
+        found = (normal * normal.T).inv() * normal * slopes
+        return [tidied(value) for value in found]
+
+    @cached_property
+    def matrix(self) -> MatrixBase:
+        """z . (U'' - sum of lambda f'') z for each pair of displacements."""
+        assert self.multipliers is not None
+        terms = (m * c.residual for m, c in zip(self.multipliers, self.constraints, strict=True))
+        whole = self.energy - Add(*terms)
+        moving = self.coordinates
+        second = Matrix([[self.there(derivative(whole, p, q)) for q in moving] for p in moving])
+        return ImmutableDenseMatrix([[tidied((a.T * second * b)[0]) for b in self.ways] for a in self.ways])
+
+    def along_curves(self) -> MatrixBase:
+        """The same from the energy along curves on the constraints, without the multipliers."""
+        count = len(self.ways)
+        squares = {}
+        for i, j in product(range(count), repeat=2):
+            way = self.ways[i] if i == j else self.ways[i] + self.ways[j]
+            squares[i, j] = 2 * self._along(way)
+        entries = [
+            [
+                tidied(squares[i, i] if i == j else (squares[i, j] - squares[i, i] - squares[j, j]) / 2)
+                for j in range(count)
+            ]
+            for i in range(count)
+        ]
+        return ImmutableDenseMatrix(entries)
+
+    def _along(self, way: MatrixBase) -> Expr:
+        """The second order of the energy where one moves by s z + s^2 w, with w such that the constraints hold."""
+        moved = dict(zip(self.coordinates, way, strict=True))
+        bent = ImmutableDenseMatrix([coefficient_along(c.residual, self.place, moved, 2) for c in self.constraints])
+        normal = self.gradients
+        turn = -normal.T * (normal * normal.T).inv() * bent
+        straight = coefficient_along(self.energy, self.place, moved, 2)
+        aside = coefficient_along(self.energy, self.place, dict(zip(self.coordinates, turn, strict=True)), 1)
+        return tidied(straight + aside)
+
+
+@dataclass(frozen=True)
+class OnConstraints:
+    """A state of rest on constraints.
+
+    potential     the potential energy, J
+    constraints   those between the coordinates, with their forces
+    place         the coordinates at rest
+    """
+
+    potential: Quantity
+    constraints: tuple[Constraint, ...]
+    place: Mapping[Symbol, Expr]
+
+    def stability(self, key: str) -> Quantity:
+        """Stability of rest on constraints, by the second order of U along the displacements that they allow.
+
+        Second route: the energy along curves that stay on the constraints, to second order.
+        Outcomes: stable, unstable, level, depends.
+        Errors: a constraint is one on the rates or changes in time; the place is not on it; a force is left there.
+        Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear
+        Programming*, section 11.5.
+        """
+        allowed = _allowed(self.potential, self.constraints, self.place)
+        minors = list(leading_minors(allowed.matrix))
+        sign = sign_of_form(allowed.matrix, sign_by_factors)
+        names = [scalar(f"D_{n + 1}") for n in range(len(minors))]
+        alone = len(minors) == 1
+        state = Relation(Amplitudes(*allowed.coordinates), "=", Amplitudes(*allowed.place.values()))
+        moved = Amplitudes(*allowed.coordinates)
+        named: dict[str, Any] = {"state": state, "moving": moved}
+        named |= {f"way_{n}": Amplitudes(*way) for n, way in enumerate(allowed.ways, 1)}
+        for constraint in self.constraints[:1]:
+            named["constraint"] = constraint.relation
+
+        def along_curves(found: Any) -> tuple[Any, Any]:
+            curved = list(leading_minors(allowed.along_curves()))
+            return found, curved[0] if alone else ImmutableDenseMatrix(curved)
+
+        return establish(
+            "minima.stability_on_constraints",
+            names[0] if alone else ImmutableDenseMatrix(names),
+            lambda *_: minors[0] if alone else Amplitudes(*minors),
+            {"potential": self.potential},
+            lines=Lines(
+                put_in=None, result=False, arranged=lambda _: minors[0] if alone else ImmutableDenseMatrix(minors)
+            ),
+            routes={"along_curves": along_curves},
+            outcome={1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign],
+            phrase_data=PhraseData(
+                named=named,
+                outcome_data={
+                    "coordinates": tuple(allowed.coordinates),
+                    "place": tuple(allowed.place.values()),
+                    "potential_here": allowed.energy,
+                    "constraints": tuple(c.residual for c in self.constraints),
+                },
+            ),
+            key=key,
+            parents=[self.potential],
+            scope=Scope(),
+        )
+
+
+def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapping[Symbol, Expr]) -> Allowed:
+    energy = explicit(potential.value)
+    for each in constraints:
+        if each.in_rates or explicit(each.residual).has(TIME):
+            message = f"`stability` needs constraints between the coordinates alone, not {each.left} = {each.right}"
+            raise Rejected(Complaint("constrained", message, help="ask for the equations of motion"))
+    needed = {q for each in constraints for q in each.coordinates} | {q for q in potential.coordinates if energy.has(q)}
+    missing = sorted(q.name for q in needed - set(place))
+    if missing:
+        message = f"`stability`: nothing says what {missing[0]} is at rest"
+        raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0]}: 0`"))
+    allowed = Allowed(energy, tuple(constraints), place)
+    where = ", ".join(f"{q} = {value}" for q, value in allowed.place.items())
+    for each in constraints:
+        if not is_zero(allowed.there(each.residual)):
+            message = f"`stability`: {where} does not fulfil the constraint {each.left} = {each.right}"
+            raise Rejected(Complaint("no-equilibrium", message))
+    if len(allowed.ways) != len(allowed.coordinates) - len(constraints):
+        message = f"`stability`: at {where} the gradients of the constraints are not independent"
+        raise Rejected(Complaint("constrained", message, help="write each constraint once, and without a square"))
+    if not allowed.ways:
+        message = "`stability`: the constraints allow no displacement at all"
+        raise Rejected(Complaint("constrained", message))
+    if len(allowed.ways) > MOST:
+        message = f"`stability`: the constraints leave {len(allowed.ways)} directions, which are too many to be told"
+        raise Rejected(Complaint("too-large", message))
+    if allowed.multipliers is None:
+        message = f"`stability`: at {where} a force is left along the constraints"
+        raise Rejected(Complaint("no-equilibrium", message, help="give a state in which the forces balance"))
+    return allowed

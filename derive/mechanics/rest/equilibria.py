@@ -1,0 +1,458 @@
+"""States of rest: all places at which no force is left, with the conditions under which they exist.
+
+The forces are those of a potential energy, or of a Lagrangian in which the coordinates do not move: there -L is the
+potential energy that they see, V. Two coordinates or more are solved one after the other, or together where the forces
+are linear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, sin
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.amplitudes import Amplitudes
+from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.derivatives import derivative
+from derive.algebra.equality import Verdict
+from derive.algebra.expressions import (
+    TIME,
+    Factors,
+    Partial,
+    Relation,
+    Slope,
+    Terms,
+    as_expr,
+    explicit,
+    rate,
+    scalar,
+    stand_in,
+)
+from derive.algebra.length import length
+from derive.algebra.ranges import range_of
+from derive.algebra.taylor import coefficient_along, slope
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton.effective import SeenWith
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.lagrange.applied_forces import ActedOn
+from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.model.system import System
+from derive.mechanics.rest.constrained_stability import constraints_of
+from derive.mechanics.rest.counting import is_countable, signs_counted
+from derive.mechanics.rest.mass_matrix import check_regular
+from derive.mechanics.rest.sides import (
+    SidesOpen,
+    State,
+    how_sides_are_taken,
+    keeps_sides,
+    on_its_side,
+    on_known_sides,
+    sides_of,
+)
+from derive.solving.attainable import lies_within
+from derive.solving.signs import sign_by_factors
+from derive.solving.zeros import Unsolved, Zero, factors_of, zeros_of
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.known_numbers import may_vanish
+from derive.steps.record import changes, given_letters
+from derive.steps.step import Fact, Quantity, Route, compared_with, is_zero, require_kind
+from derive.witness.facts import Rest
+
+__all__ = ["equilibria", "potential_at_rest"]
+
+ZERO = Integer(0)
+MOST = 32  # states of rest
+
+
+@dataclass(frozen=True)
+class RestOf(Fact):
+    """The potential energy that a state of rest belongs to, and the coordinates that it was sought in."""
+
+    missing = "is not a state of rest that was found"
+    potential: Quantity
+    coordinates: tuple[Symbol, ...]
+
+
+def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_rest") -> Quantity:
+    """Potential energy that a system at rest sees, V = -L without the rates: U, less what the given motion has of T;
+    and less F . r for each constant force F that is given at a place r.
+
+    of   the Lagrangian, J; an energy without rates is its own answer
+    Second route: the work of the forces and of the inertia of the mass points at rest, -dV for any displacement.
+    Outcomes: generic, pushed (constant forces are given).
+    Errors: the Lagrangian holds the time itself; a given force is not constant.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
+    """
+    require_kind("potential_at_rest", "of", of, "energy")
+    if explicit(of.value).has(TIME):
+        raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
+    moving, pushes = list(of.coordinates), _given_pushes(of)
+    if not explicit(of.value).free_symbols & {rate(q) for q in moving} and not pushes:
+        return of
+    still = {rate(q, n): ZERO for q in moving for n in (1, 2)}
+    matter = of.needed(Matter)
+
+    def work(found: Expr) -> tuple[Expr, Expr]:
+        marks = [stand_in(f"delta_{q.name}") for q in moving]
+        lost = (-slope(found, q) * mark for q, mark in zip(moving, marks, strict=True))
+        done = (_force_at_rest(matter, q, still) * mark for q, mark in zip(moving, marks, strict=True))
+        return Add(*lost), Add(*done)
+
+    def law(L: Expr) -> Expr:
+        return Terms(-L, *(-push for push in pushes)) if pushes else Factors(Integer(-1), L)
+
+    return establish(
+        "equilibria.potential_at_rest",
+        scalar(symbol),
+        law,
+        {"lagrangian": of},
+        lines=Lines(put_in=None, motion=still),
+        routes=matter.named({"work": work}),
+        outcome="pushed" if pushes else "generic",
+        phrase_data=PhraseData(outcome_data={"coordinates": tuple(moving)}),
+        key=key,
+        kind="energy",
+        facts=[matter],
+    )
+
+
+def _given_pushes(of: Quantity) -> list[Expr]:
+    """F . r of the constant forces that are given; others do not have a potential energy that is told here."""
+    acted = of.fact(ActedOn)
+    found = []
+    for push in acted.forces if acted is not None else ():
+        strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
+        if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
+            message = f"a force is given that is not constant, {push.components[0]}: where it leaves rest is not told"
+            help_line = "a force with a potential energy U is given by `potential(U)`"
+            raise Rejected(Complaint("changes", message, help=help_line))
+        found += [Factors(f, at) for f, at in zip(push.components, push.at, strict=True) if f != 0]
+    return found
+
+
+def _force_at_rest(matter: Matter, q: Symbol, still: Mapping[Symbol, Expr]) -> Expr:
+    return explicit(matter.force_along(q) - matter.inertia_along(q)).xreplace(dict(still))
+
+
+def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
+    """All states of rest, dU/dq = 0 for every coordinate, with the conditions under which they exist.
+
+    of            a potential energy or an effective one, or a Lagrangian, J
+    coordinates   those in which rest is sought; all that it depends on unless given
+    Angles are between -pi and pi; what is a distance is positive. A coordinate that no force depends on is left open.
+    Keys: condition_ and the name of the coordinate; rest_1, rest_2, ... the states.
+    Second route: the virtual work of forces and inertia at that place; of one coordinate also all zeros of the force
+    are counted in numbers, for some letters.
+    Outcomes: always, where (it exists under a condition), only (there is no other); of the condition: generic, zero (no
+    force along that coordinate).
+    Errors: a zero of the force has no closed form; there is no state of rest; it holds the time; forces keep a
+    constraint on the coordinates.
+    Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
+    Source: that of `equilibria`.
+    """
+    require_kind("equilibria", "of", of, "energy")
+    if explicit(of.value).has(TIME):
+        raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
+    potential = potential_at_rest(of)
+    sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]
+    _check_free(of, [q.symbol for q in coordinates] or list(of.coordinates))
+    missing = [q.name for q in sought if not explicit(potential.value).has(q)]
+    if missing or not sought:
+        message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: there is rest anywhere"
+        raise Rejected(Complaint("wrong-argument", message))
+    forces = {q: _factored(tidied(derivative(explicit(potential.value), q))) for q in sought}
+    others = [q for q in potential.coordinates if q not in sought and any(f.has(q) for f in forces.values())]
+    if others:
+        message = f"`equilibria`: the forces also depend on {others[0].name}"
+        raise Rejected(Complaint("wrong-argument", message, help=f"name it among the coordinates: {others[0].name}"))
+    states = _states(of, forces)
+    for state in states:
+        check_regular("equilibria", all_matter(potential), state.values)
+    conditions = [_condition(potential, q, forces[q]) for q in sought]
+    names = _names(potential, sought, len(states))
+    return tuple(_rest(potential, conditions, sought, state, names, n, states) for n, state in enumerate(states))
+
+
+def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
+    """Refuse coordinates that conditions tie together: a force of constraint balances the others at rest."""
+    tied = next((c for c in constraints_of(of) if any(c.along(q) != 0 for q in sought)), None)
+    if tied is not None:
+        message = f"`equilibria`: the coordinates are tied by {tied.left} = {tied.right}, which a force keeps"
+        help_line = "rest is sought in free coordinates: write the places by fewer of them, without this constraint"
+        raise Rejected(Complaint("constrained", message, help=help_line))
+
+
+def _factored(force: Expr) -> Expr:
+    try:
+        return min((factor(force), force), key=length)
+    except PolynomialError:
+        return force
+
+
+def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
+    try:
+        found = _on_all_sides(forces)
+    except SidesOpen as fault:
+        where = ", ".join(f"{q} = {value}" for q, value in fault.state.values.items())
+        message = f"`{of.key}` has a state of rest {where} only if {fault.state.exists} and {fault.other}"
+        help_line = "say on which side it is: give a coordinate a range, such as `x: positive length`"
+        raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
+    except Unsolved as fault:
+        message = f"the states of rest of `{of.key}` have no closed form: where {fault.factor} vanishes is not known"
+        help_line = "give a state of rest that you know where it is needed, `at={theta: 0}`"
+        raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
+    found = [state for state in found if _in_range(of, state)]
+    if not found:
+        ranged = [q.name for q in forces if range_of(q) is not None]
+        where = f" for {' and '.join(ranged)} in the range that is given" if ranged else ""
+        raise Rejected(
+            Complaint("no-equilibrium", f"`{of.key}` has no state of rest: its force vanishes nowhere{where}")
+        )
+    if len(found) > MOST:
+        raise Rejected(Complaint("too-large", f"`{of.key}` has more than {MOST} states of rest"))
+    return found
+
+
+def _in_range(of: Quantity, state: State) -> bool:
+    """Whether the coordinates are in their ranges there."""
+    inside = {q: lies_within(q, value, state.exists) for q, value in state.values.items()}
+    open_ = next((q for q, known in inside.items() if known is None), None)
+    if open_ is not None:
+        message = (
+            f"`{of.key}`: whether {open_} = {state.values[open_]} is in the range of {open_} depends on the letters"
+        )
+        raise Rejected(Complaint("range", message, help=f"give {open_} a wider range, or none"))
+    return all(inside.values())
+
+
+def _on_all_sides(forces: Mapping[Symbol, Expr]) -> list[State]:
+    found: list[State] = []
+    for branches in sides_of(forces):
+        solved = _solved([force.xreplace(dict(branches)) for force in forces.values()], list(forces), State({}))
+        found += [there for state in solved if (there := on_its_side(state, list(branches.values()))) is not None]
+    return [state for state in found if keeps_sides(state)]
+
+
+def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list[State]:
+    """The states that all forces allow, one force after another; nothing where they contradict each other."""
+    left = [force for force in (tidied(f) for f in forces) if not is_zero(force)]
+    if any(not force.has(*unknown) for force in left):
+        return []
+    if not left:
+        return [state]
+    together = _linear(left, unknown, state)
+    if together is not None:
+        return [together]
+    for force in left:
+        branches = [(f, [q for q in unknown if f.has(q)]) for f in factors_of_any(force, unknown)]
+        if all(len(held) == 1 for _, held in branches):
+            found: dict[Any, State] = {}
+            for part, (q,) in branches:
+                for zero in zeros_of(part, q):
+                    for each in _with_zero(left, force, unknown, state, q, zero):
+                        found.setdefault(frozenset(each.values.items()), each)
+            return sorted(found.values(), key=lambda s: s.exists is not None)
+    raise Unsolved(left[0])
+
+
+def factors_of_any(force: Expr, unknown: Sequence[Symbol]) -> list[Expr]:
+    """The factors of a force that hold some of the coordinates."""
+    held = [q for q in unknown if force.has(q)]
+    if len(held) == 1:
+        return list(factors_of(force, held[0]))
+    above = _factored(force).as_numer_denom()[0]
+    return [f.as_base_exp()[0] for f in Mul.make_args(above) if f.has(*unknown)]
+
+
+def _with_zero(
+    forces: Sequence[Expr], solved: Expr, unknown: list[Symbol], state: State, q: Symbol, zero: Zero
+) -> list[State]:
+    if state.exists is not None and zero.exists is not None and state.exists != zero.exists:
+        raise Unsolved(solved)
+    rest = [force.subs(q, zero.value) for force in forces if force is not solved]
+    known = State({**state.values, q: zero.value}, zero.exists or state.exists)
+    return _solved(rest, [other for other in unknown if other != q], known)
+
+
+def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> State | None:
+    """The one solution of linear equations; none where they are not linear, or may have no or many solutions."""
+    held = [q for q in unknown if any(force.has(q) for force in forces)]
+    if len(held) < 2 or len(held) != len(forces):
+        return None
+    matrix = ImmutableDenseMatrix([[derivative(force, q) for q in held] for force in forces])
+    if matrix.has(*held) or sign_by_factors(tidied(matrix.det(method="berkowitz"))) in (None, 0):
+        return None
+    at_zero = ImmutableDenseMatrix([-force.xreplace(dict.fromkeys(held, ZERO)) for force in forces])
+    values = matrix.adjugate() * at_zero / matrix.det(method="berkowitz")
+    return State({**state.values, **{q: tidied(v) for q, v in zip(held, values, strict=True)}}, state.exists)
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+
+def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
+    """dU/dq = 0, in factors.
+
+    Outcomes: generic, zero.
+    Source: that of `equilibria`.
+    """
+    alone = {s for s in potential.coordinates if explicit(potential.value).has(s)} == {q}
+    return establish(
+        "equilibria.condition",
+        None,
+        lambda U: Relation(Slope(U, q, Integer(1)) if alone else Partial(U, q), "=", 0),
+        {"potential": potential},
+        lines=Lines(put_in=None, arranged=lambda _: Relation(_term_by_term(force, q), "=", 0)),
+        routes=named_by(
+            potential, {"virtual_work": compared_with(lambda: Relation(slope_otherwise(potential, q), "=", 0))}
+        ),
+        outcome="zero" if force == 0 else "generic",
+        phrase_data=PhraseData(outcome_data={"coordinate": q}, named=steady_in(potential, [q])),
+        key=f"condition_{q.name}",
+    )
+
+
+def _term_by_term(force: Expr, q: Symbol) -> Expr:
+    """G M m/r^2 - l^2/(m r^3), not (G M m^2 r - l^2)/(m r^3)."""
+    below = force.as_numer_denom()[1]
+    if below.has(Abs):
+        return by_rates(force, [q])
+    return by_terms(force.expand()) if below.has(q) and not below.has(sin, cos) else force
+
+
+def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
+    """What stays constant where other coordinates move steadily, by their constant momenta: that is no rest."""
+    seen = potential.fact(SeenWith)
+    if seen is None or not seen.constants or len(sought) != 1:
+        return {}
+    return {"steady": sought[0]}
+
+
+def matter_behind(potential: Quantity) -> Matter | None:
+    """What made a potential energy: mass points and forces, or of an effective one those with momenta held constant."""
+    seen, own = potential.fact(SeenWith), potential.fact(Matter)
+    return seen.matter if seen is not None else own if own is not None and own.is_known else None
+
+
+def all_matter(potential: Quantity) -> Matter | None:
+    """What moves in a potential energy, with the kinetic energy and the magnetic fields that it does not contain."""
+    body = potential.subject.body
+    seen = potential.fact(SeenWith)
+    return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
+
+
+def named_by(potential: Quantity, routes: Mapping[str, Route]) -> dict[str, Route]:
+    matter = matter_behind(potential)
+    return dict(routes) if matter is None else matter.named(routes)
+
+
+def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
+    """dU/dq by the virtual work of what made U, else as the first order of U in a small displacement."""
+    matter = matter_behind(potential)
+    if matter is not None:
+        still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
+        return -_force_at_rest(matter, q, still)
+    return coefficient_along(explicit(potential.value), {q: q}, {q: Integer(1)}, 1)
+
+
+def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Symbol, list[Symbol]]:
+    """theta_0, or theta_1, theta_2, ... where there are several; theta_eq where these letters are given."""
+    taken = {s.name for s in explicit(potential.value).free_symbols} | given_letters()
+
+    def letters(q: Symbol) -> list[Symbol]:
+        numbers = range(1, count + 1) if count > 1 else [0]
+        if not taken & {f"{q.name}_{n}" for n in numbers}:
+            return [scalar(f"{q.name}_{n}") for n in numbers]
+        return [scalar(f"{q.name}_eq_{n}" if count > 1 else f"{q.name}_eq") for n in numbers]
+
+    return {q: letters(q) for q in sought}
+
+
+def _level_where(force: Expr, q: Symbol) -> Relation | None:
+    """Where a factor of the force that does not hold the coordinate vanishes there is rest anywhere; unless, told."""
+    factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
+    left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
+    if left is None or not left.left.is_Add:
+        return left
+    away = [-term for term in left.left.args if term.could_extract_minus_sign()]
+    return Relation(left.left + Add(*away), left.mark, Add(*away))
+
+
+def _by_terms_if_shorter(value: Expr) -> Expr:
+    """l + m g/k, not (m g + k l)/k, where nothing but a product is divided by."""
+    if not value.as_numer_denom()[0].is_Add or value.as_numer_denom()[1].atoms(Add, sin, cos):
+        return value
+    return min((value, by_terms(value.expand())), key=length)
+
+
+def _rest(
+    potential: Quantity,
+    conditions: Sequence[Quantity],
+    sought: Sequence[Symbol],
+    state: State,
+    names: Mapping[Symbol, list[Symbol]],
+    n: int,
+    states: Sequence[State],
+) -> Quantity:
+    """One state of rest.
+
+    Outcomes: always, where, only.
+    Source: that of `equilibria`.
+    """
+    held = [q for q in sought if q in state.values]
+    values = [_by_terms_if_shorter(state.values[q]) for q in held]
+    single = len(held) == 1
+    symbol: Any = names[held[0]][n] if single else ImmutableDenseMatrix([names[q][n] for q in held])
+    told = {}
+    if state.exists is not None:
+        told["exists"] = (state.exists, Relation(-state.exists.right, state.exists.mark, -state.exists.left))
+    if len(sought) == 1 and (excluded := _level_where(conditions[0].value.left, sought[0])) is not None:
+        told["excluded"] = (excluded, Relation(excluded.right, "!=", excluded.left))
+
+    def no_force(found: Any) -> tuple[Expr, Expr]:
+        marks = [stand_in(f"u_{i}") for i in range(len(sought))]
+        there = dict(zip(held, [found] if single else found, strict=True))
+        left = [on_known_sides(slope_otherwise(potential, q).xreplace(there), state.exists) for q in sought]
+        return Add(*(tidied(force) * mark for force, mark in zip(left, marks, strict=True))), ZERO
+
+    def counted(found: Any) -> Verdict:
+        return signs_counted(potential, sought[0], [(each.values[sought[0]], each.exists) for each in states], found)
+
+    distances = tuple(Integer(i) for i, q in enumerate(held) if q.is_positive)
+    outcome = "where" if state.exists is not None else "only" if len(states) == 1 else "always"
+    return establish(
+        "equilibria.rest",
+        symbol,
+        lambda *_: values[0] if single else Amplitudes(*values),
+        {f"condition_{i}": condition for i, condition in enumerate(conditions)},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"no_force": no_force, **({"counted": counted} if is_countable(sought) else {})},
+        outcome=outcome,
+        phrase_data=PhraseData(
+            formulas=told,
+            named=steady_in(potential, sought),
+            outcome_data={
+                "count": Integer(len(states)),
+                "distances": distances,
+                "sought": tuple(sought),
+                "angles": tuple(q for q in sought if potential.coordinates.get(q) == "angle"),
+                "states": tuple(tuple(each.values.items()) for each in states),
+            },
+            words={"seen": how_sides_are_taken(sought)},
+        ),
+        key=f"rest_{n + 1}" if len(states) > 1 else "rest",
+        kind=dict(potential.coordinates)[held[0]] if single else None,
+        facts=[Rest(dict(state.values), state.exists), RestOf(potential, tuple(sought))],
+        parents=[potential],
+    )
+
+
+def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:
+    """Values by the coordinates' letters, of a state of rest or as a script writes them."""
+    if isinstance(at, Quantity):
+        return dict(at.needed(Rest).values)
+    return {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in at.items()}

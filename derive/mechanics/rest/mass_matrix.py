@@ -1,0 +1,80 @@
+"""The mass matrix of a system at a place: whether it has an inverse there, and whether it is positive definite.
+
+M_ij is what the rate of q_j adds to the momentum p_i. Where it has no inverse although it has one elsewhere, the
+coordinates are singular: they do not determine how the system leaves that place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from mpmath import mp
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Symbol
+
+from derive.algebra.amplitudes import determinant_of
+from derive.algebra.definite import leading_minors
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import explicit, rate
+from derive.algebra.ranges import rational_in_range
+from derive.algebra.singular import has_no_value
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.lagrange.given_lagrangian import Varied
+from derive.mechanics.model.dalembert import Matter
+from derive.steps.known_numbers import taken_positive
+from derive.steps.step import is_zero
+
+DIGITS = 40
+SMALL = 25  # digits by which a determinant is above rounding
+
+
+def mass_matrix(matter: Matter, coordinates: Sequence[Symbol]) -> MatrixBase:
+    """dp_i/dq_dot_j where nothing moves."""
+    still = {rate(q): Integer(0) for q in matter.coordinates}
+    momenta = [explicit(matter.momentum_along(q)) for q in coordinates]
+    return ImmutableDenseMatrix([[derivative(p, rate(q)).xreplace(still) for q in coordinates] for p in momenta])
+
+
+def check_regular(verb: str, matter: Matter | None, place: Mapping[Symbol, Expr]) -> None:
+    """Refuse a place at which the coordinates are singular.
+
+    A coordinate that is left out of the place may have any value: there it need not be regular.
+    """
+    held = [q for q in place if matter is not None and q in matter.coordinates]
+    if matter is None or not held:
+        return
+    matrix = mass_matrix(matter, held)
+    there = ImmutableDenseMatrix(matrix.xreplace(dict(place)))
+    if not has_no_value(there):
+        if not _may_be_singular(there) or not is_zero(determinant_of(there.applyfunc(tidied))):
+            return
+        if _may_be_singular(matrix):  # it has no inverse anywhere: a coordinate has no inertia
+            return
+    where = ", ".join(f"{q} = {value}" for q, value in place.items())
+    message = f"`{verb}`: the coordinates are singular at {where}: the mass matrix has no inverse there"
+    help_line = "use coordinates that are regular at this place, such as the Cartesian ones"
+    raise Rejected(Complaint("singular-coordinates", message, help=help_line))
+
+
+def _may_be_singular(matrix: MatrixBase) -> bool:
+    """Whether its determinant vanishes for some numbers, in many digits."""
+    letters = sorted(matrix.free_symbols, key=str)
+    numbers = {s: rational_in_range(s, Rational(11 + 7 * i, 13 + 3 * i)) for i, s in enumerate(letters)}
+    with mp.workdps(DIGITS):
+        entries = [mp.mpf(str(entry.xreplace(numbers).evalf(DIGITS))) for entry in matrix]
+        size = matrix.shape[0]
+        found = mp.matrix([entries[size * i : size * (i + 1)] for i in range(size)])
+        scales = [max(abs(found[i, j]) for j in range(size)) for i in range(size)]
+        return not all(scales) or bool(abs(mp.det(found)) <= mp.fprod(scales) * mp.mpf(10) ** -SMALL)
+
+
+def has_positive_inertia(matter: Matter, place: Mapping[Symbol, Expr]) -> bool:
+    """Whether the kinetic energy is positive for every motion through the place; False where it is not.
+
+    That of masses is so by itself: a `System` has positive ones alone. Of a given Lagrangian the letters may leave it
+    open: it is taken to be so, and the page states the condition.
+    """
+    if not isinstance(matter, Varied):
+        return True
+    matrix = mass_matrix(matter, matter.coordinates).xreplace(dict(place)).applyfunc(tidied)
+    return all(taken_positive(minor) == 1 for minor in leading_minors(matrix))

@@ -1,0 +1,240 @@
+"""The shape of a potential energy: its slope and curvature, and what kind of equilibrium stands where it is level."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, factorial
+
+from derive.algebra.collect import spread_or_by_terms
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import At, Relation, Slope, Terms, Truncated, explicit, stand_in
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.taylor import coefficient_along
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, only_coordinate
+from derive.solving.presentation import presented
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.numeric import Extreme
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
+
+__all__ = ["extreme_value", "leading_order", "slope"]
+
+HIGHEST = 8  # where a potential is level to this order, nothing is decided
+
+
+@dataclass(frozen=True)
+class DerivativeOf(Fact):
+    """The potential energy that a slope or curvature is one of, and the coordinate that it was differentiated by."""
+
+    missing = "is not the derivative of a potential energy"
+    potential: Quantity
+    coordinate: Symbol
+
+
+@dataclass(frozen=True)
+class LowestOrder(Fact):
+    """The first order of a potential energy that does not vanish, and its coefficient; (0, 0) if none was found."""
+
+    missing = "is not a potential energy to its lowest order"
+    order: int
+    coefficient: Expr
+
+    @property
+    def is_minimum(self) -> bool:
+        return self.order % 2 == 0 and strict_sign_within(self.coefficient) == 1
+
+
+@dataclass(frozen=True)
+class Shape(Fact):
+    """The potential energy of which this is the curvature, the place, and a letter with its value on the border."""
+
+    missing = "is not the curvature at a state of rest"
+    potential: Quantity
+    coordinate: Symbol
+    place: Expr
+    border: Relation | None
+
+
+def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbol | None = None) -> Quantity:
+    """Derivative of a potential energy by its coordinate, U' = dU/dq or U'' = d^2U/dq^2.
+
+    potential   a function of one coordinate, J
+    order       1, 2, ...
+    by          the coordinate, where it depends on several
+    Check: U expanded about an arbitrary point q + u; n! times the coefficient of u^n.
+    Outcomes: slope, curvature, higher.
+    Errors: the potential depends on several coordinates, or on none.
+    Source: Taylor, *Classical Mechanics*, section 4.6.
+    """
+    q = by or only_coordinate(potential)
+    named = {1: "slope", 2: "curvature"}.get(order, f"derivative_{order}")
+    return establish(
+        "potentials.slope",
+        Slope(potential.symbol, q, Integer(order)),
+        lambda energy: Slope(energy, q, Integer(order)),
+        {"potential": potential},
+        lines=Lines(
+            put_in=Level.FULL,
+            law=Level.FULL,
+            arranged=lambda value: spread_or_by_terms(value, _of_each_term(potential.value, q, order)),
+        ),
+        routes={"expanded": compared_with(lambda: _coefficient(potential.value, q, q, order) * factorial(order))},
+        outcome=named if order < 3 else "higher",
+        key=key or f"{potential.key}_{named}",
+        facts=[DerivativeOf(potential, q)],
+    )
+
+
+def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
+    return Add(*(tidied(derivative(term, q, order)) for term in Add.make_args(value)))
+
+
+def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
+    """The coefficient of u^n in the expansion about q = place."""
+    return coefficient_along(explicit(value), {q: place}, {q: Integer(1)}, order)
+
+
+def _check_lasts(verb: str, potential: Quantity, q: Symbol) -> None:
+    """A potential that changes with the time has no equilibrium that its shape could tell."""
+    require_constant(
+        verb, "potential energy but for its coordinate", potential.value.xreplace({q: Dummy("q", real=True)})
+    )
+
+
+def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> None:
+    if tidied(derivative(value, q).xreplace({q: place})) != 0:
+        message = f"`{potential.key}` is not level at {q.name} = {place}"
+        raise Rejected(Complaint("no-equilibrium", message))
+
+
+def extreme_value(
+    potential: Quantity, by: Coordinate | Symbol | None = None, at: Expr | None = None, key: str = "extreme_value"
+) -> Quantity:
+    """Value of a potential energy where its slope vanishes, U(q_0), which is a minimum or a maximum by U''(q_0).
+
+    potential   a function of one coordinate, J
+    by          the coordinate, where it depends on several
+    at          q_0; 0 unless given
+    Check: the term of order zero of its expansion about that place.
+    Outcomes: minimum, maximum, level (the second derivative vanishes too), conditional (its sign is open).
+    Errors: U' does not vanish there.
+    Source: Taylor, *Classical Mechanics*, section 4.6.
+    """
+    q = by.symbol if isinstance(by, Coordinate) else by or only_coordinate(potential)
+    place = explicit(at) if at is not None else Integer(0)
+    value = explicit(potential.value)
+    _check_lasts("extreme_value", potential, q)
+    _check_level(value, q, place, potential)
+    curvature = tidied(derivative(value, q, 2).xreplace({q: place}))
+    sort = {1: "minimum", -1: "maximum", None: "conditional"}
+    return establish(
+        "potentials.extreme_value",
+        At(potential.symbol, q, place),
+        lambda energy: At(energy, q, place),
+        {"potential": potential},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=presented),
+        routes={"expanded": compared_with(lambda: _coefficient(value, q, place, 0))},
+        outcome="level" if curvature == 0 else sort[strict_sign_within(curvature)],
+        phrase_data=PhraseData(
+            outcome_data={"coordinate": q, "at": place},
+            named={"place": Relation(q, "=", place)},
+        ),
+        key=key,
+        kind=potential.step.kind,
+        facts=[Extreme(curvature)],
+        scope=Scope(case_of=potential),
+    )
+
+
+def leading_order(
+    of: Quantity, where: Relation | None = None, at: Expr | None = None, key: str = "leading_order"
+) -> Quantity:
+    """Potential energy near an equilibrium to the lowest order that decides, U = U(q_0) + c_n (q - q_0)^n.
+
+    of          a potential energy of one coordinate, J; or its curvature at rest, as `stability` yields it, which knows
+                place and border
+    where       a letter and the value for which the curvature of this potential vanishes, as a relation
+    at          q_0; 0 unless given
+    Check: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
+    Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and where a letter is
+    at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
+    Errors: U' does not vanish there; the border is that of another potential.
+    Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
+    """
+    shape = of.fact(Shape)
+    if shape is not None:
+        potential, q, place, where = shape.potential, shape.coordinate, shape.place, shape.border
+    else:
+        potential, q, place = of, only_coordinate(of), at if at is not None else Integer(0)
+    _check_lasts("leading_order", potential, q)
+
+    def in_case(energy: Expr) -> Expr:
+        return At(energy, where.left, where.right) if where else energy
+
+    value = explicit(in_case(potential.value))
+    _check_level(value, q, place, potential)
+    _check_border(value, q, place, potential, where)
+    order, leading = _first_that_decides(value, q, place)
+    constant = tidied(value.xreplace({q: place}))
+    truncated = Terms(constant, leading * Pow(q - place, order))
+
+    def by_derivatives(found: Expr) -> tuple[Expr, Expr]:
+        """Each derivative with a mark of its own, so that no two can make up for one another."""
+        orders = range(1, (order or HIGHEST) + 1)
+        marks = {n: stand_in(f"u_{n}") for n in orders}
+        expected = leading * factorial(order) * marks[order] if order else Integer(0)
+        return Add(*(derivative(found, q, n).xreplace({q: place}) * marks[n] for n in orders)), expected
+
+    def lowest(found: Expr) -> tuple[Expr, Expr]:
+        orders = (n for n in range(1, HIGHEST + 1) if tidied(derivative(found, q, n).xreplace({q: place})) != 0)
+        return Integer(order), Integer(next(orders, 0))
+
+    return establish(
+        "potentials.leading_order",
+        in_case(potential.symbol),
+        lambda energy, *_: in_case(energy),
+        {"potential": potential},
+        phrase_data=PhraseData(
+            named={"case": where} if where else {},
+            outcome_data={"coordinate": q, "place": place},
+        ),
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            after=[Form(Truncated(truncated, q, place, Integer(order)), "series")] if order else [],
+            arranged=spread_or_by_terms,
+        ),
+        routes={"derivatives": by_derivatives, "lowest": lowest},
+        outcome=_shape(order, leading, at_bound=where is not None),
+        key=key,
+        kind=potential.step.kind,
+        parents=[of] if shape is not None else [],
+        facts=[LowestOrder(order, leading)],
+        scope=Scope(case_of=potential),
+    )
+
+
+def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, where: Relation | None) -> None:
+    """At the border of this very potential its curvature vanishes."""
+    if where is not None and not is_zero(derivative(value, q, 2).xreplace({q: place})):
+        message = f"the curvature of `{potential.key}` does not vanish at {where}, so that is not its border"
+        help_line = "leave `where` out, or give the letter at its bound"
+        raise Rejected(Complaint("wrong-border", message, help=help_line))
+
+
+def _first_that_decides(value: Expr, q: Symbol, place: Expr) -> tuple[int, Expr]:
+    """The lowest order whose coefficient is not zero, and that coefficient; (0, 0) if there is none."""
+    for n in range(2, HIGHEST + 1):
+        coefficient = tidied(_coefficient(value, q, place, n))
+        if coefficient != 0:
+            return n, coefficient
+    return 0, Integer(0)
+
+
+def _shape(order: int, leading: Expr, at_bound: bool) -> str:
+    even = {1: "minimum", -1: "maximum"}.get(strict_sign_within(leading) or 0, "conditional")
+    shape = "flat" if order == 0 else "inflection" if order % 2 else even
+    return f"{shape}_at_bound" if at_bound else shape

@@ -1,0 +1,83 @@
+"""Both sides of a place on a line: a distance |u| is u where u > 0 and -u where u < 0, and each is solved by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+
+from sympy import Abs, Expr, Mul, Symbol
+
+from derive.algebra.expressions import Relation
+from derive.algebra.tidy import tidied
+from derive.solving.signs import sign_by_factors
+from derive.solving.zeros import Unsolved, positive, sign_where
+from derive.steps.record import assumed, assumed_in_words
+
+MOST = 4  # distances whose sides are all tried
+
+
+@dataclass(frozen=True)
+class State:
+    """Values of coordinates at equilibrium; those that are left out may have any value."""
+
+    values: Mapping[Symbol, Expr]
+    exists: Relation | None = None
+
+
+class SidesOpen(Unsolved):
+    """A state on whose existence the letters must decide by two conditions at once."""
+
+    def __init__(self, state: State, other: Relation):
+        super().__init__(other.residual)
+        self.state, self.other = state, other
+
+
+def sides_of(forces: Mapping[Symbol, Expr]) -> Iterator[Mapping[Expr, Expr]]:
+    """Each choice of u or -u for every distance |u| in the forces; at u = 0 the force has no direction."""
+    sizes = sorted({size for f in forces.values() for size in f.atoms(Abs) if size.has(*forces)}, key=str)
+    if len(sizes) > MOST:
+        raise Unsolved(Mul(*sizes))
+    for signs in product((1, -1), repeat=len(sizes)):
+        yield {size: sign * size.args[0] for size, sign in zip(sizes, signs, strict=True)}
+
+
+def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
+    """The state with the condition that all these lengths are positive there; None where one never is."""
+    for each in lengths:
+        there = tidied(each.xreplace(dict(state.values)))
+        sign = sign_by_factors(there)
+        if sign in (-1, 0):
+            return None
+        if sign is None:
+            exists = positive(there)
+            if state.exists is not None and state.exists != exists:
+                raise SidesOpen(state, exists)
+            state = replace(state, exists=exists)
+    return state
+
+
+def keeps_sides(state: State) -> bool:
+    """Whether no distance that the page takes to be positive is negative or zero there."""
+    lengths = [each.residual for each in _sides_taken(tuple(state.values))]
+    return all(sign_by_factors(tidied(u.xreplace(dict(state.values)))) not in (-1, 0) for u in lengths)
+
+
+def how_sides_are_taken(coordinates: Sequence[Symbol]) -> str:
+    """How the page states the sides that are taken: by springs that are "stretched", as "one_side", or not, "any"."""
+    taken = _sides_taken(coordinates)
+    if not taken:
+        return "any"
+    return "stretched" if all(each in assumed_in_words() for each in taken) else "one_side"
+
+
+def _sides_taken(coordinates: Sequence[Symbol]) -> list[Relation]:
+    return [each for each in assumed() if each.mark == ">" and each.residual.has(*coordinates)]
+
+
+def on_known_sides(value: Expr, exists: Relation | None) -> Expr:
+    """The value with u or -u for each |u| whose sign is known where a condition of existence holds."""
+    if exists is None:
+        return value
+    sides = {size: sign * size.args[0] for size in value.atoms(Abs) if (sign := sign_where(size.args[0], exists))}
+    return value.xreplace(sides)

@@ -1,0 +1,409 @@
+"""Stability of a state of rest: whether the potential energy has a minimum there, and for which values of the letters.
+
+Of one coordinate the curvature decides, on its border the next order that does not vanish; of several the leading
+minors of the second derivatives (Sylvester).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol
+from sympy.matrices import MatrixBase
+
+from derive.algebra.amplitudes import Amplitudes, Determinant
+from derive.algebra.collect import spread_or_by_terms
+from derive.algebra.definite import sign_of_form
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.taylor import coefficient_along, series_along
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton.effective import SeenWith
+from derive.mechanics.rest.constrained_stability import OnConstraints, constraints_of
+from derive.mechanics.rest.equilibria import (
+    all_matter,
+    matter_behind,
+    place_given,
+    potential_at_rest,
+    slope_otherwise,
+    steady_in,
+)
+from derive.mechanics.rest.mass_matrix import check_regular, has_positive_inertia
+from derive.mechanics.rest.potentials import Shape, slope
+from derive.mechanics.rest.sides import on_known_sides
+from derive.mechanics.rest.stable_where import StableWhere
+from derive.solving.signs import sign_by_factors
+from derive.solving.zeros import border_of, positive, sign_where
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
+from derive.witness.facts import Rest
+
+__all__ = ["stability"]
+
+HIGHEST = 8  # the order to which a border is looked at
+FEW = 5  # coordinates of which every direction of zeros and ones is tried
+SHORT = 80  # operations of a curvature that is written down before a place is put in
+ZERO = Integer(0)
+BY_FIRST_ORDER = "to first order the equations of motion tell, `linear_stability(linearised(motion))`"
+STEADY = "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`"
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where stability is asked for: a potential energy, the coordinates that it depends on, their values."""
+
+    potential: Quantity
+    coordinates: tuple[Symbol, ...]
+    values: Mapping[Symbol, Expr]
+    exists: Relation | None
+    rest: Quantity | None
+
+    @property
+    def energy(self) -> Expr:
+        return explicit(self.potential.value)
+
+    def second(self, one: Symbol, other: Symbol) -> Expr:
+        return tidied(on_known_sides(derivative(self.energy, one, other).xreplace(dict(self.values)), self.exists))
+
+
+def stability(
+    of: Quantity, at: Quantity | Mapping[Any, Expr], letter: Expr | None = None, key: str | None = None
+) -> Quantity:
+    """Stability of a state of rest, by U''(q_0) > 0, or by the leading minors of the second derivatives of U.
+
+    of       the potential energy, an effective one, or the Lagrangian that the rest is one of, J
+    at       the state of rest: as `equilibria` yields it, or `{theta: 0}`
+    letter   the letter that a condition is solved for; unless given it is one that occurs as a square alone, if any
+    Second route: the force on a small displacement, by virtual work where there are places and forces; of several
+    coordinates the energy of a small displacement in an arbitrary direction.
+    Outcomes: stable, unstable, depends (on the sign of what is told), depends_stable_on_border,
+    depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides),
+    of several coordinates also unstable_along (the energy falls in a direction that is told) and level (to second order
+    it does not change in one direction, and nowhere falls).
+    Errors: a force is left there; coordinates are missing; of several coordinates the energy has no minimum, but what
+    is linear in the rates, as in a frame that turns or a magnetic field, may hold the state all the same.
+    Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
+    Source: that of `stability`.
+    """
+    require_kind("stability", "of", of, "energy")
+    held = constraints_of(of)
+    if held:
+        potential, values = _potential(of, at), place_given(at)
+        found = OnConstraints(potential, held, values).stability(key or "stability")
+        _check_nothing_else_holds_it(Place(potential, tuple(values), values, None, None), found.step.outcome)
+        return found
+    place = _place(of, at)
+    named = key or ("stability" if place.rest is None else place.rest.key.replace("rest", "stability"))
+    if len(place.coordinates) > 1:
+        return _of_several(place, named)
+    return _of_one(place, letter, named)
+
+
+def _state(place: Place) -> Relation:
+    """Where it is, as the sentence says it: by the name of the state of rest, where that is one result."""
+    if len(place.coordinates) == 1:
+        (q,) = place.coordinates
+        named = place.values[q] if place.rest is None else place.rest.symbol
+        return Relation(q, "=", named if isinstance(named, Expr) else place.values[q])
+    return Relation(Amplitudes(*place.coordinates), "=", Amplitudes(*(place.values[q] for q in place.coordinates)))
+
+
+def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
+    known = place_given(at)
+    rest, potential = at if isinstance(at, Quantity) else None, _potential(of, at)
+    if rest is not None and not (of.step == potential.step or potential.rests_on(of)):
+        raise Rejected(Complaint("different-subjects", f"`{rest.key}` is no state of rest of `{of.key}`"))
+    held = tuple(q for q in potential.coordinates if explicit(potential.value).has(q))
+    slopes = {q: derivative(explicit(potential.value), q).xreplace(known) for q in held}
+    missing = [q for q in held if q not in known and not all(is_zero(slope) for slope in slopes.values())]
+    if missing:
+        message = f"`stability`: nothing says what {missing[0].name} is at rest"
+        raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0].name}: 0`"))
+    values = {q: value for q, value in known.items() if q in held}
+    place = Place(potential, tuple(values), values, rest.needed(Rest).exists if rest else None, rest)
+    check_regular("stability", all_matter(potential), values)
+    _check_level(place)
+    return place
+
+
+def _potential(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Quantity:
+    """The potential energy of a state of rest, that of which it was found."""
+    if not isinstance(at, Quantity):
+        return potential_at_rest(of)
+    return next((parent for parent in at.parents if parent.step.kind == "energy"), of)
+
+
+def _check_level(place: Place) -> None:
+    if not place.coordinates:
+        raise Rejected(Complaint("wrong-argument", f"`{place.potential.key}` depends on none of these coordinates"))
+    for q, value in place.values.items():
+        require_constant("stability", "value", value)
+        force = tidied(on_known_sides(derivative(place.energy, q).xreplace(dict(place.values)), place.exists))
+        if not is_zero(force):
+            where = ", ".join(f"{s} = {v}" for s, v in place.values.items())
+            message = f"`{place.potential.key}` is not level at {where}: its slope by {q} is {force}"
+            steady = place.potential.fact(SeenWith)
+            help_line = STEADY if steady is not None and steady.constants else "`equilibria` finds the states of rest"
+            raise Rejected(Complaint("no-equilibrium", message, help=help_line))
+
+
+# --- one coordinate --------------------------------------------------------------------------------------------------
+
+
+def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
+    """The curvature of the potential energy.
+
+    Outcomes: stable, unstable, depends, depends_stable_on_border, depends_unstable_on_border, stable_by_higher_order,
+    unstable_by_higher_order, flat.
+    Source: that of `stability`.
+    """
+    (q,), potential = place.coordinates, place.potential
+    value = place.second(q, q)
+    outcome, condition, border = _judged(place, value, letter)
+    _check_nothing_else_holds_it(place, outcome)
+    told: dict[str, tuple[Any, Any]] = {}
+    named: dict[str, Any] = {"state": _state(place), **steady_in(potential, [q])}
+    is_short = int(derivative(place.energy, q, 2).count_ops()) <= SHORT
+    level = [slope(potential, by=q)] if place.rest is None and is_short else []
+    if level:
+        named["place"] = Relation(q, "=", place.values[q])
+    if condition is not None:
+        told["condition"] = (condition, Relation(value, ">", 0))
+    if place.exists is not None:
+        told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
+    if border is not None and condition is not None:
+        told["border"] = (
+            Relation(condition.left, "=", condition.right),
+            Relation(value, "=", 0),
+        )
+    order = _order(place.energy.subs(border.left, border.right) if border is not None else place.energy, place)
+    is_open = outcome == "flat" and order > 0  # there is a derivative, of a sign that is not known
+    if outcome.endswith("order") or border is not None or is_open:
+        energy = place.energy.subs(border.left, border.right) if border is not None else place.energy
+        there = tidied(derivative(energy, q, order).xreplace({q: place.values[q]}))
+        told["higher"] = (there, _coefficient(energy, q, place.values[q], order))
+    return establish(
+        "minima.stability",
+        At(Slope(potential.symbol, q, Integer(2)), q, place.values[q] if place.rest is None else place.rest.symbol),
+        lambda second, at: At(second if is_short else Slope(second, q, Integer(2)), q, at),
+        {
+            "curvature": slope(potential, 2, by=q) if is_short else potential,
+            "at": place.rest if place.rest is not None else place.values[q],
+        },
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda _: spread_or_by_terms(value)),
+        routes={"small_force": lambda found: (found, _small_force(place, q))},
+        outcome=outcome,
+        phrase_data=PhraseData(
+            points_to={"potential": potential},
+            formulas=told,
+            named=named,
+            outcome_data={
+                "coordinates": place.coordinates,
+                "place": tuple(place.values.values()),
+                "potential_here": place.energy,
+                **({"at_border": border} if border is not None else {}),
+            },
+        ),
+        key=key,
+        parents=[*level, potential],
+        facts=[Shape(potential, q, place.values[q], border), *_decided_where(place, q, condition, border, outcome)],
+    )
+
+
+def _decided_where(
+    place: Place, q: Symbol, condition: Relation | None, border: Relation | None, outcome: str
+) -> list[Fact]:
+    """What `stable_where` makes a condition of."""
+    if condition is None:
+        return []
+    there = {"depends_stable_on_border": True, "depends_unstable_on_border": False}.get(outcome)
+    return [StableWhere(place.energy, q, place.values[q], condition, border, there)]
+
+
+def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relation | None, Relation | None]:
+    """The word, the condition and the border: a letter and what it is there."""
+    if is_zero(value):
+        return _by_higher_order(place, place.energy), None, None
+    sign = sign_where(value, place.exists)
+    if sign is not None:
+        return ("stable" if sign > 0 else "unstable"), None, None
+    condition = positive(value, *([letter] if isinstance(letter, Symbol) else []))
+    border = border_of(condition)
+    if border is None:
+        return "depends", condition, None
+    there = _by_higher_order(place, place.energy.subs(border.left, border.right))
+    words = {
+        "stable_by_higher_order": "depends_stable_on_border",
+        "unstable_by_higher_order": "depends_unstable_on_border",
+    }
+    return words.get(there, "depends"), condition, border if there in words else None
+
+
+def _order(energy: Expr, place: Place) -> int:
+    """The first order beyond the first that does not vanish there; 0 if there is none."""
+    (q,) = place.coordinates
+    terms = series_along(energy, {q: place.values[q]}, {q: Integer(1)}, HIGHEST)
+    return next((n for n in range(2, HIGHEST + 1) if not is_zero(terms[n])), 0)
+
+
+def _by_higher_order(place: Place, energy: Expr) -> str:
+    (q,) = place.coordinates
+    order = _order(energy, place)
+    if order == 0:
+        return "flat"
+    sign = sign_by_factors(tidied(derivative(energy, q, order).xreplace({q: place.values[q]})))
+    if order % 2 or sign == -1:
+        return "unstable_by_higher_order"
+    return "stable_by_higher_order" if sign == 1 else "flat"
+
+
+def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
+    from sympy import factorial
+
+    return factorial(order) * coefficient_along(energy, {q: at}, {q: Integer(1)}, order)
+
+
+def _small_force(place: Place, q: Symbol) -> Expr:
+    """What a unit of displacement adds to the force that drives back."""
+    if matter_behind(place.potential) is not None:
+        force = slope_otherwise(place.potential, q)
+        return coefficient_along(force, place.values, {s: Integer(s == q) for s in place.values}, 1)
+    return _coefficient(place.energy, q, place.values[q], 2)
+
+
+# --- several ---------------------------------------------------------------------------------------------------------
+
+
+def _of_several(place: Place, key: str) -> Quantity:
+    """The leading minors of the second derivatives, all positive at a minimum.
+
+    Outcomes: stable, unstable, unstable_along (a direction is told), level, depends.
+    Source: that of `stability`.
+    """
+    moving = place.coordinates
+    matrix = ImmutableDenseMatrix([[place.second(p, q) for q in moving] for p in moving])
+    minors = [_minor(matrix, n) for n in range(1, len(moving) + 1)]
+    values = [tidied(explicit(minor)) for minor in minors]
+    letters = ImmutableDenseMatrix([scalar(f"D_{n}") for n in range(1, len(moving) + 1)])
+    outcome = _of_minors(matrix, values)
+    told: dict[str, tuple[Any, Any]] = {}
+    named: dict[str, Any] = {"state": _state(place)}
+    way = _way_down(matrix) if outcome == "depends" else None
+    if outcome == "unstable" and not any(sign_by_factors(value) == -1 for value in values):
+        way = _plain_way_down(matrix, [place.potential.coordinates[q] for q in moving])
+    if way is not None:
+        outcome = "unstable_along"
+        told |= _falling(place, matrix, way)
+        named |= {"moving": Amplitudes(*place.coordinates), "direction": Amplitudes(*way)}
+    _check_nothing_else_holds_it(place, outcome)
+    if place.exists is not None:
+        told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
+
+    def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
+        """The second order of the energy of a displacement in an arbitrary direction has the same minors."""
+        marks = {q: stand_in(f"u_{q.name}") for q in moving}
+        energy = coefficient_along(place.energy, place.values, marks, 2).expand()
+        second = ImmutableDenseMatrix([[derivative(energy, marks[p], marks[q]) for q in moving] for p in moving])
+        return found, ImmutableDenseMatrix([second[:n, :n].det(method="laplace") for n in range(1, len(moving) + 1)])
+
+    return establish(
+        "minima.stability_of_several",
+        letters,
+        lambda *_: Amplitudes(*minors),
+        {"potential": place.potential, "at": place.rest or Integer(0)},
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            after=[Form(Amplitudes(*values), "result")],
+            result=False,
+            arranged=lambda _: ImmutableDenseMatrix(values),
+        ),
+        routes={"any_direction": in_any_direction},
+        outcome=outcome,
+        phrase_data=PhraseData(
+            formulas=told,
+            named=named,
+            outcome_data={
+                "coordinates": moving,
+                "place": tuple(place.values.values()),
+                "potential_here": place.energy,
+            },
+        ),
+        key=key,
+        parents=[place.potential],
+    )
+
+
+def _minor(matrix: MatrixBase, n: int) -> Expr:
+    return matrix[0, 0] if n == 1 else Determinant(ImmutableDenseMatrix(matrix[:n, :n]))
+
+
+def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
+    if all(sign_by_factors(value) == 1 for value in minors):
+        return "stable"
+    return {1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign_of_form(matrix, sign_by_factors)]
+
+
+def _way_down(matrix: MatrixBase) -> MatrixBase | None:
+    """A direction in which the energy falls whatever the letters are, though no minor says so.
+
+    What one spring holds often leaves a direction free, in which it is not stretched: the columns that the share of a
+    letter takes to zero.
+    """
+    for letter in sorted(matrix.free_symbols, key=str):
+        share = matrix.applyfunc(lambda entry, s=letter: tidied(derivative(entry, s)))
+        if share.has(letter):
+            continue
+        for column in share.nullspace(iszerofunc=is_zero):
+            way = ImmutableDenseMatrix(column.applyfunc(tidied))
+            if strict_sign_within(tidied((way.T * matrix * way)[0])) == -1:
+                return way
+    return None
+
+
+def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | None:
+    """A direction of zeros and ones in which the energy falls, where no leading minor is negative.
+
+    kinds   those of the coordinates, of which only equal ones are moved together
+    """
+    size = matrix.shape[0]
+    ways = product((0, 1, -1), repeat=size) if size <= FEW else ()
+    for way in sorted(ways, key=lambda each: (sum(map(abs, each)), [-n for n in each])):
+        if len({kind for kind, n in zip(kinds, way, strict=True) if n}) == 1:
+            column = ImmutableDenseMatrix(way)
+            if sign_by_factors(tidied((column.T * matrix * column)[0])) == -1:
+                return column
+    return None
+
+
+def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tuple[Any, Any]]:
+    """How the slope of the energy changes along it, by the matrix and by the energy itself."""
+    along = coefficient_along(place.energy, place.values, dict(zip(place.coordinates, way, strict=True)), 2)
+    return {
+        "falling": (tidied((way.T * matrix * way)[0]), 2 * along),
+    }
+
+
+def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
+    """A minimum is stable whatever forces turn the motion aside; what is none they may hold, as a top that spins."""
+    matter = all_matter(place.potential)
+    if matter is not None and not has_positive_inertia(matter, place.values):
+        message = f"`stability`: a minimum of `{place.potential.key}` is stable only where the kinetic energy is"
+        message += " positive for every motion, which is not known of this one"
+        raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))
+    if outcome.startswith("stable") or matter is None:
+        return
+    still = {rate(q, n): ZERO for q in matter.coordinates for n in (1, 2)}
+    for p, q in ((p, q) for p in place.coordinates for q in matter.coordinates if p != q):
+        turned = derivative(matter.momentum_along(p), q) - derivative(matter.momentum_along(q), p)
+        turned += derivative(matter.other_force_along(p), rate(q)) - derivative(matter.other_force_along(q), rate(p))
+        if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
+            message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
+            message += f" depend on the rates of {q.name} and {p.name} may hold the state all the same"
+            raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))

@@ -1,0 +1,126 @@
+"""For which values of a letter a state of rest is stable, with or without the border, which a higher order decides."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, sqrt
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import Relation, explicit
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.solving.signs import SIGNS_OF, sign_by_factors
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.step import Fact, Form, Level, Quantity
+
+__all__ = ["stable_where"]
+
+NEAR, TRIALS = Rational(1, 1000), 3
+TURNED = {">": "<", "<": ">"}
+
+
+@dataclass(frozen=True)
+class StableWhere(Fact):
+    """Of one coordinate: the potential energy, the place, the condition, and the letter at its border where a higher
+    order decides, with what it decides."""
+
+    missing = "does not depend on a condition, as `stability` may"
+    energy: Expr
+    coordinate: Symbol
+    place: Expr
+    condition: Relation
+    border: Relation | None
+    stable_there: bool | None
+
+    def lifted(self, values: Mapping[Any, Any]) -> Expr:
+        """By how much the energy a little beside the place is greater, on the side where that is less."""
+        q, energy = self.coordinate, self.energy.xreplace(values)
+        place = self.place.xreplace(values)
+        at = {s: value_at(energy, {q: place + s * NEAR}) for s in (1, -1)}
+        return min(each - value_at(energy, {q: place + NEAR**8}) for each in at.values())
+
+
+def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
+    """Condition under which a state of rest is stable, S >= S_0; S > S_0 where it is not stable at the border itself.
+
+    of   the stability, as `stability` yields it where it depends on the letters
+    Check: the sign of the second derivative a little above the border and a little below; in numbers, whether
+    the energy beside the place is greater than there: above the border, at it, and not below it.
+    Outcomes: with_border, without_border, open (the border is not decided by one letter).
+    Errors: the stability depends on no condition, or on that of several coordinates.
+    Source: Taylor, *Classical Mechanics*, section 4.6.
+    """
+    known = of.fact(StableWhere)
+    if known is None:
+        message = f"`stable_where`: `{of.key}` depends on no condition that one coordinate decides"
+        raise Rejected(Complaint("no-condition", message, help="`stability` says itself whether the state is stable"))
+    left, right = known.condition.sides
+    mark = known.condition.mark + ("=" if known.stable_there else "")
+    squared = Relation(left, mark, right)
+    alone = left.base if left.is_Pow and left.exp == 2 and left.base.is_positive and right.is_positive else left
+    result = Relation(alone, mark, tidied(sqrt(right))) if alone != left else squared
+    border = known.border if known.border is not None and alone == known.border.left else None
+
+    def beside(found: Relation) -> tuple[Any, Any]:
+        """What the relation says above and below its border, and the sign of the second derivative there."""
+        u = Dummy("u", positive=True)
+        says, is_so = [Integer(1)], [Integer(1)]
+        for side in (1, -1) if border is not None else ():
+            there = found.right * (1 + u) ** side
+            sign = sign_by_factors(tidied(explicit(of.value).subs(found.left, there)))
+            says.append(Integer(int(side in SIGNS_OF[found.mark])))
+            is_so.append(Integer(int(sign == 1)) if sign is not None else Integer(7))
+        return ImmutableDenseMatrix(says), ImmutableDenseMatrix(is_so)
+
+    return establish(
+        "minima.stable_where",
+        None,
+        lambda _: squared,
+        {"stability": of},
+        lines=Lines(
+            law=Level.STANDARD, put_in=None, arranged=lambda _: result, after=[Form(result, "solved")], result=False
+        ),
+        routes={"beside": beside, "energies": lambda found: _by_energies(found, known, border)},
+        outcome="open" if known.stable_there is None else "with_border" if known.stable_there else "without_border",
+        phrase_data=PhraseData(
+            outcome_data={
+                "coordinates": (known.coordinate,),
+                "place": (known.place,),
+                "potential_here": known.energy,
+                **({"at_border": known.border} if known.border is not None else {}),
+            }
+        ),
+        key=key,
+    )
+
+
+def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -> Verdict:
+    """In numbers: where the relation holds the energy is least at the place, and where it does not it is not."""
+    letters = (letters_of(known.energy) | letters_of(found.residual)) - {known.coordinate}
+    seen = 0
+    for point in islice(points(letters, seed_of(known.energy)), 60):
+        try:
+            cases = [point]
+            if border is not None:
+                bound = value_at(found.right, point)
+                cases = [{**point, found.left: bound * f} for f in (Rational(5, 4), Rational(4, 5))]
+            for case in cases:
+                holds = _sign(value_at(found.residual, case)) in SIGNS_OF[found.mark]
+                if holds != bool(known.lifted(case) > 0):
+                    where = tuple((str(s), str(x)) for s, x in case.items())
+                    return Verdict(Grade.REFUTED, "the energy beside the place tells otherwise", where)
+        except (Undefined, NoNumber, TypeError):
+            continue
+        seen += 1
+        if seen == TRIALS:
+            break
+    return Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "nothing could be tried")
+
+
+def _sign(value: Expr) -> int:
+    return 0 if value == 0 else 1 if value > 0 else -1

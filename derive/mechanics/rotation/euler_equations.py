@@ -1,0 +1,403 @@
+"""Free rotation: Euler's equations for a body of which only the principal moments of inertia are known.
+
+Components are along the body's principal axes, which turn with it. Second routes go back to particles: each one's
+acceleration is that of a place in a turning body, and no tensor is used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, ClassVar
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, Symbol, diag
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.collect import by_products
+from derive.algebra.expressions import (
+    AXES,
+    BodyRate,
+    CarriedRate,
+    Component,
+    Cross,
+    Dot,
+    Relation,
+    TimeRate,
+    bound,
+    column,
+    component_names,
+    explicit,
+    rate,
+    scaled,
+    tensor,
+    vector,
+)
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.equimomental import OfParticles
+from derive.mechanics.bodies.facts import AboutPoint, OfBody
+from derive.mechanics.bodies.placed import Placeable
+from derive.mechanics.bodies.regions import Point
+from derive.mechanics.rotation.given_moments import check_given_moment
+from derive.mechanics.rotation.vectors import Acting, RateByParticles, Through
+from derive.solving.highest_rates import highest_rates
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.known_numbers import sign_known
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
+from derive.steps.subject import Subject
+
+__all__ = [
+    "RigidBody",
+    "changing_angular_velocity",
+    "euler_equations",
+    "principal_tensor",
+    "rate_in_body",
+    "rate_in_space",
+]
+
+_POINTS = ("centre_of_mass", "fixed_point")
+NO_TORQUE = (Integer(0), Integer(0), Integer(0))
+
+
+@dataclass(frozen=True)
+class RigidBody(Placeable, OfParticles):
+    """A rigid body of any shape. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
+
+    mass      kg, where more is asked than its free rotation
+    moments   its principal moments of inertia, three, kg m^2; axes x, y, z along the principal axes. For a motion in a
+              plane the one about the axis across it, a letter or the step that found it
+    centre    where its centre of mass is, from the point where its axes begin, the "pivot", m
+    about     the point the moments are about: "centre_of_mass", or "fixed_point", the pivot; that is so where a centre
+              is given and nothing is said
+    look      a body of a shape, as which it is drawn; its middle is where the centre of mass is
+    """
+
+    mass: Expr | None = None
+    moments: tuple[Expr, Expr, Expr] | Expr = ()
+    centre: tuple[Expr, ...] = (Integer(0), Integer(0), Integer(0))
+    about: str = ""
+    name: ClassVar[str] = "a rigid body"
+    called: str = ""
+    look: Any = field(default=None, compare=False)
+    across_plane: ClassVar[Quantity | None] = None  # the step that found the moment across the plane
+    is_plane: ClassVar[bool] = False  # whether only the moment across a plane is known
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.moments, tuple | list):
+            if isinstance(self.moments, Quantity):
+                check_given_moment("RigidBody", self.mass, self.moments)
+                object.__setattr__(self, "across_plane", self.moments)
+            moment = value_behind(self.moments)
+            object.__setattr__(self, "is_plane", True)
+            object.__setattr__(self, "moments", (moment / 2, moment / 2, moment))
+        object.__setattr__(self, "centre", (*self.centre, *(Integer(0),) * (3 - len(self.centre))))
+        object.__setattr__(self, "about", self.about or ("fixed_point" if any(self.centre) else "centre_of_mass"))
+        if len(self.moments) != 3:
+            raise Rejected(Complaint("wrong-argument", "`RigidBody` needs three moments, or the one across a plane"))
+        if self.about not in _POINTS:
+            known = " or ".join(f'"{point}"' for point in _POINTS)
+            raise Rejected(Complaint("wrong-argument", f"the moments of a `RigidBody` are about {known}"))
+        for moment in self.moments:
+            require_constant("RigidBody", "moment of inertia", moment)
+        if self.mass is not None:
+            require_constant("RigidBody", "mass", self.mass)
+        for axis, spread in zip(AXES, self.second_moments, strict=True):
+            if sign_known(spread) == -1:
+                message = f"no body has such moments: that about {axis} is more than the other two together"
+                raise Rejected(Complaint("no-such-body", message))
+
+    def named(self, called: str) -> RigidBody:
+        """The same body under a name of its own, "upper rod", for a page that has another."""
+        twin = replace(self, moments=(self.across_plane or self.moments[2]) if self.is_plane else self.moments)
+        object.__setattr__(twin, "called", called)
+        return twin
+
+    @property
+    def middle(self) -> Point:
+        return Point("centre", column(*self.centre))
+
+    def point_called(self, name: str) -> Point:
+        points = {"pivot": Point("pivot", column(0, 0, 0)), "centre": self.middle}
+        if name not in points:
+            known = ", ".join(f'"{known}"' for known in points)
+            raise Rejected(Complaint("no-such-point", f'{self.name} has no point "{name}"', help=f"it has {known}"))
+        return points[name]
+
+    @cached_property
+    def central_second_moments(self) -> ImmutableMatrix:
+        """The integrals of r_i r_j over the mass, r from the centre of mass: less M c_i c_j where they are about the
+        pivot."""
+        about_point = ImmutableDenseMatrix(diag(*self.second_moments))
+        if self.about == "centre_of_mass" or not any(self.centre):
+            return about_point
+        c = column(*self.centre)
+        return ImmutableDenseMatrix(about_point - self.mass * c * c.T)
+
+    @cached_property
+    def second_moments(self) -> tuple[Expr, Expr, Expr]:
+        """The integrals of x^2, y^2 and z^2 over the mass: I_x is that of y^2 + z^2, and so on."""
+        x, y, z = (tidied(sum(self.moments, Integer(0)) / 2 - moment) for moment in self.moments)
+        return x, y, z
+
+    @property
+    def point(self) -> Point:
+        return Point(self.about, column(0, 0, 0))
+
+    @cached_property
+    def tensor(self) -> Quantity:
+        return principal_tensor(self)
+
+    def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
+        """Six particles, two on each axis, at unit distance to either side: they have the body's second moments."""
+        places = [(i, sign) for i in range(3) for sign in (1, -1)]
+        return [(self.second_moments[i] / 2, column(*(sign * (k == i) for k in range(3)))) for i, sign in places]
+
+    def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
+        """The sum over the particles of their mass times a function of the place, of second order in it."""
+        first, *others = [mass * explicit(integrand(place)) for mass, place in self.particles()]
+        return sum(others, first)
+
+
+@dataclass(frozen=True)
+class RateOfMomentum(Fact):
+    """The rate of an angular momentum: by the particles of the body, and the components of omega that change."""
+
+    missing = "is not the rate of an angular momentum"
+    of: RateByParticles
+    moving: tuple[Symbol, ...]
+
+    def by_particles(self) -> Any:
+        """The sum of m r x a."""
+        return self.of.rate()
+
+
+@dataclass(frozen=True)
+class MotionOfBody(Fact):
+    """What the equations of motion make of the angular accelerations."""
+
+    missing = "does not come from equations of motion"
+    motion: Mapping[Symbol, Expr]
+
+
+def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_tensor") -> Quantity:
+    """Inertia tensor in principal axes, I = diag(I_x, I_y, I_z), in kg m^2: a definition.
+
+    body    its principal moments, and the point they are about
+    Outcomes: isotropic (three equal moments), two_equal, generic.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
+    """
+    return establish(
+        "free_rotation.principal_tensor",
+        tensor(symbol),
+        lambda: ImmutableDenseMatrix(diag(*body.moments)),
+        {},
+        outcome=_symmetry(body),
+        definition=True,
+        kind="moment of inertia",
+        facts=[OfBody(body), AboutPoint(body.point)],
+        phrase_data=PhraseData(words={"about": body.about}),
+        key=key,
+        scope=Scope(about=Subject(body=body, point=body.point)),
+    )
+
+
+def _symmetry(body: RigidBody) -> str:
+    different = len(set(body.moments))
+    return "isotropic" if different == 1 else "two_equal" if different == 2 else "generic"
+
+
+def changing_angular_velocity(
+    through: str = "centre_of_mass", symbol: str = "omega", key: str = "angular_velocity"
+) -> Quantity:
+    """An angular velocity that changes in any way, omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
+
+    through   the point of the body that the axis goes through at every time
+
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
+    """
+    names = component_names(symbol)
+    return establish(
+        "free_rotation.changing_angular_velocity",
+        vector(symbol),
+        lambda: column(*names),
+        {},
+        definition=True,
+        kind="angular speed",
+        scope=Scope(coordinates=dict.fromkeys(names, "angular speed"), about=Subject(rotation=column(*names))),
+        facts=[Through(through)],
+        key=key,
+    )
+
+
+def rate_in_space(
+    momentum: Quantity, omega: Quantity, in_body: Quantity | None = None, key: str = "momentum_rate"
+) -> Quantity:
+    """Rate of change in space of a vector known by its components in the body, dL/dt = (dL/dt)_body + omega x L.
+
+    momentum   angular momentum L, vector (3), kg m^2/s, body axes
+    omega      angular velocity of the body, vector (3), 1/s, body axes
+    in_body    its rate of change in the body by the equations of motion, if that is to be put in
+    Second route: L turned with the body by a rotation matrix and differentiated; the sum of m r x a over particles;
+    the component along a direction that is fixed in space, and so turns backwards in the body.
+    Outcomes: zero (constant in space), zero_in_both (and in the body), driven (a torque acts), generic.
+    Errors: arguments of other kinds.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
+    """
+    require_kind("rate_in_space", "momentum", momentum, "angular momentum")
+    require_kind("rate_in_space", "omega", omega, "angular speed")
+    moving = list(omega.coordinates)
+    motion = in_body.needed(MotionOfBody).motion if in_body else {}
+    L, w = momentum, omega
+    turned, matter = CarriedRate(L.value, w.value, *moving), L.needed(RateByParticles)
+
+    def law(momentum: Any, omega: Any, seen: Any = None) -> Any:
+        return MatAdd(BodyRate(momentum, *moving) if seen is None else seen, Cross(omega, momentum))
+
+    def along_fixed_direction() -> Expr:
+        """dL/dt . n as the rate of the component L.n, where n_dot = -omega x n in the body."""
+        n = column(*component_names("n"))
+        backwards = explicit(Cross(n, w.value))
+        changed = explicit(TimeRate(Dot(L.value, n), *moving, *n))
+        return bound(changed, {**dict(zip(map(rate, n), backwards, strict=True)), **motion})
+
+    inputs = {"momentum": momentum, "omega": omega, **({"in_body": in_body} if in_body else {})}
+    return establish(
+        "free_rotation.rate_in_space",
+        CarriedRate(L.symbol, w.symbol, *moving),
+        law,
+        inputs,
+        lines=Lines(
+            between=_rates_worked(momentum, omega, in_body),
+            put_in=None,
+            # That in the body was found from the torque: what the two parts add up to is no news, but a check.
+            law=Level.FULL if in_body else Level.BRIEF,
+            result=in_body is not None,  # else Euler's equations have its components
+            arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
+            means=motion,
+        ),
+        routes={
+            "carried_round": compared_with(lambda: bound(explicit(turned), motion)),
+            "matter": compared_with(lambda: bound(explicit(matter.rate()), motion)),
+            "fixed_direction": lambda value: (
+                explicit(Dot(value, column(*component_names("n")))),
+                along_fixed_direction(),
+            ),
+        },
+        outcome=lambda value: _constancy(value, in_body),
+        kind="torque",
+        phrase_data=PhraseData(words={"about": L.needed(AboutPoint).point.name}),
+        facts=[RateOfMomentum(matter, tuple(moving))],
+        key=key,
+    )
+
+
+def _constancy(rate: Any, in_body: Quantity | None) -> str:
+    """Whether the vector is constant in space, and in the body too; unknown before the equations are put in."""
+    if in_body is None:
+        return "generic"
+    if not is_zero(rate):
+        return "driven"
+    return "zero_in_both" if is_zero(in_body.value) else "zero"
+
+
+def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None) -> list[Form]:
+    """The two parts of the rate: with their components, or with that in the body as the equations of motion give it."""
+    if in_body is not None:
+        seen = in_body.step.chain[0].expr
+        parts = seen.args if isinstance(seen, MatAdd) else (seen,)
+        return [Form(MatAdd(*parts, Cross(omega.symbol, momentum.symbol)), "in_body", Level.FULL)]
+    in_components = explicit(BodyRate(momentum.value, *omega.coordinates))
+    return [Form(MatAdd(in_components, Cross(omega.value, momentum.value)), "differentiated", Level.STANDARD)]
+
+
+def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE) -> tuple[Quantity, Quantity, Quantity]:
+    """Euler's equations, I_x omega_x_dot - (I_y - I_z) omega_y omega_z = N_x and so on round: dL/dt = N by components.
+
+    rate     rate of change in space of the angular momentum, vector (3), N m, principal axes of the body
+    torque   N about the same point, three components in N m in the same axes; none acts unless it is given
+    Second route: the components of the sum of m r x a over particles.
+    Outcomes: coupled, driven (with a torque), uncoupled (no product of components is left in it, so that its own is
+    constant), isotropic (in none of the three).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.5.
+    """
+    x, y, z = (_euler_equation(rate, i, torque) for i in range(3))
+    return x, y, z
+
+
+def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> Quantity:
+    """One component of dL/dt = N."""
+    of = rate.needed(RateOfMomentum)
+    moving = of.moving
+    acting = torque[i]
+    return establish(
+        "free_rotation.euler_equation",
+        None,
+        lambda rate, _: Relation(Component(rate, AXES[i]), "=", acting),
+        {"rate": rate, "component": moving[i]},
+        lines=Lines(
+            put_in=None,
+            arranged=lambda value: Relation(by_products(explicit(value.left), moving), "=", value.right),
+            law=Level.FULL,
+        ),
+        routes={"matter": lambda value: (value, Relation(explicit(of.by_particles())[i], "=", acting))},
+        outcome=_coupling(rate.value, moving, i, torque),
+        phrase_data=PhraseData(
+            words={"axis": AXES[i]},
+            outcome_data={"torque": column(*torque), "rate": rate.value, "moving": list(moving)},
+        ),
+        kind="torque",
+        key=f"euler_{AXES[i]}",
+        facts=[Acting(column(*torque))],
+    )
+
+
+def _coupling(rates: Any, moving: Sequence[Expr], i: int, torque: Sequence[Expr]) -> str:
+    """Whether a torque acts, and else whether products of components are left in the equation."""
+    uncoupled = [not entry.has(*moving) for entry in rates]
+    if any(component != 0 for component in torque):
+        return "driven"
+    if all(uncoupled):
+        return "isotropic"
+    return "uncoupled" if uncoupled[i] else "coupled"
+
+
+def rate_in_body(
+    momentum: Quantity, omega: Quantity, equations: Sequence[Quantity], key: str = "momentum_rate_in_body"
+) -> Quantity:
+    """Rate of change of the angular momentum as seen in the body, (dL/dt)_body = N - omega x L.
+
+    momentum    angular momentum L, vector (3), kg m^2/s, body axes
+    omega       angular velocity of the body, vector (3), 1/s, body axes
+    equations   Euler's equations, for the axes x, y and z in turn
+    Check: the components I_x omega_x and so on differentiated, the angular accelerations as the equations give
+    them.
+    Outcomes: zero (constant in the body), in_general, driven (a torque acts).
+    Errors: arguments of other kinds.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
+    """
+    require_kind("rate_in_body", "momentum", momentum, "angular momentum")
+    require_kind("rate_in_body", "omega", omega, "angular speed")
+    moving = list(omega.coordinates)
+    motion = highest_rates(equations, moving)
+    acting = column(*(equation.value.right for equation in equations))
+
+    def law(omega: Any, momentum: Any) -> Any:
+        turning = scaled(Integer(-1), Cross(omega, momentum))
+        return turning if is_zero(acting) else MatAdd(acting, turning)
+
+    return establish(
+        "free_rotation.rate_in_body",
+        BodyRate(momentum.symbol, *moving),
+        law,
+        {"omega": omega, "momentum": momentum},
+        lines=Lines(put_in=Level.FULL, means=motion),
+        routes={"motion": compared_with(lambda: bound(explicit(BodyRate(momentum.value, *moving)), motion))},
+        outcome=lambda value: "zero" if is_zero(value) else "in_general" if is_zero(acting) else "driven",
+        phrase_data=PhraseData(outcome_data={"torque": acting}),
+        kind="torque",
+        parents=list(equations),
+        facts=[MotionOfBody(motion)],
+        key=key,
+    )

@@ -1,0 +1,143 @@
+"""Where the principal moments of a body become equal, so that every axis is a principal one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Mul, Rational, Symbol, expand, factor, nan
+
+from derive.algebra.expressions import Relation, explicit
+from derive.algebra.tidy import common_factor, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.rotation.principal import PrincipalOf, lone_moment
+from derive.solving.signs import of_the_size
+from derive.steps.establish import Lines, establish
+from derive.steps.step import Form, Level, Quantity, is_zero
+
+__all__ = ["isotropic_where"]
+
+
+def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") -> Quantity:
+    """Case in which all three principal moments are equal, I_1 = I_3, solved for one letter: h = 2R.
+
+    moments   principal moments (3), kg m^2, of which two are equal
+    letter    a letter that stands for a positive number; or what was given for it, 2b for h
+    Check: with the letter put in, the tensor is one moment times the unit tensor; and the two moments differ,
+    one way or the other, where the letter is a little greater and a little less.
+    Outcomes: special; always, where they are equal as it is; never, where one is greater whatever the letters are.
+    Errors: the three moments are all different; the equation has not one positive root for that letter.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
+    """
+    one, other = _two_to_compare(moments)
+    difference = tidied(moments.value[one] - moments.value[other])
+    if is_zero(difference) or difference.is_positive or difference.is_negative:
+        return _of_known_sign(moments, one, other, difference, key)
+    unknown, bound, power = _solved(letter, difference, moments)
+    common = common_factor([moments.value[one], moments.value[other]])
+    plain = common.as_independent(unknown, *_lengths_in(difference), as_Add=False)[0]
+    sides = [expand(moments.value[k] / _letters_only(plain)) for k in (one, other)]
+    squared = [Form(Relation(unknown**2, "=", tidied(bound**2)), "solved", Level.FULL)] if power == 2 else []
+    return establish(
+        "principal.isotropic_where",
+        None,
+        lambda found: Relation(found[one], "=", found[other]),
+        {"moments": moments},
+        lines=Lines(
+            between=[Form(Relation(sides[0], "=", sides[1]), "divided", Level.FULL), *squared],
+            after=[Form(Relation(unknown, "=", bound), "positive")],
+            result=False,
+            arranged=lambda _: Relation(unknown, "=", bound),
+        ),
+        routes={
+            "put_back": lambda found: _tensor_there(moments, found, one),
+            "beside": lambda found: _differences_beside(difference, found),
+        },
+        outcome="special",
+        key=key,
+    )
+
+
+def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, key: str) -> Quantity:
+    """The moments are equal as they are, or one is always the greater."""
+    mark = "=" if is_zero(difference) else ">" if difference.is_positive else "<"
+    return establish(
+        "principal.isotropic_where",
+        None,
+        lambda found: Relation(found[one], mark, found[other]),
+        {"moments": moments},
+        lines=Lines(result=False, arranged=explicit),
+        routes={
+            "sign": lambda found: (
+                ImmutableDenseMatrix([found.residual] * 2),
+                ImmutableDenseMatrix([moments.value[one] - moments.value[other], of_the_size(difference, found.mark)]),
+            )
+        },
+        outcome="always" if mark == "=" else "never",
+        key=key,
+    )
+
+
+def _two_to_compare(moments: Quantity) -> tuple[int, int]:
+    """Of two equal moments and a third, one of the two and the third."""
+    alone = lone_moment(moments.value)
+    if alone is not None:
+        return (0 if alone else 1), alone
+    if all(is_zero(moments.value[k] - moments.value[0]) for k in (1, 2)):
+        return 0, 2
+    message = f"the three moments of `{moments.key}` all differ, so that one equation does not make them equal"
+    raise Rejected(Complaint("all-different", message))
+
+
+def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, Expr, int]:
+    """The letter, or the first one that will do of what was given for it, h of h + R; its root, and by which power."""
+    for symbol in sorted(letter.free_symbols & difference.free_symbols, key=str):
+        root = _root(difference, symbol)
+        if root is not None:
+            return symbol, *root
+    message = f"where the moments of `{moments.key}` are equal cannot be told from {letter} alone"
+    raise Rejected(Complaint("no-condition", message, help="give another of the letters they depend on"))
+
+
+def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
+    """The one positive root, and the power of the letter that it is found by; nothing if there is not just one."""
+    core = difference.as_numer_denom()[0]
+    parts = [part for part in Mul.make_args(factor(core)) if part.has(letter) and not part.is_positive]
+    polynomial = parts[0].as_base_exp()[0].as_poly(letter) if len(parts) == 1 else None
+    powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
+    if not polynomial or powers not in ([1, 0], [2, 0]):
+        return None
+    leading, *_, rest = polynomial.all_coeffs()
+    root = tidied((-rest / leading) ** Rational(1, powers[0]))
+    is_of_square = is_zero(core - core.subs(letter, -letter))
+    return (root, 2 if is_of_square else 1) if root.is_positive else None
+
+
+def _lengths_in(difference: Expr) -> list[Any]:
+    """The letters on which it depends whether the moments are equal."""
+    terms = Add.make_args(expand(difference))
+    common = common_factor(list(terms))
+    return [letter for letter in difference.free_symbols if (expand(difference) / common).expand().has(letter)]
+
+
+def _letters_only(factor: Expr) -> Expr:
+    """The factor without its number: both sides are divided by M, not by 3 M/80."""
+    return factor.as_coeff_Mul()[1]
+
+
+def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, Any]:
+    """The tensor with the letter put in, and one moment times the unit tensor; nothing but an equation will do."""
+    if found.mark != "=":
+        return nan, nan
+    letter, bound = found.sides
+    there = ImmutableDenseMatrix(moments.needed(PrincipalOf).tensor.value.subs(letter, bound))
+    return there, moments.value[one].subs(letter, bound) * ImmutableDenseMatrix.eye(3)
+
+
+def _differences_beside(difference: Expr, found: Relation) -> tuple[Any, Any]:
+    """The difference of the moments a little beyond the root and a little before it, and their opposite signs."""
+    letter, bound = found.sides
+    u = Dummy("u", positive=True)
+    beyond, before = (tidied(difference.subs(letter, bound * (1 + u) ** sign)) for sign in (1, -1))
+    rises = 1 if beyond.is_positive else -1
+    expected = [rises * Abs(beyond), -rises * Abs(before), Abs(bound)]  # the last: the letter is a positive number
+    return ImmutableDenseMatrix([beyond, before, bound]), ImmutableDenseMatrix(expected)

@@ -1,0 +1,384 @@
+"""How a body turns on when its axis is disturbed: steady rotation about a principal axis, and the symmetric top.
+
+Euler's equations to first order in the two components across the axis. Second routes go back to particles: each one's
+acceleration is that of a place in a turning body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, diff, linsolve, prime, sqrt
+
+from derive.algebra.expressions import AXES, Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.rotation.euler_equations import RateOfMomentum
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Quantity, is_zero
+
+__all__ = ["body_cone_rate", "linearised_rotation", "wobble_rate", "wobble_squared"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Disturbed(Fact):
+    """A steady rotation about a principal axis that is disturbed.
+
+    axis    "x", "y" or "z"
+    speed   its rate
+    of      the rate of its angular momentum, of which each component vanishes
+    """
+
+    missing = "is not an equation of a disturbed rotation"
+    axis: int
+    speed: Expr
+    of: RateOfMomentum
+
+    @property
+    def moving(self) -> tuple[Symbol, ...]:
+        """The components of the angular velocity."""
+        return self.of.moving
+
+    def by_particles(self) -> Any:
+        """The sum of m r x a."""
+        return self.of.by_particles()
+
+    @property
+    def across(self) -> tuple[int, int]:
+        """The two other axes, in right-handed order."""
+        return (self.axis + 1) % 3, (self.axis + 2) % 3
+
+    @property
+    def steadily(self) -> dict[Symbol, Expr]:
+        return {w: self.speed if k == self.axis else ZERO for k, w in enumerate(self.moving)}
+
+    @cached_property
+    def moments(self) -> tuple[Expr, ...]:
+        """What the particles have before the angular acceleration about each axis."""
+        torque = explicit(self.by_particles())
+        return tuple(tidied(diff(torque[k], rate(w))) for k, w in enumerate(self.moving))
+
+
+def linearised_rotation(
+    equations: Sequence[Quantity], axis: str, speed: Expr, key: str = "linearised"
+) -> tuple[Quantity, Quantity]:
+    """Euler's equations to first order about a steady rotation: I_x omega_x_dot = (I_y - I_z) omega omega_y, and so on.
+
+    equations   Euler's equations for the axes x, y and z in turn, without torque
+    axis        "x", "y" or "z": the principal axis about which the body turns
+    speed       its constant rate omega, 1/s
+    Second route: the sum of m r x a over the particles of the body, half the difference of its values for opposite
+    disturbances.
+    Errors: the body cannot turn steadily about that axis, as where a torque acts; no such axis.
+    Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
+    """
+    if axis not in AXES:
+        raise Rejected(Complaint("no-such-axis", f'a body turns about "x", "y" or "z", not about "{axis}"'))
+    require_constant("linearised_rotation", "rate", speed)
+    of = _rate_of(equations)
+    disturbed = Disturbed(AXES.index(axis), speed, of)
+    steady = {**disturbed.steadily, **{rate(w): ZERO for w in of.moving}}
+    for equation in equations:
+        if not is_zero(_left(equation).xreplace(steady)):
+            message = f"a steady rotation about {axis} does not fulfil `{equation.key}`"
+            raise Rejected(Complaint("not-steady", message, help="a torque acts, or the axis is no principal axis"))
+    first, second = (_linear_equation(equations, disturbed, k, key) for k in disturbed.across)
+    return first, second
+
+
+def _rate_of(equations: Sequence[Quantity]) -> RateOfMomentum:
+    """The rate of the angular momentum, of which the equations are the components."""
+    found = [parent.fact(RateOfMomentum) for equation in equations for parent in equation.parents]
+    rates = [fact for fact in found if fact is not None]
+    if len(equations) != 3 or not rates:
+        raise Rejected(Complaint("wrong-argument", "a disturbed rotation needs the three equations of Euler"))
+    return rates[0]
+
+
+def _left(equation: Quantity) -> Expr:
+    residual: Expr = explicit(equation.value).residual
+    return residual
+
+
+def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int, key: str) -> Quantity:
+    """One of the two linear equations: what stands at the steady rotation before each component and each rate.
+
+    Source: that of `linearised_rotation`.
+    """
+    steady, moving = disturbed.steadily, disturbed.moving
+    left = _left(equations[k])
+    small = [rate(w) for w in moving] + [w for i, w in enumerate(moving) if i != disturbed.axis]
+    still = {**steady, **{rate(w): ZERO for w in moving}}
+    factors = [(tidied(diff(left, letter).xreplace(still)), letter) for letter in small]
+    whole = Add(*(factor * letter for factor, letter in factors if factor != 0), evaluate=False)
+
+    def by_opposite_disturbances() -> Relation:
+        """Products of two small quantities are the same for opposite ones, so that they cancel."""
+        exact = explicit(disturbed.by_particles())[k]
+        ahead, back = (
+            exact.subs(
+                {w: w * sign + value for w, value in steady.items()} | {rate(w): sign * rate(w) for w in moving},
+                simultaneous=True,
+            )
+            for sign in (1, -1)
+        )
+        beside = moving[disturbed.axis]  # what is left of it stands beside a small quantity, which is left out
+        return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
+
+    return establish(
+        "wobble.linear_equation",
+        None,
+        lambda *_: Relation(whole, "=", 0),
+        {},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"opposite": lambda value: (value, by_opposite_disturbances())},
+        phrase_data=PhraseData(
+            words={"axis": AXES[disturbed.axis]},
+            points_to={"motion": equations[k], "slow": equations[disturbed.axis]},
+            named={
+                "speed": disturbed.speed,
+                "along": moving[disturbed.axis],
+                "letter": scalar(AXES[disturbed.axis]),
+                **{f"small_{n}": moving[i] for n, i in enumerate(disturbed.across, 1)},
+            },
+        ),
+        parents=list(equations),
+        key=f"{key}_{AXES[k]}",
+        facts=[disturbed],
+        scope=Scope(coordinates=dict.fromkeys(moving, "angular speed")),
+    )
+
+
+@dataclass(frozen=True)
+class WobbleOf(Fact):
+    """The disturbed rotation that a square of a rate belongs to, and the linear equations."""
+
+    missing = "is not the square of a rate of wobbling"
+    equations: tuple[Quantity, Quantity]
+    letter: str
+
+
+def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str = "wobble_squared") -> Quantity:
+    """Square of the rate at which a disturbed axis wobbles, Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y) about z.
+
+    linear   the two linear equations, as `linearised_rotation` yields them
+    Second route: on the surface of given angular momentum the energy has a minimum or a maximum where the curvatures
+    have one sign, and their product gives the rate; the accelerations of particles, of which the trace of the squared
+    matrix of the motion is -2 Omega^2.
+    Outcomes: greatest, least (positive: the moment about the axis is the greatest of the three, or the least), unstable
+    (negative), marginal (zero: a moment across is equal to that about the axis), symmetric (the two moments across are
+    equal), conditional (it depends on the order of the moments).
+    Source: Landau, Lifshitz, *Mechanics*, section 37; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
+    """
+    disturbed = linear[0].needed(Disturbed)
+    i, j = disturbed.across
+    names = {
+        index: tuple(tidied(diff(_left(equation), letter)) for letter in (rate(disturbed.moving[index]), other))
+        for index, equation, other in (
+            (i, linear[0], disturbed.moving[j]),
+            (j, linear[1], disturbed.moving[i]),
+        )
+    }
+    (first, first_other), (second, second_other) = names[i], names[j]
+
+    return establish(
+        "wobble.wobble_squared",
+        Pow(scalar(symbol), 2),
+        lambda *_: Ratio(Factors(Integer(-1), first_other, second_other), Factors(first, second)),
+        {},
+        lines=Lines(
+            put_in=None,
+            arranged=lambda value: _by_differences(value, disturbed),
+            means={scalar(symbol): sqrt(-first_other * second_other / (first * second))},
+        ),
+        routes={
+            "conserved": lambda found: (found, _by_curvatures(disturbed)),
+            "particles": lambda found: (-2 * found, _trace_of_squared_motion(disturbed)),
+        },
+        outcome=lambda value: _stability(value, disturbed),
+        phrase_data=PhraseData(
+            words={"axis": AXES[disturbed.axis]},
+            points_to={"first": linear[0], "second": linear[1]},
+            named={f"small_{n}": disturbed.moving[k] for n, k in enumerate(disturbed.across, 1)},
+            outcome_data={"moments": disturbed.moments, "axis_index": Integer(disturbed.axis)},
+        ),
+        key=key,
+        kind="squared angular speed",
+        parents=list(linear),
+        facts=[disturbed, WobbleOf((linear[0], linear[1]), symbol)],
+        scope=Scope(coordinates=dict.fromkeys(disturbed.moving, "angular speed")),
+    )
+
+
+def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
+    """(I_z - I_x)(I_z - I_y) where these are letters: the moment about the axis stands first in each difference."""
+    found = tidied(value)
+    about = disturbed.moments[disturbed.axis]
+    across = [disturbed.moments[k] for k in disturbed.across]
+    if found == 0 or not all(moment.is_Symbol for moment in (about, *across)):
+        return found
+    a, b = across
+    if a == b:
+        return Factors(Pow(Ratio(about - a, a), 2), disturbed.speed**2)
+    return Ratio(Factors(Terms(about, -a), Terms(about, -b), disturbed.speed**2), Factors(a, b))
+
+
+def _by_curvatures(disturbed: Disturbed) -> Expr:
+    """I omega_dot = -(grad T x grad (L^2/2))/(I_x I_y I_z) I keeps T and L^2; near the axis that is the product of the
+    curvatures of L^2/2 - I_z T, times the squared rate, over the squares of the moments across."""
+    moments, moving = disturbed.moments, disturbed.moving
+    energy = sum((I * w**2 for I, w in zip(moments, moving, strict=True)), ZERO) / 2
+    momentum = sum((I**2 * w**2 for I, w in zip(moments, moving, strict=True)), ZERO) / 2
+    kept = momentum - moments[disturbed.axis] * energy
+    i, j = disturbed.across
+    curvatures = diff(kept, moving[i], 2) * diff(kept, moving[j], 2)
+    return curvatures * disturbed.speed**2 / (moments[i] * moments[j]) ** 2
+
+
+def _trace_of_squared_motion(disturbed: Disturbed) -> Expr:
+    """Angular accelerations from particles, differentiated by the components at the steady rotation; its eigenvalues
+    are 0 and +-i Omega."""
+    torque = explicit(disturbed.by_particles())
+    rates = [rate(w) for w in disturbed.moving]
+    (solution,) = linsolve(list(torque), rates)
+    flow = ImmutableDenseMatrix([[diff(a, w) for w in disturbed.moving] for a in solution])
+    there = flow.xreplace(disturbed.steadily)
+    return explicit(there * there).trace()
+
+
+def _stability(value: Expr, disturbed: Disturbed) -> str:
+    value = tidied(explicit(value))
+    i, j = disturbed.across
+    if is_zero(value):
+        return "marginal"
+    if is_zero(disturbed.moments[i] - disturbed.moments[j]):
+        return "symmetric"
+    if value.is_negative:
+        return "unstable"
+    if not value.is_positive:
+        return "conditional"
+    about = disturbed.moments[disturbed.axis]
+    return "greatest" if tidied(about - disturbed.moments[i]).is_positive else "least"
+
+
+def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble_rate") -> Quantity:
+    """Rate Omega at which a disturbed axis goes round, the root of its square; where that is negative, that of growth.
+
+    squared   as `wobble_squared` yields it, 1/s^2
+    Check: components that go as e^(i Omega t), or as e^(kappa t), put into the two linear equations, whose
+    determinant then vanishes; and it is not negative.
+    Outcomes: stable, symmetric, conditional, unstable (the rate kappa of growth).
+    Errors: the square vanishes, so that a disturbance grows as the time and not as an exponential.
+    Source: Landau, Lifshitz, *Mechanics*, section 37.
+    """
+    of, disturbed = squared.needed(WobbleOf), squared.needed(Disturbed)
+    outcome = {"greatest": "stable", "least": "stable"}.get(squared.step.outcome, squared.step.outcome)
+    if outcome == "marginal":
+        message = f"`{squared.key}` vanishes: a disturbance grows as the time itself, at no rate of its own"
+        raise Rejected(Complaint("no-rate", message))
+    grows = outcome == "unstable"
+    value = explicit(squared.value)
+
+    def determinant(found: Expr) -> tuple[Expr, Expr]:
+        i, j = disturbed.across
+        square = found**2 if grows else -(found**2)
+        lefts = [_left(equation) for equation in of.equations]
+        u, v = disturbed.moving[i], disturbed.moving[j]
+        (a, b), (c, d) = (
+            (diff(lefts[0], rate(u)), diff(lefts[0], v)),
+            (diff(lefts[1], rate(v)), diff(lefts[1], u)),
+        )
+        return a * c * square, b * d
+
+    def not_negative(found: Expr) -> tuple[Expr, Expr]:
+        """The determinant does not know the sign of the rate, which cannot change unless the rate vanishes: one place
+        tells, at which the square of the rate is positive."""
+        letters = sorted(value.free_symbols, key=str)
+        for turn in range(len(letters) + 1):
+            ordered = letters[turn:] + letters[:turn]
+            there = {letter: Rational(prime(n + 5), 7) for n, letter in enumerate(ordered)}
+            if not grows and value.subs(there).is_negative:
+                continue
+            here = found.subs(there)
+            return here, Abs(here)
+        return Abs(found), Abs(found)
+
+    return establish(
+        "wobble.wobble_rate",
+        scalar(symbol or ("kappa" if grows else of.letter)),
+        lambda square: Root(-square if grows else square),
+        {"squared": squared},
+        lines=Lines(put_in=None, arranged=lambda _: _root_of(-value if grows else value)),
+        routes={"determinant": determinant, "not_negative": not_negative},
+        outcome=outcome,
+        phrase_data=PhraseData(words={"axis": AXES[disturbed.axis]}),
+        key=key,
+        kind="angular speed",
+    )
+
+
+def _root_of(square: Expr) -> Expr:
+    """What can be taken out of the root stands before it."""
+    return tidied(sqrt(tidied(square)))
+
+
+def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: str = "body_cone_rate") -> Quantity:
+    """Rate at which omega goes round the axis of a free symmetric body, Omega_b = (I_z - I_x) omega_z/I_x.
+
+    equations   Euler's equations for the axes x, y and z in turn, without torque, of a body with I_x = I_y
+    Second route: the rate of the angle of omega about the axis, (omega_x omega_y_dot - omega_y omega_x_dot)/(omega_x^2
+    + omega_y^2), with the accelerations of particles.
+    Outcomes: oblate (it goes round as the body turns), prolate (against it), generic (that depends on the moments).
+    Errors: the moments about x and y differ; all three are equal; a torque acts.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6; Taylor, *Classical Mechanics*, section 10.8.
+    """
+    of = _rate_of(equations)
+    x, y, z = of.moving
+    lefts = [_left(equation) for equation in equations]
+    if any(not is_zero(left.xreplace(dict.fromkeys((*of.moving, *map(rate, of.moving)), ZERO))) for left in lefts):
+        raise Rejected(Complaint("not-free", "`body_cone_rate` is about a body on which no torque acts"))
+    across, other, about = (tidied(diff(left, rate(w))) for left, w in zip(lefts, of.moving, strict=True))
+    if not is_zero(across - other):
+        raise Rejected(
+            Complaint("no-symmetry", "`body_cone_rate` is about a body whose moments about x and y are equal")
+        )
+    if is_zero(about - across):
+        raise Rejected(
+            Complaint("no-cone", "the three moments are equal, so that the angular velocity stays where it is")
+        )
+    coupling = tidied(-diff(lefts[1], x, z))  # (I_z - I_x) omega_z omega_x is what omega_y changes by
+
+    def rate_of_angle() -> Expr:
+        torque = explicit(of.by_particles())
+        (solution,) = linsolve(list(torque), [rate(w) for w in of.moving])
+        return (x * solution[1] - y * solution[0]) / (x**2 + y**2)
+
+    return establish(
+        "wobble.body_cone_rate",
+        scalar(symbol),
+        lambda: Factors(Ratio(coupling, across), z),
+        {},
+        lines=Lines(put_in=None),
+        routes={"angle": lambda found: (found, rate_of_angle())},
+        outcome=_sense(about - across),
+        phrase_data=PhraseData(
+            points_to={"first": equations[0], "second": equations[1], "third": equations[2]},
+            named={"along": z, "around": x, "beside": y},
+            outcome_data={"excess": about - across},
+        ),
+        key=key,
+        kind="angular speed",
+        parents=list(equations),
+        scope=Scope(coordinates=dict.fromkeys(of.moving, "angular speed")),
+    )
+
+
+def _sense(excess: Expr) -> str:
+    excess = tidied(excess)
+    return "oblate" if excess.is_positive else "prolate" if excess.is_negative else "generic"

@@ -1,0 +1,113 @@
+"""A body known by letters alone: its mass, where its centre of mass is, its principal moments about a point.
+
+What is derived for it holds for every body that has these; in the end `put_in(result, *body.values)` puts in the values
+of the one that was given.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, Integer
+
+from derive.algebra.expressions import AXES, Factors, Ratio, Terms, explicit, scalar
+from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.regions import Point
+from derive.mechanics.rotation.euler_equations import RigidBody
+from derive.mechanics.rotation.inertia import moment_of_inertia
+from derive.mechanics.rotation.tensors import seen_particles
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.step import Level, Quantity, is_zero
+from derive.steps.subject import Subject
+
+__all__ = ["in_letters"]
+
+
+@dataclass(frozen=True)
+class LetteredBody(RigidBody):
+    """A rigid body whose mass, centre of mass and moments are letters, with what they stand for.
+
+    values   the steps that say it
+    shape    the body that has these values, and the name of its point that is the pivot
+    """
+
+    values: tuple[Quantity, ...] = ()
+    shape: tuple[Any, str] | None = None
+
+
+def in_letters(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredBody:
+    """A body by its letters: M, the distance l of its centre of mass from a point of its z axis, and its principal
+    moments about that point, I_x and I_z of a round one; what they stand for are steps of their own.
+
+    body     its axes are principal axes at the point, and its centre of mass is on the z axis through it
+    about    the point, which becomes the "pivot" of the result
+    symbol   the letter of the moments
+    Second route: those of the steps; the mass points by which a motion of it is checked have these moments.
+    Errors: the axes through the point are no principal axes; the centre of mass is beside the z axis.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
+    """
+    point = body.point(about)
+    seen = seen_particles(body, point)
+    beside = [sum((m * r[k] for m, r in seen), Integer(0)) for k in (0, 1)]
+    products = [sum((m * r[i] * r[j] for m, r in seen), Integer(0)) for i, j in ((0, 1), (0, 2), (1, 2))]
+    if not all(map(is_zero, (*beside, *products))):
+        message = f"`in_letters`: the axes of {body.name} through its {about} are not principal, or beside its centre"
+        raise Rejected(Complaint("wrong-axis", message))
+    squares = [sum((m * r[k] ** 2 for m, r in seen), Integer(0)) for k in (0, 1)]
+    is_symmetric = is_zero(squares[0] - squares[1])
+    mass = getattr(body, "whole_mass", None)
+    distance = _centre_distance(body, point, mass)
+    called = {"x": "transverse_moment", "z": "axial_moment"} if is_symmetric else {k: f"moment_about_{k}" for k in AXES}
+    found = [moment_of_inertia(body, axis, about, f"{symbol}_{axis}", key) for axis, key in called.items()]
+    moments = [_letter(moment) for moment in found]
+    principal = (moments[0], moments[0] if is_symmetric else moments[1], moments[-1])
+    values = {quantity.symbol: explicit(quantity.value) for quantity in found}
+    for k, letter in enumerate(principal):
+        if not is_zero(letter.xreplace(values) - sum((m * (r.dot(r) - r[k] ** 2) for m, r in seen), Integer(0))):
+            message = f"`in_letters`: {letter} is not the moment of {body.name} about its {AXES[k]} axis"
+            raise Unverified(Complaint("unverified", message))
+    return LetteredBody(
+        _letter(mass) if mass is not None else body.mass,
+        principal,
+        (Integer(0), Integer(0), _letter(distance)),
+        "fixed_point",
+        values=tuple(each for each in (mass, distance, *found) if each is not None and each.value != 0),
+        shape=(body, about),
+    )
+
+
+def _letter(quantity: Quantity) -> Expr:
+    """Nothing has a letter that is known to vanish."""
+    found: Expr = quantity.symbol if quantity.value != 0 else Integer(0)
+    return found
+
+
+def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantity:
+    """Where the centre of mass is on the z axis through a point, l = (m_1 z_1 + m_2 z_2 + ...)/M.
+
+    body    of parts, or one of which it is known where its centre of mass is
+    point   from which it is counted
+    mass    of the whole, where it is a step
+    Second route: the weights of the equimomental particles balance about that place.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    """
+    parts = [(part.mass, point.seen(part.centre)[2]) for part in getattr(body, "parts", ())]
+    held = [Factors(m, z) for m, z in parts if z != 0]
+    whole = Terms(*held) if len(held) > 1 else Add(*held)
+    there = point.seen(body.middle.position)[2]
+    taken = {letter.name for m, r in body.particles() for letter in (m * r[2]).free_symbols}
+    letter = next((name for name in ("l", "d", "s") if name not in taken), "l_C")
+    return establish(
+        "in_letters.centre_distance",
+        scalar(letter, positive=True) if there.is_positive else scalar(letter),
+        (lambda M: Ratio(whole, M)) if mass is not None else lambda _: there,
+        {"mass": mass if mass is not None else body.mass},
+        routes={"balance": lambda l: (sum((m * (r[2] - l) for m, r in seen_particles(body, point)), Integer(0)), 0)},
+        kind="length",
+        key="centre_distance",
+        phrase_data=PhraseData(words={"about": point.name}),
+        lines=Lines(put_in=Level.FULL if mass is not None else None),
+        scope=Scope(about=Subject(body=body, point=point)),
+    )

@@ -1,0 +1,1 @@
+"""Small oscillations: linear equations, normal modes with and without damping, motions of linear systems."""

@@ -1,0 +1,116 @@
+"""A steady motion with small oscillations about it: what it holds constant, and how its displacements grow.
+
+Source: Landau, Lifshitz, *Mechanics*, sections 14 and 23.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Symbol, expand, sqrt
+
+from derive.algebra.amplitudes import determinant_of
+from derive.algebra.expressions import bound, explicit, rate
+from derive.algebra.taylor import slope
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton.effective import ReducedMatter
+from derive.mechanics.model.dalembert import Matter
+from derive.solving.presentation import presented
+from derive.steps.step import Quantity, is_zero
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True, eq=False)
+class About:
+    """A potential energy of one coordinate, what sees it, where, and what holds there besides.
+
+    rates     of the cyclic coordinates there
+    momenta   what the letters of their momenta are there, where these are not given themselves
+    letter    one that the condition of the steady motion determines, and its value
+    instead   a rate by the letter of a momentum, which is shorter to write
+    """
+
+    potential: Quantity
+    matter: Matter
+    q: Symbol
+    place: Expr
+    rates: Mapping[Symbol, Expr]
+    momenta: Mapping[Symbol, Expr]
+    letter: Mapping[Symbol, Expr]
+    instead: Mapping[Symbol, Expr] = field(default_factory=dict)
+
+    def there(self, value: Expr) -> Expr:
+        """The value at that place, where nothing but the cyclic coordinates moves."""
+        still = {rate(s, n): ZERO for s in self.matter.coordinates for n in (1, 2)}
+        return bound(explicit(value), still).subs(self.q, self.place)
+
+    def known(self, value: Expr) -> Expr:
+        """With the momenta that belong to the rates, and by the condition without one letter."""
+        return bound(bound(bound(value, self.momenta), self.letter), self.instead)
+
+    def by_momenta(self) -> Iterator[About]:
+        """The same with a rate by the letter of a momentum: s = w - Omega cos(alpha) of w = s + Omega cos(alpha)."""
+        for momentum, value in self.momenta.items():
+            for turning in self.rates.values():
+                found = alone(momentum - value, turning) if isinstance(turning, Symbol) else None
+                if found is not None and momentum in self.potential.value.free_symbols - self.letter.keys():
+                    yield replace(self, instead={turning: found})
+
+
+def letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity) -> dict[Symbol, Expr]:
+    """What the letter is by which a momentum was given: w = s + Omega cos(alpha) of C w = C (s + Omega cos(alpha))."""
+    known = explicit(lagrangian.value).free_symbols | value.free_symbols
+    for letter in sorted(given.free_symbols - known, key=str):
+        if (found := alone(given - value, letter)) is not None:
+            return {letter: presented(found)}
+    message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, but in the steady motion it is {value}"
+    help_line = "give the momentum by a letter of its own, or none"
+    raise Rejected(Complaint("wrong-argument", message, help=help_line))
+
+
+def alone(condition: Expr, s: Symbol) -> Expr | None:
+    """The letter by the condition, in which it stands in the first degree, or in the second alone."""
+    polynomial = condition.as_numer_denom()[0].as_poly(s)
+    powers = [n for (n,) in polynomial.monoms()] if polynomial is not None else []
+    if powers == [1, 0]:
+        a, b = polynomial.all_coeffs()
+        return tidied(-b / a)
+    if powers == [2, 0] and s.is_positive:
+        a, _, b = polynomial.all_coeffs()
+        return tidied(sqrt(tidied(-b / a)))
+    return None
+
+
+def determinant_about(about: About, found: Expr) -> Expr:
+    """Of what first order leaves of d'Alembert's principle, where every displacement grows as e^(s t), s^2 = -omega^2.
+
+    The cyclic coordinates have the factor s in each entry, which is taken out of their rows and columns.
+    """
+    matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
+    moving = [about.q, *about.rates]
+    s = Dummy("s")
+    still = {rate(q, n): ZERO for q in moving for n in (1, 2)} | {rate(q): v for q, v in about.rates.items()}
+
+    def entry(i: int, j: int) -> Expr:
+        left = explicit(matter.inertia_along(moving[int(i)]) - matter.force_along(moving[int(i)]))
+        other = moving[int(j)]
+        slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
+        at_place = [_without_angles(each.xreplace({**still, about.q: about.place}), about.rates) for each in slopes]
+        if j:  # a cyclic coordinate stands there by its rates alone: counted by its rate
+            return at_place[1] + s * at_place[2]
+        return at_place[0] + s * at_place[1] + s**2 * at_place[2]
+
+    matrix = ImmutableDenseMatrix(len(moving), len(moving), entry)
+    polynomial = expand(determinant_of(matrix)).as_poly(s)
+    lowest = min(n for (n,) in polynomial.monoms())
+    powers = [(n - lowest, c) for (n,), c in polynomial.terms()]
+    return Add(*(c * (s**n if n % 2 else (-found) ** (n // 2)) for n, c in powers))
+
+
+def _without_angles(value: Expr, cyclic: Iterable[Symbol]) -> Expr:
+    """The value with the cyclic coordinates zero, where it is shown not to depend on them: most of its terms go out."""
+    at_zero = value.xreplace(dict.fromkeys(cyclic, ZERO))
+    return at_zero if is_zero(value - at_zero) else value

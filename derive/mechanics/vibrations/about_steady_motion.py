@@ -1,0 +1,175 @@
+"""Small oscillations about a steady motion, the momenta of the cyclic coordinates held constant.
+
+Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
+"""
+
+from __future__ import annotations
+
+from sympy import Expr, Integer, Mul, Symbol, cos, diff, factor, sin, sqrt
+from sympy.simplify.fu import TR5, TR6
+
+from derive.algebra.expressions import At, Ratio, Relation, Slope, bound, explicit, rate, scalar
+from derive.algebra.length import length
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton.effective import ReducedMatter, SeenWith
+from derive.mechanics.kinematics.coordinates import OfCoordinate
+from derive.mechanics.lagrange.kept_momentum import KeptMomentum
+from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.motion.steady import ZERO, Steady
+from derive.mechanics.rest.equilibria import RestOf, matter_behind
+from derive.mechanics.vibrations.about_motion import About, alone, determinant_about, letter_of_value
+from derive.mechanics.vibrations.oscillations import SquareOf
+from derive.solving.presentation import presented
+from derive.solving.signs import sign_by_factors
+from derive.solving.zeros import sign_where
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.known_numbers import sign_known
+from derive.steps.step import Quantity, is_zero
+from derive.witness.facts import Rest
+
+__all__ = ["frequency_squared_about"]
+
+
+def frequency_squared_about(
+    of: Quantity, at: Quantity, without: Expr | None = None, symbol: str = "omega_0", key: str = "frequency_squared"
+) -> Quantity:
+    """Square of the frequency of small oscillations, omega_0^2 = U''(q_0)/mu(q_0), of one coordinate with the kinetic
+    energy (1/2) mu(q) q_dot^2: about rest, or about a steady motion, U then being the effective potential energy.
+
+    of        a potential energy, an effective one, or a Lagrangian, J
+    at        a state of rest of it, as `equilibria` yields it; or of an effective potential energy the condition of a
+    steady motion of the same Lagrangian, as `steady_motion` yields it
+    without   the letter that the condition of the steady motion takes out; the shortest result unless given
+    The momenta of the cyclic coordinates stay what they are in the steady motion.
+    Second route: d'Alembert's principle for all coordinates, the cyclic ones free, to first order in the displacements:
+    its determinant vanishes for oscillations of this frequency.
+    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
+    Errors: several coordinates are left; the condition is that of another Lagrangian, or does not take out the letter.
+    Source: Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
+    """
+    about = _about_steady(of, at, without) if at.fact(Steady) is not None else _about_rest(of, at)
+    q, energy = about.q, explicit(about.potential.value)
+    mass = tidied(about.there(diff(about.matter.momentum_along(q), rate(q))))
+    curvature = about.there(diff(energy, q, 2))
+    if is_zero(mass):
+        raise Rejected(Complaint("wrong-argument", f"nothing has a mass along {q.name} there, so nothing oscillates"))
+    forms = {each: _of_plain_sign(presented(each.known(curvature / mass))) for each in (about, *about.by_momenta())}
+    about, result = min(forms.items(), key=lambda form: length(form[1]))
+    exists = at.needed(Rest).exists if at.fact(Rest) is not None else None
+    told = {
+        **{f"momentum_{n}": (p, value) for n, (p, value) in enumerate(about.momenta.items(), 1)},
+        **dict(zip(("taken_out",), about.letter.items(), strict=False)),
+    }
+    return establish(
+        "steady.frequency_squared",
+        scalar(symbol) ** 2,
+        lambda U, rest: Ratio(
+            At(Slope(U, q, Integer(2)), q, about.place if isinstance(at.value, Relation) else rest), mass
+        ),
+        {"potential": about.potential, "at": at},
+        lines=Lines(
+            put_in=None,
+            arranged=lambda _: result,
+            motion={s: about.known(value) for s, value in (*about.letter.items(), *about.momenta.items())},
+            means={scalar(symbol): sqrt(curvature / mass)},
+        ),
+        routes={"all_coordinates": lambda found: (about.known(determinant_about(about, found)), ZERO)},
+        outcome=_sort(result, exists),
+        key=key,
+        kind="squared angular speed",
+        phrase_data=PhraseData(
+            named={
+                **{role: Relation(s, "=", v) for role, (s, v) in told.items()},
+                **({"exists": exists} if exists is not None else {}),
+            },
+            points_to={"where": at},
+        ),
+        facts=[SquareOf(symbol, exists)],
+    )
+
+
+def _of_plain_sign(value: Expr) -> Expr:
+    """Each factor with sines or with cosines, as its sign is shown: 1 + 3 cos^2, not 4 - 3 sin^2."""
+
+    def shown(part: Expr) -> Expr:
+        base, power = part.as_base_exp()
+        forms = [base, *(way(base).expand() for way in (TR5, TR6))] if base.has(sin, cos) else [base]
+        return min(forms, key=lambda f: (sign_by_factors(f) is None, length(f), str(f))) ** power
+
+    forms = [Mul(*map(shown, Mul.make_args(form))) for form in (value, factor(value))]
+    return min(forms, key=lambda f: (sign_known(f) is None, length(f), str(f)))
+
+
+def _sort(value: Expr, exists: Relation | None) -> str:
+    sign = sign_known(value)
+    sign = sign_where(value, exists) if sign is None else sign
+    return "conditional" if sign is None else ("neutral", "stable", "unstable")[sign]
+
+
+def _about_rest(of: Quantity, at: Quantity) -> About:
+    potential = at.needed(RestOf).potential
+    if not (of.step == potential.step or potential.rests_on(of)):
+        raise Rejected(Complaint("different-subjects", f"`{at.key}` is no state of rest of `{of.key}`"))
+    matter = _matter(potential)
+    q = _only(potential)
+    place = at.needed(Rest).values[q]
+    rates = dict(matter.rates) if isinstance(matter, ReducedMatter) else {}
+    about = About(potential, matter, q, place, {}, {}, {})
+    return About(potential, matter, q, place, {s: about.there(v) for s, v in rates.items()}, {}, {})
+
+
+def _about_steady(of: Quantity, at: Quantity, without: Expr | None) -> About:
+    steady, seen = at.needed(Steady), of.needed(SeenWith)
+    if seen.lagrangian.step != steady.lagrangian.step:
+        message = f"`{at.key}` and `{of.key}` belong to different Lagrangians"
+        raise Rejected(Complaint("different-subjects", message))
+    q, matter = _only(of), seen.matter
+    if {c.needed(OfCoordinate).coordinate.symbol for c in seen.constants} != set(steady.rates):
+        message = f"`{of.key}` does not have all cyclic coordinates put aside"
+        raise Rejected(Complaint("wrong-argument", message))
+    place = steady.values[q]
+    about = About(of, matter, q, place, steady.rates, {}, {})
+    going = {rate(s): v for s, v in steady.rates.items()}
+    kept = {fact.momentum: fact.value for each in of.ancestors() if (fact := each.fact(KeptMomentum)) is not None}
+    momenta: dict[Symbol, Expr] = {}
+    for c in seen.constants:
+        value = presented(about.there(bound(explicit(c.value), going)))
+        given = kept.get(c.symbol)
+        momenta.update({c.symbol: value} if given is None else letter_of_value(given, value, steady.lagrangian, of))
+    whole = About(of, matter, q, place, steady.rates, momenta, {})
+    mass = about.there(diff(matter.momentum_along(q), rate(q)))
+    value = whole.known(about.there(diff(explicit(of.value), q, 2)) / mass)
+    letter = _taken_out(steady.conditions[0], value, without, at)
+    return About(of, matter, q, place, steady.rates, momenta, letter)
+
+
+def _matter(potential: Quantity) -> Matter:
+    found = matter_behind(potential)
+    return found if found is not None and found.coordinates else potential.needed(Matter)
+
+
+def _only(potential: Quantity) -> Symbol:
+    left = _matter(potential).coordinates
+    if len(left) != 1:
+        names = ", ".join(q.name for q in left)
+        message = f"`frequency_squared_about` needs one coordinate that is left, but `{potential.key}` has {names}"
+        raise Rejected(Complaint("wrong-argument", message, help="`normal_modes` has the frequencies of several"))
+    return left[0]
+
+
+def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity) -> dict[Symbol, Expr]:
+    """The letter that makes the result shortest once the condition has taken it out; none where it holds by itself."""
+    if is_zero(condition):
+        return {}
+    letters = [without] if without is not None else sorted(condition.free_symbols, key=str)
+    ways = [{s: found} for s in letters if isinstance(s, Symbol) and (found := alone(condition, s)) is not None]
+    if not ways:
+        message = f"`frequency_squared_about`: `{at.key}` cannot be solved for {without or 'any letter'}"
+        others = [s.name for s in sorted(condition.free_symbols, key=str) if alone(condition, s) is not None]
+        help_line = f"it can be for {' or '.join(others)}" if others else None
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
+    if len(ways) == 1:
+        return ways[0]
+    value = presented(value)
+    return min(ways, key=lambda way: (length(tidied(bound(value, way))), str(way)))

@@ -1,0 +1,134 @@
+"""The forced oscillation that is left once the free motion has died away: its amplitude and its lag."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, atan, cos, diff, pi, sin, sqrt, tan
+
+from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar, stand_in
+from derive.algebra.tidy import common_factor, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.vibrations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
+from derive.solving.presentation import presented
+from derive.solving.zeros import check_no_resonance, different_from_zero, positive
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.record import assume
+from derive.steps.step import Level, Quantity
+
+__all__ = ["steady_amplitude"]
+
+
+def steady_amplitude(
+    equation: Quantity, q: Coordinate, symbol: str = "A", key: str = "steady_amplitude"
+) -> tuple[Quantity, Quantity]:
+    """Amplitude of the forced oscillation A cos(omega t - delta), A = F/sqrt((c - a omega^2)^2 + (b omega)^2), and the
+    tangent of its lag, tan(delta) = b omega/(c - a omega^2).
+
+    equation   a q_ddot + b q_dot + c q = F cos(omega t)
+    q          the coordinate
+    Check: the forced oscillation with this amplitude and this lag put back into the equation.
+    Outcomes: damped, undamped (the oscillation is in step, or opposite).
+    Errors: the equation is not linear with constant coefficients, or not driven by one oscillation.
+    Source: Taylor, *Classical Mechanics*, section 5.5.
+    """
+    linear = linear_equation(equation, q)
+    force, angle = _one_swing(linear, equation)
+    if sign_known(force) is None:
+        assume(Relation(_of_unknown_sign(force), ">", Integer(0)))
+    w = diff(angle, TIME)
+    stiff, loss = linear.c - linear.a * w**2, linear.b * w
+    damped = "damped" if linear.b != 0 else "undamped"
+    if damped == "undamped":
+        check_no_resonance(stiff)
+    sign = None if damped == "damped" else sign_known(stiff)
+    excluded = None if damped == "damped" else different_from_zero(stiff)
+    size = scalar(symbol)
+    lag = scalar("delta")
+
+    def forced(amplitude: Expr) -> tuple[Any, Any]:
+        """cos(delta) and sin(delta) are the two legs over F/A."""
+        over = force / amplitude
+        motion = amplitude * (cos(angle) * stiff + sin(angle) * loss) / over
+        return put_back(equation, q, motion), Integer(0)
+
+    def lagging(tangent: Expr) -> tuple[Any, Any]:
+        """With sin(delta) = tan(delta) cos(delta), what the oscillation leaves a quarter turn on vanishes."""
+        motion = cos(angle) + (tangent if damped == "damped" else tan(tangent)) * sin(angle)
+        return put_back(equation, q, motion).coeff(sin(angle)), Integer(0)
+
+    in_phase = None if excluded is None else positive(stiff)
+
+    def in_step(lag: Expr) -> tuple[Any, Any]:
+        """Where the stiffness is the greater, the oscillation with the positive amplitude has the sign of the force."""
+        size = stand_in("s", positive=True)
+        there = with_numbers(stiff) if sign is not None else size
+        return cos(lag) * there, Abs(there)
+
+    amplitude = establish(
+        "linear_motion.steady_amplitude",
+        size,
+        lambda *_: Ratio(force, Root(Terms(Pow(stiff, 2), Pow(loss, 2)))),
+        {"equation": equation, "q": q.symbol},
+        lines=Lines(law=Level.FULL, put_in=None, arranged=lambda value: _amplitude(force, stiff, loss)),
+        routes={"put_back": forced},
+        outcome=damped,
+        key=key,
+        kind=q.kind,
+        phrase_data=PhraseData(
+            formulas={
+                "motion": (Factors(size, cos(Terms(angle, -lag))), size * cos(angle - lag)),
+                **({} if excluded is None else {"excluded": (excluded, _written_out(excluded))}),
+            },
+            outcome_data={"loss": loss},
+        ),
+    )
+    lags = establish(
+        "linear_motion.lag",
+        scalar("delta") if damped == "undamped" else tan(lag),
+        lambda *_: Ratio(loss, stiff) if damped == "damped" else pi if sign == -1 else Integer(0),
+        {"equation": equation},
+        lines=Lines(
+            law=Level.FULL,
+            put_in=None,
+            arranged=presented,
+            means={lag: atan(loss / stiff)} if damped == "damped" else {},
+        ),
+        routes={"quarter_turn_on": lagging, **({"put_back": in_step} if damped == "undamped" else {})},
+        outcome="opposite" if sign == -1 else damped,
+        key=f"{key}_lag",
+        kind="number" if damped == "damped" else "angle",
+        phrase_data=PhraseData(
+            formulas={} if in_phase is None else {"in_step": (in_phase, _written_out(in_phase))},
+            outcome_data={"loss": loss, "stiff": stiff},
+        ),
+    )
+    return amplitude, lags
+
+
+def _written_out(condition: Relation) -> Relation:
+    return Relation(tidied(condition.left), condition.mark, tidied(condition.right))
+
+
+def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
+    if loss == 0:
+        return presented(force / sqrt(stiff**2))
+    common = common_factor([force, stiff, loss])
+    if common.is_positive:
+        force, stiff, loss = (tidied(each / common) for each in (force, stiff, loss))
+    return force / sqrt(Add(stiff**2, presented(loss**2)))
+
+
+def _of_unknown_sign(value: Expr) -> Expr:
+    return Mul(*(f for f in Mul.make_args(tidied(value)) if not f.is_positive))
+
+
+def _one_swing(linear: Linear, equation: Quantity) -> tuple[Expr, Expr]:
+    """The size and the angle of what drives it, F cos(omega t)."""
+    outside, inside = linear.driven.as_independent(TIME, as_Add=False)
+    if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
+        message = f"`steady_amplitude`: `{equation.key}` is not driven by one F cos(omega t)"
+        raise Rejected(Complaint("unknown-driving", message))
+    return outside, inside.args[0]

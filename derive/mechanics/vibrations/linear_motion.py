@@ -1,0 +1,446 @@
+"""Linear equations of motion with constant coefficients, a q_ddot + b q_dot + c q = f(t), solved with their start.
+
+The roots of a s^2 + b s + c tell the free motion; what drives it, a sum of powers of t, exponentials, sines and
+cosines, tells a particular one. The solution put back into the equation, with its start, is the only one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Matrix,
+    Mul,
+    Pow,
+    cos,
+    cosh,
+    diff,
+    exp,
+    expand,
+    factor_terms,
+    igcd,
+    log,
+    sin,
+    sinh,
+    sqrt,
+)
+from sympy.simplify.fu import TR8
+
+from derive.algebra.collect import by_terms
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
+from derive.algebra.length import length, shortest
+from derive.algebra.taylor import slope
+from derive.algebra.tidy import common_factor, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.solving.presentation import presented
+from derive.solving.unknowns import coordinates_of, is_number, residual_of
+from derive.solving.zeros import check_no_resonance, different_from_zero
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.known_numbers import sign_known
+from derive.steps.record import assume, changes, require_constant
+from derive.steps.step import Level, Quantity, approximations_among, is_zero, value_behind
+
+__all__ = ["solution"]
+
+ZERO, ONE = Integer(0), Integer(1)
+CASES = {"underdamped": -1, "critically_damped": 0, "overdamped": 1}  # case -> sign of b^2 - 4 a c
+
+
+@dataclass(frozen=True)
+class Linear:
+    """The coefficients of a q_ddot + b q_dot + c q = f(t)."""
+
+    a: Expr
+    b: Expr
+    c: Expr
+    driven: Expr
+
+    @property
+    def discriminant(self) -> Expr:
+        return tidied(self.b**2 - 4 * self.a * self.c)
+
+    @property
+    def order(self) -> int:
+        return 2 if self.a != 0 else 1
+
+    def residual(self, motion: Expr) -> Expr:
+        """What is left of the equation for this function of the time."""
+        first = diff(motion, TIME)
+        return self.a * diff(first, TIME) + self.b * first + self.c * motion - self.driven
+
+
+def solution(
+    equation: Quantity,
+    q: Coordinate,
+    start: Expr | Quantity,
+    start_rate: Expr | Quantity | None = None,
+    case: str | None = None,
+    key: str | None = None,
+) -> Quantity:
+    """The motion q(t) that a linear equation with constant coefficients gives, from its start: with the roots s of
+    a s^2 + b s + c, q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
+
+    equation     a q_ddot + b q_dot + c q = f(t), with f a sum of powers of t, exponentials, sines and cosines; or of
+    first order, a = 0; or q_ddot, q_dot as they were solved for
+    q            the coordinate
+    start        its value at t = 0
+    start_rate   its rate at t = 0, for an equation of second order; 0 where none is given
+    case         `underdamped`, `critically_damped` or `overdamped` where the letters leave that open
+    Check: put back into the equation; its value and its rate at t = 0.
+    Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (c/a is negative),
+    uniform (no force of its position or rate), slows (no force of its position: the rate dies away), relaxes (of first
+    order), accumulates (of first order, without q).
+    Errors: the equation is not linear with constant coefficients; the case is open, or another; a driving that is of no
+    such kind.
+    Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
+    """
+    linear = linear_equation(equation, q)
+    for role, value in (("start", start), ("start_rate", start_rate)):
+        if value is not None:
+            require_constant("solution", role, value)
+    first = explicit(value_behind(start))
+    initial = None if linear.order == 1 else explicit(value_behind(ZERO if start_rate is None else start_rate))
+    if linear.order == 1 and start_rate is not None:
+        message = f"`solution`: `{equation.key}` is of first order, so the rate of {q.symbol.name} at the start follows"
+        raise Rejected(Complaint("wrong-argument", message))
+    sort, condition = _sort(linear, case, equation)
+    basis = _basis(linear, sort)
+    particular = _particular(linear, equation)
+    values = _constants(basis, particular, first, initial)
+    free = _free(basis, values, linear, sort)
+    found = _joined(free, particular)
+    found = _by_powers(found) if sort == "uniform" else found  # v t - g t^2/2
+
+    def from_the_start(motion: Expr) -> tuple[Any, Any]:
+        asked = [start, *([] if linear.order == 1 else [start_rate or ZERO])]
+        at = [diff(motion, TIME, n).subs(TIME, 0) for n in range(len(asked))]
+        return ImmutableDenseMatrix(at), ImmutableDenseMatrix([explicit(value_behind(each)) for each in asked])
+
+    return establish(
+        "linear_motion.solution",
+        q.symbol,
+        lambda *_: Terms(Add(*(C * e for C, e in zip(values, basis, strict=True))), particular),
+        {"equation": equation, "q": q.symbol},
+        lines=Lines(law=Level.FULL, put_in=None, arranged=lambda _: found),
+        routes={"put_back": lambda motion: (put_back(equation, q, motion), ZERO), "start": from_the_start},
+        outcome=sort,
+        key=key or f"{q.symbol.name}_of_t",
+        kind=q.kind,
+        phrase_data=PhraseData(
+            formulas=_told(linear, condition),
+            named=_start(q, first, initial),
+            outcome_data={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
+        ),
+        parents=approximations_among(start, start_rate),
+    )
+
+
+def _by_powers(motion: Expr) -> Expr:
+    """Power by power of the time, each with one factor; as it is where it is no polynomial."""
+    powers = motion.as_poly(TIME) if motion.is_polynomial(TIME) else None
+    if powers is None:
+        return by_terms(motion.expand())
+    terms = ((n, presented(c)) for (n,), c in powers.terms())
+    return Add(*(by_terms(c.expand()) if c.is_Add and n == 0 else c * TIME**n for n, c in terms))
+
+
+def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) -> Expr:
+    """The motion that nothing drives, from its value and its rate; the page tells the condition of the case."""
+    sort, condition = _sort(linear, case, None)
+    if condition is not None:
+        assume(condition)
+    basis = _basis(linear, sort)
+    return _free(basis, _constants(basis, ZERO, first, initial), linear, sort)
+
+
+def _told(linear: Linear, condition: Relation | None) -> dict[str, tuple[Any, Any]]:
+    """The condition of the case, and what may not vanish."""
+    told: dict[str, tuple[Any, Any]] = {}
+    excluded = _excluded(linear)
+    if excluded is not None:
+        told["excluded"] = (excluded, Relation(tidied(excluded.left), "!=", tidied(excluded.right)))
+    if condition is not None:
+        told["condition"] = (condition, Relation(tidied(condition.left), condition.mark, tidied(condition.right)))
+    return told
+
+
+def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relation]:
+    """What the motion starts from."""
+    at_rest = {} if initial is None else {"start_rate": Relation(q.rate, "=", initial)}
+    return {"start": Relation(q.symbol, "=", first), **at_rest}
+
+
+def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
+    """What is left of an equation, as it was found, for this function of the time."""
+    state = (q.symbol, q.rate, q.acceleration)
+    value = explicit(equation.value)
+    left = value.residual if isinstance(value, Relation) else equation.symbol - value
+    first = slope(motion, TIME)
+    return expand(left.xreplace(dict(zip(state, (motion, first, slope(first, TIME)), strict=True))))
+
+
+def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
+    left = _left_of(equation, q).expand()
+    state = (q.acceleration, q.rate, q.symbol)
+    a, b, c = (tidied(derivative(left, s)) for s in state)
+    rest = left.xreplace(dict.fromkeys(state, ZERO))
+    _check_alone(equation, left, q)
+    if a == 0 and c == 0 and b.has(TIME) and not rest.has(*state) and is_zero(left - b * state[1] - rest):
+        return Linear(ZERO, ONE, ZERO, tidied(-rest / b))
+    constant = not any(k.has(*state, TIME) for k in (a, b, c))
+    whole = is_zero(left - a * state[0] - b * state[1] - c * state[2] - rest)
+    if not constant or not whole or (a == 0 and b == 0):
+        message = f"`{equation.key}` is no linear equation of {q.symbol.name} alone with constant coefficients"
+        raise Rejected(Complaint("not-linear", message))
+    sign = -1 if (a if a != 0 else b).could_extract_minus_sign() else 1
+    return Linear(sign * a, sign * b, sign * c, -sign * rest)
+
+
+def _left_of(equation: Quantity, q: Coordinate) -> Expr:
+    """What vanishes; of the acceleration or the rate as it was solved for, that less what it is."""
+    if equation.symbol in (q.acceleration, q.rate) and is_number(equation):
+        return equation.symbol - explicit(equation.value)
+    return residual_of("solution", equation)
+
+
+def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
+    """Another coordinate is no constant, nor is its rate or its acceleration: they move as q does."""
+    other = changes(left.xreplace({TIME: ONE}), [s for s in coordinates_of(equation) if s != q.symbol])
+    if other is not None:
+        message = f"`{equation.key}` is no equation of {q.symbol.name} alone: it has {other.name}, which moves too"
+        help_line = f"put in what {other.name} is, from another equation"
+        raise Rejected(Complaint("not-linear", message, help=help_line))
+
+
+def _sort(linear: Linear, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
+    """What kind of motion it is, and the condition under which it is so, where the letters leave it open."""
+    a, b, c = linear.a, linear.b, linear.c
+    key = "the motion along a mode" if equation is None else f"`{equation.key}`"
+    if case is not None and case not in CASES:
+        message = f"`solution`: there is no case `{case}`"
+        raise Rejected(Complaint("wrong-argument", message, help=f"the cases are {', '.join(CASES)}"))
+    if linear.order == 1:
+        return ("accumulates" if c == 0 else "runs_away" if sign_known(c / b) == -1 else "relaxes"), None
+    if c == 0:
+        return ("uniform" if b == 0 else "runs_away" if sign_known(b / a) == -1 else "slows"), None
+    if b == 0:
+        sign = sign_known(c / a)
+        if sign is None:
+            raise Rejected(Complaint("open-case", f"{key}: the sign of {tidied(c / a)} is not known"))
+        return ("oscillates" if sign > 0 else "runs_away"), None
+    sign = sign_known(linear.discriminant)
+    known = next((name for name, wanted in CASES.items() if wanted == sign), None)
+    if known is None and case is None:
+        message = f"{key}: the sign of {linear.discriminant} is not known"
+        raise Rejected(Complaint("open-case", message, help=f'give `case="..."`: {", ".join(CASES)}'))
+    if known is not None and case not in (None, known):
+        raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
+    if known == "overdamped" and sign_known(c / a) == -1:
+        return "runs_away", None
+    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # open, or so by the given numbers
+        message = f"{key} is critically damped only where {linear.discriminant} = 0"
+        raise Rejected(Complaint("open-case", message, help="put that case in first, with `put_in`"))
+    if known is not None:
+        return known, None
+    mark = "<" if case == "underdamped" else ">"
+    return str(case), _compared(tidied(b**2), mark, tidied(4 * a * c))
+
+
+def _compared(left: Expr, mark: str, right: Expr) -> Relation:
+    """gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, where both are squares of positive letters."""
+    shared = common_factor([left, right])
+    if shared.is_positive:
+        left, right = tidied(left / shared), tidied(right / shared)
+    numbers = [side.as_coeff_Mul()[0] for side in (left, right)]
+    common = igcd(*(n.p for n in numbers)) if all(n.is_Integer for n in numbers) else 1
+    left, right = left / common, right / common
+    roots = [tidied(sqrt(side)) for side in (left, right)]
+    plain = all(root.is_rational_function() and root.is_positive for root in roots)
+    return Relation(roots[0], mark, roots[1]) if plain else Relation(left, mark, right)
+
+
+def _basis(linear: Linear, sort: str) -> list[Expr]:
+    """The free motions: one for an equation of first order, else two."""
+    a, b, c, t = linear.a, linear.b, linear.c, TIME
+    if linear.order == 1:
+        return [exp(tidied(-c / b) * t)]
+    if sort == "uniform":
+        return [ONE, t]
+    if c == 0:
+        return [ONE, exp(tidied(-b / a) * t)]
+    decay = exp(tidied(-b / (2 * a)) * t)
+    if sort == "critically_damped":
+        return [decay, t * decay]
+    if sort in ("oscillates", "underdamped"):
+        frequency = _root_over(-linear.discriminant, 2 * a)
+        return [decay * cos(frequency * t), decay * sin(frequency * t)]
+    rate = _root_over(linear.discriminant, 2 * a)
+    if b == 0:
+        return [cosh(rate * t), sinh(rate * t)]
+    return [exp((tidied(-b / (2 * a)) + rate) * t), exp((tidied(-b / (2 * a)) - rate) * t)]
+
+
+def _root_over(inside: Expr, below: Expr) -> Expr:
+    """sqrt(k/m - b^2/(4 m^2)), or sqrt(D)/(2 a) where that is shorter."""
+    forms = [tidied(sqrt(inside) / below), sqrt(tidied(inside / below**2)), sqrt(expand(inside / below**2))]
+    return shortest(forms)
+
+
+# --- what drives it ---
+
+
+def _particular(linear: Linear, equation: Quantity) -> Expr:
+    """A motion under what drives it, a sum of those under each of its terms."""
+    if linear.driven == 0:
+        return ZERO
+    terms = [_particular_of(linear, term, equation) for term in Add.make_args(_driving(linear.driven))]
+    return Add(*(tidied(term) for term in terms))
+
+
+def _driving(driven: Expr) -> Expr:
+    """Products of sines and cosines of the time as sums."""
+    value = expand(driven)
+    return TR8(value).expand() if len([f for f in value.atoms(sin, cos) if f.has(TIME)]) > 1 else value
+
+
+def _particular_of(linear: Linear, term: Expr, equation: Quantity) -> Expr:
+    outside, inside = term.as_independent(TIME, as_Add=False)
+    swings = [f for f in Mul.make_args(inside) if isinstance(f, sin | cos)]
+    if linear.order == 1 and linear.c == 0:
+        return tidied(outside / linear.b) * _accumulated(inside, equation)
+    if inside == 1 or inside.is_polynomial(TIME):
+        return outside * _of_power(linear, inside)
+    if isinstance(inside, exp) and is_linear_in_time(inside.args[0]):
+        return outside * inside * _under_exponential(linear, diff(inside.args[0], TIME))
+    if len(swings) == 1 and inside == swings[0] and is_linear_in_time(swings[0].args[0]):
+        return outside * _under_swing(linear, swings[0])
+    raise _unknown_driving(equation, term)
+
+
+def is_linear_in_time(angle: Expr) -> bool:
+    return not diff(angle, TIME).has(TIME)
+
+
+def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
+    message = f"`solution`: what drives `{equation.key}` contains {term}"
+    help_line = "powers of t, exponentials, sines and cosines can drive it"
+    return Rejected(Complaint("unknown-driving", message, help=help_line))
+
+
+def _of_power(linear: Linear, power: Expr) -> Expr:
+    """Undetermined coefficients: a polynomial, times t or t^2 where the free motion has constants or powers itself."""
+    degree = power.as_poly(TIME).degree() if power.has(TIME) else 0
+    lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2
+    unknown = [stand_in(f"u_{n}") for n in range(degree + 1)]
+    trial = Add(*(u * TIME ** (n + lowest) for n, u in enumerate(unknown)))
+    free = Linear(linear.a, linear.b, linear.c, power)
+    rows = expand(free.residual(trial)).as_poly(TIME).all_coeffs()
+    matrix = Matrix([[diff(row, u) for u in unknown] for row in rows])
+    right = Matrix([-row.xreplace(dict.fromkeys(unknown, ZERO)) for row in rows])
+    kept = [i for i in range(matrix.rows) if any(entry != 0 for entry in matrix.row(i))]
+    values = matrix.extract(kept, list(range(len(unknown)))).LUsolve(right.extract(kept, [0]))
+    return trial.xreplace(dict(zip(unknown, values, strict=True)))
+
+
+def _under_exponential(linear: Linear, k: Expr) -> Expr:
+    """1/P(k), or t/P'(k) and t^2/P''(k) where k is a root of P = a s^2 + b s + c."""
+    for power, value in enumerate(
+        (linear.a * k**2 + linear.b * k + linear.c, 2 * linear.a * k + linear.b, 2 * linear.a)
+    ):
+        if not is_zero(value):
+            return TIME**power / value
+    raise Rejected(Complaint("unknown-driving", "an exponential that no equation answers"))
+
+
+def _under_swing(linear: Linear, swing: Expr) -> Expr:
+    """The forced oscillation; one that grows where it has the frequency of a free motion that is not damped."""
+    (angle,) = swing.args
+    w = diff(angle, TIME)
+    stiff, loss = tidied(linear.c - linear.a * w**2), tidied(linear.b * w)
+    quarter_on = sin(angle) if isinstance(swing, cos) else -cos(angle)
+    if stiff == 0 and loss == 0:
+        return TIME * quarter_on / (2 * linear.a * w)
+    return (stiff * swing + loss * quarter_on) / (stiff**2 + loss**2)
+
+
+def _excluded(linear: Linear) -> Relation | None:
+    """What must not vanish for the motion under what drives it: no free motion may have its frequency, or its rate."""
+    found: dict[Relation, None] = {}
+    for term in Add.make_args(_driving(linear.driven)):
+        for f in term.atoms(sin, cos, exp):
+            w = diff(f.args[0], TIME)
+            if w == 0 or linear.order == 1 and linear.c == 0 or not isinstance(f, exp) and linear.b != 0:
+                continue
+            below = linear.a * w**2 + linear.b * w if isinstance(f, exp) else -linear.a * w**2
+            below = tidied(linear.c + below)
+            check_no_resonance(below)
+            condition = None if is_zero(below) else different_from_zero(below)
+            if condition is not None:
+                found[condition] = None
+    if len(found) < 2:
+        return next(iter(found), None)
+    return Relation(Mul(*(each.residual for each in found)), "!=", ZERO)
+
+
+def _accumulated(inside: Expr, equation: Quantity) -> Expr:
+    """An antiderivative by the time: of a power of a + b t, an exponential, a sine or a cosine."""
+    if inside == 1:
+        return TIME
+    base, power = inside.as_base_exp()
+    if isinstance(inside, exp | sin | cos) and is_linear_in_time(inside.args[0]):
+        rate = diff(inside.args[0], TIME)
+        whole = {exp: inside, sin: -cos(inside.args[0]), cos: sin(inside.args[0])}[inside.func]
+        return whole / rate
+    if is_linear_in_time(base) and not power.has(TIME):
+        rate = diff(base, TIME)
+        if power == -1:
+            start = base.subs(TIME, 0)
+            if rate.could_extract_minus_sign():
+                return log(start / base) / -rate
+            return log(base / start) / rate
+        return Pow(base, power + 1) / (rate * (power + 1))
+    raise _unknown_driving(equation, inside)
+
+
+# --- its start ---
+
+
+def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Expr | None) -> list[Expr]:
+    """The factors of the free motions for which value and rate are those of the start."""
+    rows = [[e.subs(TIME, 0) for e in basis]]
+    right = [first - particular.subs(TIME, 0)]
+    if initial is not None:
+        rows.append([diff(e, TIME).subs(TIME, 0) for e in basis])
+        right.append(initial - diff(particular, TIME).subs(TIME, 0))
+    return [tidied(value) for value in Matrix(rows).LUsolve(Matrix(right))]
+
+
+def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: Linear, sort: str) -> Expr:
+    """e^(-b t/2a) (C cos + D sin): the exponential that both have in common in front."""
+    common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
+    inside = Add(*(presented(C) * (e / common) for C, e in zip(values, basis, strict=True)))
+    inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=length)
+    return Mul(common, inside, evaluate=False) if common != 1 and inside.is_Add else common * inside
+
+
+def _joined(free: Expr, particular: Expr) -> Expr:
+    """v_t (1 - e^(-t/T)) where the free motion only takes off what the other one has at the start."""
+    if not particular.has(TIME) and particular != 0 and not free.is_Add:
+        outside, inside = free.as_independent(TIME, as_Add=False)
+        if is_zero(outside + particular):
+            return Mul(presented(particular), 1 - inside, evaluate=False)
+    whole = free + particular
+    marks = {f: Dummy(str(f)) for f in whole.atoms(sin, cos, exp, cosh, sinh) if f.has(TIME)}
+    back = {mark: f for f, mark in marks.items()}
+    factored = presented(whole.xreplace(marks)).xreplace(back)
+    forms = (whole, factor_terms(whole.expand()), factor_terms(whole), factored)
+    return min(forms, key=length)

@@ -1,0 +1,392 @@
+"""Equations of motion to first order about a state of rest, in any number of coordinates.
+
+M eta_ddot + G eta_dot + K eta = f(t), with eta the displacements and f what drives them. The matrices are read off the
+equations of motion; the second route has them from the kinetic energy of mass points and from the virtual work of all
+forces, drag and given ones among them, to second order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, lcm, nan, sin, together, zoo
+from sympy.matrices import MatrixBase
+
+from derive.algebra.collect import by_accelerations, spread
+from derive.algebra.derivatives import derivative
+from derive.algebra.expansion import FirstOrder
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar, stand_in
+from derive.algebra.squares import with_squares
+from derive.algebra.taylor import slope
+from derive.algebra.tidy import common_factor, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, T
+from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.rest.constrained_stability import constraints_of
+from derive.mechanics.rest.equilibria import place_given
+from derive.mechanics.rest.mass_matrix import check_regular
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.known_numbers import sign_known
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
+from derive.witness.facts import Around, Rest
+
+__all__ = ["linearised"]
+
+ZERO = Integer(0)
+MOST_TOLD = 2  # terms of higher order that a sentence tells one by one
+
+
+@dataclass(frozen=True)
+class Linear(Fact):
+    """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, where the
+    state of rest exists, what drives them, and what each coordinate is at rest."""
+
+    missing = "is not an equation of motion to first order"
+    mass: MatrixBase
+    turning: MatrixBase
+    stiffness: MatrixBase
+    displacements: tuple[Coordinate, ...]
+    exists: Relation | None = None
+    driven: tuple[Expr, ...] = ()
+    place: tuple[tuple[Coordinate, Expr], ...] = ()
+
+    def rows_of(self, matrix: MatrixBase) -> MatrixBase:
+        """A matrix of the amplitudes, each row without what all terms of its equation have in common."""
+        size = range(matrix.shape[0])
+        return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
+
+    def common(self, i: int) -> Expr:
+        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta.
+
+        Where each of them has something below it, all that is below is cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
+        """
+        entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
+        parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]
+        if len(parts) == 1:
+            return Integer(1)  # I theta_ddot = 0 stays as it is
+        found = common_factor([above for above, _ in parts])
+        if all(below.free_symbols for _, below in parts):
+            found /= factor(reduce(lcm, (below for _, below in parts)))
+        return Mul(*(part for part in Mul.make_args(found) if part.is_positive and not part.is_Rational))
+
+
+def linearised(
+    motion: Quantity | Sequence[Quantity],
+    at: Quantity | Mapping[Any, Expr] | Expr | None = None,
+    key: str = "linearised",
+) -> Quantity | tuple[Quantity, ...]:
+    """Equations of motion to first order in the displacements from rest, M eta_ddot + G eta_dot + K eta = f(t).
+
+    motion   the equations, as `equations_of_motion` yields them; or one, of one coordinate
+    at       the state of rest: as `equilibria` yields it, or `{theta: 0, phi: pi}`; all coordinates 0 unless given
+    key      what the keys begin with: linearised_theta, one for each coordinate
+    Drag gives G; what depends on the time alone, f, drives the motion. Where a coordinate is not 0 at rest its
+    displacement is called eta; eta_1, eta_2, ... where there are several.
+    Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
+    Outcomes: generic, displaced (some coordinate is not 0 at rest), and with a drag or what drives them damped,
+    displaced_damped, driven, displaced_driven.
+    Errors: a force is left at that place; a value, or the equation of a coordinate, is missing; the coefficients change
+    in time.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
+    """
+    if isinstance(motion, Quantity) and not isinstance(at, Mapping | Quantity):
+        q = motion.needed(OfCoordinate).coordinate
+        return _together((motion,), {q: ZERO if at is None else at}, [key])[0]
+    equations = (motion,) if isinstance(motion, Quantity) else tuple(motion)
+    return _together(equations, at, [f"{key}_{each.needed(OfCoordinate).coordinate.symbol.name}" for each in equations])
+
+
+def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tuple[Quantity, ...]:
+    """The linear equations of all coordinates."""
+    moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
+    _check_whole(equations, moving)
+    place = _place_of(equations, moving, at)
+    _check_exists(at)
+    check_regular("linearised", equations[0].needed(Matter), place)
+    _check_rest(equations, moving, place)
+    eta = _displacements(moving, place)
+    exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
+    mass, turning, stiffness = (_coefficients(equations, moving, place, order) for order in (2, 1, 0))
+    driven = tuple(-_at_rest(explicit(equation.value).residual, moving, place) for equation in equations)
+    rest = tuple((q, place[q.symbol]) for q in moving)
+    linear = Linear(mass, turning, stiffness, eta, exists, driven, rest)
+    rests = [at] if isinstance(at, Quantity) else []
+    return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
+
+
+def _one(
+    equations: Sequence[Quantity],
+    i: int,
+    moving: list[Coordinate],
+    place: Mapping[Symbol, Expr],
+    linear: Linear,
+    rests: Sequence[Quantity],
+    key: str,
+) -> Quantity:
+    """The linear equation that belongs to one coordinate.
+
+    Outcomes: generic, displaced, damped, displaced_damped, driven, displaced_driven.
+    Source: that of `linearised`.
+    """
+    eta = linear.displacements
+    ordered = [
+        (matrix, [rate(s.symbol, n) if n else s.symbol for s in eta])
+        for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
+    ]
+    common = linear.common(i)
+    terms = [
+        with_squares(spread(tidied(matrix[i, j] / common))) * s
+        for matrix, letters in ordered
+        for j, s in enumerate(letters)
+    ]
+    left = Add(*(term for term in terms if term != 0), evaluate=False)
+    displaced = {s.symbol: q.symbol for q, s in zip(moving, eta, strict=True)}
+    away = [(q, s) for s, q in displaced.items() if q != s]
+    named = _letters_of(rests)
+    counted = {
+        f"counted_{n}": (
+            Relation(q, "=", Terms(*Add.make_args(named.get(q, place[q])), s)),
+            Relation(s, "=", q - named.get(q, place[q])),
+        )
+        for n, (q, s) in enumerate(away, 1)
+    }
+    whole = Relation(left, "=", tidied(linear.driven[i] / common))
+    if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
+        counted["as_it_is"] = (whole, equations[i].value)
+    small = None if away or "as_it_is" in counted else _with_small_angles(equations[i], moving, common)
+    alone: dict[str, Expr] = {}
+    if len(moving) == 1:
+        alone = {"alone": moving[0].symbol, **_functions_of(equations[i], moving[0], small)}
+        counted.update(_dropped(moving[0], small))
+    return establish(
+        "linearised.equation",
+        None,
+        lambda *_: whole,
+        {},
+        lines=Lines(before=_before(small, moving), put_in=None, result=False, arranged=explicit),
+        routes=equations[i]
+        .needed(Matter)
+        .named({"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))}),
+        outcome=_outcome(linear, i, bool(away)),
+        phrase_data=PhraseData(
+            points_to={"motion": equations[i], **({"other": equations[i - 1]} if len(equations) > 1 else {})},
+            outcome_data={
+                "place": tuple(place.values()),
+                "displacements": tuple(s.symbol for s in eta),
+                **_loss(linear),
+            },
+            formulas=counted,
+            named=alone,
+        ),
+        key=key,
+        parents=[*equations, *rests],
+        facts=[linear, OfCoordinate(eta[i]), Around(dict(place), linear.exists, displaced)],
+        scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
+    )
+
+
+def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common: Expr) -> Expr | None:
+    """The left side with sin(u) = u and cos(u) = 1 of angles that vanish at rest; nothing where there are none, or
+    others."""
+    left = explicit(equation.value).residual / common
+    angles = left.atoms(sin, cos)
+    letters = {q.symbol for q in moving}
+    if not angles or any(f.args[0].xreplace(dict.fromkeys(letters, ZERO)) != 0 for f in angles):
+        return None
+    put = {f: f.args[0] if isinstance(f, sin) else Integer(1) for f in angles}
+    return by_accelerations(left.expand().xreplace(put), list(letters))
+
+
+def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
+    """The line in which the angles are small, before the higher orders are dropped."""
+    if small is None:
+        return []
+    letters = [letter for q in moving for letter in (q.symbol, q.rate, q.acceleration)]
+    return [Form(Relation(FirstOrder(small, *letters), "=", ZERO), "small_angles", Level.FULL)]
+
+
+def _functions_of(equation: Quantity, q: Coordinate, small: Expr | None) -> dict[str, Expr]:
+    """Which functions of the angle are put to first order."""
+    functions = {"sine": sin(q.symbol), "cosine": cos(q.symbol)} if small is not None else {}
+    return {role: f for role, f in functions.items() if explicit(equation.value).residual.has(f)}
+
+
+def _dropped(q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
+    """Which terms are of higher order than the first."""
+    if small is None:
+        return {}
+    told: dict[str, tuple[Expr, Expr]] = {}
+    letters = (q.symbol, q.rate, q.acceleration)
+    powers = [(term, term.as_poly(*letters)) for term in Add.make_args(small.expand())]
+    terms = [term for term, power in powers if power is None or power.total_degree() > 1]
+    if 0 < len(terms) <= MOST_TOLD and all(power is not None for _, power in powers):
+        told.update({f"dropped_{n}": (tidied(term), term) for n, term in enumerate(terms, 1)})
+    return told
+
+
+def _letters_of(rests: Sequence[Quantity]) -> dict[Symbol, Expr]:
+    """What the page calls the coordinates at rest, r_0."""
+    found: dict[Symbol, Expr] = {}
+    for rest in rests:
+        names = [rest.symbol] if isinstance(rest.symbol, Symbol) else list(rest.symbol or ())
+        held = list(rest.needed(Rest).values)
+        found.update(zip(held, names, strict=True) if len(names) == len(held) else ())
+    return found
+
+
+def _outcome(linear: Linear, own: int, displaced: bool) -> str:
+    if linear.driven[own] != 0:
+        return "displaced_driven" if displaced else "driven"
+    if _loss(linear)["loss"] != 0:
+        return "displaced_damped" if displaced else "damped"
+    return "displaced" if displaced else "generic"
+
+
+def _loss(linear: Linear) -> dict[str, Expr]:
+    """Twice the rate at which small motions lose their energy: what of G is symmetric."""
+    rates = [s.rate for s in linear.displacements]
+    return {"loss": Add(*(linear.turning[i, j] * u * v for i, u in enumerate(rates) for j, v in enumerate(rates)))}
+
+
+def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) -> None:
+    """No equation holds a coordinate of which the equation is missing."""
+    known = {q.symbol for q in moving}
+    for equation in equations:
+        value = explicit(equation.value).residual
+        others = [q for q in equation.coordinates if q not in known and value.has(q, rate(q), rate(q, 2))]
+        kept = next((q for q in others if any(q == c.force for c in constraints_of(equation))), None)
+        if kept is not None:
+            message = f"`linearised`: `{equation.key}` contains {kept.name}, the multiplier of a constraint"
+            help_line = "write the places by fewer coordinates, without this constraint"
+            raise Rejected(Complaint("constrained", message, help=help_line))
+        if others:
+            message = f"`linearised`: `{equation.key}` also has {others[0].name}, of which there is no equation"
+            help_line = "give all equations together, as `equations_of_motion` yields them"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
+
+
+def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: Any) -> dict[Symbol, Expr]:
+    """A value for each coordinate; one that no equation holds itself may have any, and is counted from there."""
+    known = dict.fromkeys((q.symbol for q in moving), ZERO) if at is None else place_given(at)
+    strange = [s for s in known if s not in {q.symbol for q in moving}]
+    if strange:
+        message = f"`linearised`: these equations have no coordinate {strange[0]}"
+        raise Rejected(Complaint("wrong-argument", message))
+    left = [explicit(equation.value).residual for equation in equations]
+    for q in moving:
+        if q.symbol not in known and any(value.has(q.symbol) for value in left):
+            message = f"`linearised`: nothing says what {q.symbol.name} is at rest"
+            raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{q.symbol.name}: 0`"))
+    return {q.symbol: known.get(q.symbol, ZERO) for q in moving}
+
+
+def _at_rest(value: Expr, moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> Expr:
+    still = {letter: ZERO for q in moving for letter in (q.rate, q.acceleration)}
+    return tidied(value.xreplace({**still, **place}))
+
+
+def _check_exists(at: Any) -> None:
+    """Refuse a state of rest that the given numbers do not allow."""
+    exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
+    sign = sign_known(exists.residual) if exists is not None else None
+    if exists is not None and sign is not None and sign != (1 if exists.mark == ">" else -1):
+        message = (
+            f"`{at.key}` exists only for {exists.left} {exists.mark} {exists.right}, which is not so for the values"
+        )
+        raise Rejected(Complaint("no-equilibrium", message, help="give other values, or another state of rest"))
+
+
+def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
+    """Without rates and accelerations nothing is left of the equations there but what drives them as time passes."""
+    where = ", ".join(f"{s} = {value}" for s, value in place.items())
+    for equation in equations:
+        value = explicit(equation.value).residual
+        letters = [s for q in moving for s in (q.symbol, q.rate, q.acceleration)] if value.has(TIME) else []
+        slopes = [derivative(value, s) for s in letters]
+        if any(_at_rest(slope, moving, place).has(TIME) for slope in slopes):
+            message = f"`{equation.key}` holds the time itself, so that it has no constant coefficients"
+            raise Rejected(Complaint("changes", message))
+        left = lasting(_at_rest(value, moving, place))
+        if left.has(nan, zoo):
+            message = f"`{equation.key}` has no value at {where}, where a distance or a denominator is zero"
+            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+        if not is_zero(left):
+            message = f"`{equation.key}` is not in equilibrium at {where}: {left} is left for 0"
+            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+
+
+def lasting(value: Expr) -> Expr:
+    """What of a sum does not depend on the time."""
+    return Add(*(term for term in Add.make_args(value.expand()) if not term.has(TIME))) if value.has(TIME) else value
+
+
+def _coefficients(
+    equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr], order: int
+) -> MatrixBase:
+    """What stands at rest before the accelerations, the rates, or the coordinates, of each equation."""
+
+    def entry(i: int, j: int) -> Expr:
+        q = moving[int(j)].symbol
+        left = explicit(equations[int(i)].value).residual
+        return _at_rest(derivative(left, rate(q, order) if order else q), moving, place)
+
+    return ImmutableDenseMatrix(len(equations), len(moving), entry)
+
+
+def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> tuple[Coordinate, ...]:
+    """The coordinate itself where it is 0 at rest, else eta; eta_1, eta_2, ... where there are several."""
+    away = [q for q in moving if place[q.symbol] != 0]
+    names = {q: "eta" if len(away) == 1 else f"eta_{n + 1}" for n, q in enumerate(away)}
+    return tuple(Coordinate(scalar(names[q]), q.kind) if q in names else q for q in moving)
+
+
+def _of_second_order(
+    equations: Sequence[Quantity],
+    i: int,
+    moving: Sequence[Coordinate],
+    place: Mapping[Symbol, Expr],
+    eta: Sequence[Coordinate],
+) -> Relation:
+    """The same from mass points and forces: momentum, and what pushes along the coordinate, differentiated at rest.
+
+    Not from a kinetic energy: where cyclic coordinates are put aside, that with the momenta put in tells no forces.
+    """
+    matter, q = equations[i].needed(Matter), moving[i]
+    momentum = explicit(matter.momentum_along(q.symbol))
+    pushed = explicit(matter.turning_along(q.symbol) + matter.force_along(q.symbol))
+    in_time, terms = slope(momentum, TIME), []
+    for other, s in zip(moving, eta, strict=True):
+        mass = slope(momentum, other.rate)
+        turning = slope(momentum, other.symbol) - slope(pushed, other.rate)
+        stiffness = slope(in_time, other.symbol) - slope(pushed, other.symbol)
+        for value, letter in ((mass, s.acceleration), (turning, s.rate), (stiffness, s.symbol)):
+            terms.append(_at_rest(value, moving, place) * letter)
+    driving = pushed - in_time
+    return Relation(Add(*terms), "=", _at_rest(driving, moving, place))
+
+
+def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
+    """The left side of a linear equation with a motion eta(t) put in."""
+    put_in: dict[Any, Expr] = {}
+    for s, eta in zip(together.displacements, motion, strict=True):
+        put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
+    return explicit(equation.value).residual.xreplace(put_in)
+
+
+def left_by_drift(linear: Sequence[Quantity], together: Linear, column: Sequence[Expr], time: Expr) -> list[Expr]:
+    """What the equations of motion, not linear, leave of a uniform motion away from rest along a column."""
+    equations = {e.needed(OfCoordinate).coordinate: e for each in linear for e in each.parents if e.fact(OfCoordinate)}
+    moved: dict[Any, Expr] = {}
+    for (q, at), share in zip(together.place, column, strict=True):
+        moved.update({q.symbol: at + share * time, q.rate: share, q.acceleration: ZERO})
+    return [explicit(equations[q].value).residual.xreplace(moved) for q, _ in together.place]
+
+
+def factors_of_amplitudes(linear: Sequence[Quantity], together: Linear, course: Expr) -> MatrixBase:
+    """What stands with each amplitude in each equation, once eta = a course(t) is put in and the course divided out."""
+    amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
+    left = [with_motion(each, together, [a * course for a in amplitudes]) / course for each in linear]
+    return ImmutableDenseMatrix([[derivative(value.expand(), a) for a in amplitudes] for value in left])

@@ -1,0 +1,378 @@
+"""Normal modes: motions in which all coordinates swing with one frequency, their frequencies and their shapes.
+
+Linear equations M eta_ddot + K eta = 0 have solutions eta = a cos(omega t) where det(K - omega^2 M) = 0. A root that is
+zero belongs to a free motion, a negative one to a displacement that grows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from sympy import (
+    Add,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    MatrixSymbol,
+    Symbol,
+    cos,
+    exp,
+    pi,
+    sin,
+)
+from sympy.matrices import MatrixBase
+
+from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
+from derive.algebra.expressions import Ratio, Relation, Terms, explicit, scalar, stand_in
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.squares import with_squares
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate, T
+from derive.mechanics.vibrations.damped import DampedModes
+from derive.mechanics.vibrations.gyroscopic import TurningModes
+from derive.mechanics.vibrations.linearised import Linear, factors_of_amplitudes, left_by_drift, with_motion
+from derive.mechanics.vibrations.oscillations import frequency, frequency_squared, told_where_positive
+from derive.solving.characteristic import Pencil, root_of
+from derive.solving.characteristic import Root as RootOfPencil
+from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.known_numbers import have_numbers
+from derive.steps.record import free_letter, require_constant
+from derive.steps.step import Fact, Level, Quantity, is_zero, require_kind
+
+__all__ = ["beats", "normal_modes", "period"]
+
+ZERO = Integer(0)
+LETTERS = ("omega", "Omega")  # of a frequency: the second where the first is given
+
+
+@dataclass(frozen=True)
+class Mode(Fact):
+    """The frequency, or the rate of growth, of a mode: its root lambda = omega^2 with its sign, and its columns."""
+
+    missing = "is not the frequency of a normal mode"
+    root: RootOfPencil
+
+
+def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str = "") -> tuple[Quantity, ...]:
+    """Normal modes of M eta_ddot + K eta = 0: eta = a cos(omega t), det(K - omega^2 M) = 0, (K - omega^2 M) a = 0.
+
+    linear   the equations, as `linearised` yields them
+    key      what the keys begin with, where there are modes of something else on the page; then give a `symbol` too
+    Keys: characteristic_equation; frequency_1, frequency_2, ... from the least; mode_1, mode_2, ... the shapes, of
+    which only the ratios mean anything. Of one coordinate there is `frequency` alone, omega_0, by `frequency_squared`.
+    Where forces linear in the rates do no work, shapes are motions, cosines and sines; with drag there are rates of
+    decay, decay_1, ..., and of a factor of its own each frequency, if the determinant falls into such factors.
+    Second route: the motion put into the linear equations; the quotient of stiffness and mass in that shape (Rayleigh);
+    the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
+    Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
+    the letters); where two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
+    conditional_repeated; ordered, ordered_part (no formula: a root by its place); of shapes: in_phase, opposite,
+    alone (the other is at rest), generic, uniform (free motion), departing (growing), any_of_several (repeated); of the
+    determinant: several, one (coordinate).
+    Errors: the roots have no closed form, and letters have no numbers; with drag the modes do not separate; too many
+    letters.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
+    Source: that of `normal_modes`.
+    """
+    together = linear[0].needed(Linear)
+    _check_whole(linear, together)
+    turns = not is_zero(together.turning)
+    if turns and not is_zero(together.turning + together.turning.T):
+        return DampedModes(linear, together, f"{key}_" if key else "").found()
+    in_numbers = have_numbers(together.stiffness, together.mass)
+    pencil = Pencil(together.stiffness, together.mass, together.exists, free_letter("lambda") if in_numbers else "")
+    matrices = (together.stiffness, together.turning, together.mass)
+    given = {s.name for each in matrices for s in each.free_symbols}
+    free = next((name for name in LETTERS if name not in given), LETTERS[0])
+    letter = scalar(symbol if symbol and len(linear) > 1 else free)
+    if letter.name in given:
+        message = f"`normal_modes` would call the frequency {letter}, but {letter} stands for something that is given"
+        raise Rejected(Complaint("letter-clash", message, help='give another letter, `symbol="Omega"`'))
+    before = f"{key}_" if key else ""
+    if turns:
+        return TurningModes(linear, together, letter, before).found()
+    if len(linear) == 1:
+        squared = frequency_squared(linear[0], symbol or f"{letter.name}_0", f"{before}frequency_squared")
+        return (frequency(squared, key=f"{before}frequency", condition=True),)
+    characteristic = _characteristic(linear, together, pencil, letter, before)
+    frequencies = [
+        _frequency(characteristic, linear, together, pencil, n, letter.name, before) for n in range(len(pencil.roots))
+    ]
+    shapes: list[Quantity] = []
+    for found in frequencies:
+        for column in found.needed(Mode).root.columns:
+            shapes.append(_shape(linear, together, found, column, shapes, before))
+    return (*frequencies, *shapes)
+
+
+def _check_whole(linear: Sequence[Quantity], together: Linear) -> None:
+    if len(linear) != len(together.displacements) or any(each.fact(Linear) != together for each in linear):
+        message = "`normal_modes` needs all the equations that `linearised` yields together"
+        raise Rejected(Complaint("wrong-argument", message))
+    if any(force != 0 for force in together.driven):
+        message = "`normal_modes` needs equations that nothing drives, but there is a force that depends on the time"
+        raise Rejected(Complaint("wrong-argument", message))
+    if together.stiffness != together.stiffness.T or together.mass != together.mass.T:
+        raise Rejected(Complaint("wrong-argument", "`normal_modes` needs forces that have a potential energy"))
+    for matrix, role in ((together.mass, "mass"), (together.stiffness, "stiffness")):
+        for entry in matrix:
+            require_constant("normal_modes", role, entry)
+
+
+def _characteristic(
+    linear: Sequence[Quantity], together: Linear, pencil: Pencil, letter: Symbol, start: str
+) -> Quantity:
+    """det(K - omega^2 M) = 0.
+
+    Source: that of `normal_modes`.
+    """
+    matrix = together.rows_of(together.stiffness - letter**2 * together.mass)
+    factored = pencil.factored(letter**2).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
+
+    def by_trial(found: Relation) -> tuple[Relation, Relation]:
+        """The factors that stand with each amplitude once eta = a cos(omega t) is in the equations."""
+        matrix = factors_of_amplitudes(linear, together, cos(letter * T))
+        return found, Relation(expanded_by_rows(matrix), "=", 0)
+
+    return establish(
+        "modes.characteristic",
+        None,
+        lambda *_: Relation(Determinant(matrix), "=", 0),
+        {"omega": letter},
+        lines=Lines(put_in=None, arranged=lambda _: Relation(factored, "=", 0)),
+        routes={"trial": by_trial},
+        key=f"{start}characteristic_equation",
+        parents=linear,
+        scope=Scope(coordinates={letter: "angular speed"}),
+    )
+
+
+_OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
+
+
+def _drift(linear: Sequence[Quantity], together: Linear, root: RootOfPencil) -> dict[str, Any]:
+    """What the equations of motion leave of a uniform motion along a zero mode, if that is nothing at all:
+    then no force acts to any order."""
+    if root.sign != 0:
+        return {}
+    time = stand_in("s")
+    left = [value for column in root.columns for value in left_by_drift(linear, together, column, time)]
+    return {"drift": Integer(0), "left": tuple(left)} if all(map(is_zero, left)) else {}
+
+
+def _frequency(
+    characteristic: Quantity,
+    linear: Sequence[Quantity],
+    together: Linear,
+    pencil: Pencil,
+    n: int,
+    symbol: str,
+    start: str,
+) -> Quantity:
+    """One frequency, or rate of growth.
+
+    Outcomes: oscillating, growing, free, conditional, oscillating_repeated, growing_repeated, free_repeated,
+    conditional_repeated.
+    Source: that of `normal_modes`.
+    """
+    root = pencil.roots[n]
+    name = f"kappa_{n + 1}" if root.sign == -1 else f"{symbol}_{n + 1}"
+    letter = characteristic.step.coordinates[-1][0]
+    turned = -1 if root.sign == -1 else 1
+
+    def put_back(found: Expr) -> tuple[Expr, Expr]:
+        return characteristic.value.left.xreplace({letter**2: turned * found**2}).subs(
+            letter**2, turned * found**2
+        ), ZERO
+
+    def rayleigh(found: Expr) -> tuple[Expr, Expr]:
+        column = root.columns[0]
+        stiffness, mass = ((column.T * each * column)[0] for each in (together.stiffness, together.mass))
+        return turned * found**2 * mass, stiffness
+
+    def trace(found: Expr) -> tuple[Expr, Expr]:
+        others = Add(*(r.value * r.multiplicity for i, r in enumerate(pencil.roots) if i != n))
+        return turned * found**2 * root.multiplicity + others, _trace(together.mass, together.stiffness)
+
+    outcome = _OF_SIGN[root.sign] + ("_repeated" if root.multiplicity > 1 else "")
+    drift = _drift(linear, together, root)
+    named = {} if root.has_formula else {"root": scalar(f"{pencil.name}_1")}  # the sentence introduces the first
+    return establish(
+        "modes.frequency",
+        scalar(name),
+        lambda *_: root_of(turned * root.value),
+        {},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"put_back": put_back, **({"rayleigh": rayleigh} if root.has_formula else {}), "trace": trace},
+        outcome=outcome if root.has_formula else _of_polynomial(root, together),
+        phrase_data=PhraseData(
+            points_to={"characteristic": characteristic},
+            outcome_data={**_judged_by(together), "left": drift.pop("left", ())},
+            formulas=told_where_positive(root.value) if root.sign is None else {},
+            named={**drift, **named},
+        ),
+        key=f"{start}frequency_{n + 1}",
+        kind="angular speed",
+        parents=[characteristic],
+        facts=[Mode(root)],
+    )
+
+
+def _of_polynomial(root: RootOfPencil, together: Linear) -> str:
+    """Whether all frequencies are roots of one polynomial, or some of a factor."""
+    return "ordered" if len(root.value.args[0]) - 1 == len(together.displacements) else "ordered_part"
+
+
+def _judged_by(together: Linear) -> dict[str, Any]:
+    exists = {"exists": together.exists} if together.exists is not None else {}
+    return {"stiffness": together.stiffness, "mass": together.mass, **exists}
+
+
+@lru_cache(maxsize=8)  # all frequencies of a system ask for it
+def _trace(mass: MatrixBase, stiffness: MatrixBase) -> Expr:
+    """Of M^-1 K, as the sum of K_ij times the cofactor of M_ij, over det M."""
+    size = range(mass.shape[0])
+    cofactors = (stiffness[i, j] * mass.cofactor(i, j) for i in size for j in size if stiffness[i, j] != 0)
+    return tidied(Add(*cofactors) / mass.det())
+
+
+def _shape(
+    linear: Sequence[Quantity],
+    together: Linear,
+    frequency: Quantity,
+    column: MatrixBase,
+    before: Sequence[Quantity],
+    start: str,
+) -> Quantity:
+    """The amplitudes of one mode.
+
+    Outcomes: in_phase, opposite, alone, generic, uniform, departing, any_of_several.
+    Source: that of `normal_modes`.
+    """
+    root = frequency.needed(Mode).root
+    drift = _drift(linear, together, root)
+    n = len(before) + 1
+    squared = root.value
+
+    def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
+        """The motion put into the linear equations, at any time."""
+        w = stand_in("w", positive=True)
+        course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
+        turned = -squared if root.sign == -1 else squared
+        left = [with_motion(each, together, [a * course for a in found]) / course for each in linear]
+        values = [value.expand().subs(w**2, turned) if root.sign != 0 else value for value in left]
+        return ImmutableDenseMatrix(values), ImmutableDenseMatrix([ZERO] * len(values))
+
+    def across(found: MatrixBase) -> tuple[Expr, Expr]:
+        marks = [stand_in(f"u_{i}") for i in range(len(before))]
+        products = [(other.value.T * together.mass * found)[0] for other in before]
+        return Add(*(mark * product for mark, product in zip(marks, products, strict=True))), ZERO
+
+    entries = zip(together.displacements, column, strict=True)
+    moved = next(s.symbol for s, entry in entries if not is_zero(entry))
+    return establish(
+        "modes.shape",
+        MatrixSymbol(f"{_letter_of_shapes(column)}_{n}", len(column), 1),
+        lambda _: Amplitudes(*column),
+        {"frequency": frequency},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"motion": moving, "orthogonal": across},
+        outcome=_shape_outcome(root, column, together.displacements),
+        phrase_data=PhraseData(
+            points_to={"linear": linear[0]},
+            outcome_data={"squared": squared, **_judged_by(together), "left": drift.pop("left", ())},
+            named={"moving": moved, **drift},
+        ),
+        key=f"{start}mode_{n}",
+        parents=[*linear, *before],
+    )
+
+
+def _letter_of_shapes(column: MatrixBase) -> str:
+    taken = {s.name.partition("_")[0] for s in column.free_symbols}
+    return next((letter for letter in ("a", "A", "b", "u") if letter not in taken), "v")
+
+
+def _shape_outcome(root: RootOfPencil, column: MatrixBase, displacements: Sequence[Coordinate]) -> str:
+    if root.multiplicity > 1:
+        return "any_of_several"
+    if root.sign == 0:
+        return "uniform"
+    if root.sign == -1:
+        return "departing"
+    if len(column) != 2:
+        return "generic"
+    return _pair(*column)
+
+
+def _pair(first: Expr, second: Expr) -> str:
+    if is_zero(first) or is_zero(second):
+        return "alone"
+    ratio = tidied(second / first)
+    return {1: "in_phase", -1: "opposite", None: "generic"}[strict_sign_within(ratio)]
+
+
+def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quantity:
+    """Period of an oscillation, tau = 2 pi/omega.
+
+    of   its angular frequency, 1/s
+    Check: after that time, and not after half of it, cos(omega t) and its rate are what they were.
+    Errors: this is no angular frequency of an oscillation.
+    Source: Taylor, *Classical Mechanics*, section 5.2.
+    """
+    require_kind("period", "of", of, "angular speed")
+    mode = of.fact(Mode)
+    if of.step.outcome in {"growing", "free", "unstable", "neutral"} or mode is not None and mode.root.sign in (-1, 0):
+        raise Rejected(Complaint("no-oscillation", f"`{of.key}` is not the frequency of an oscillation"))
+
+    def same_again(found: Expr) -> tuple[Expr, Expr]:
+        """Once round, counted by what a turn adds to the phase: cos and sin of it, and cos of its half."""
+        turn = tidied(of.value * found)
+        u, v = (stand_in(name) for name in ("u", "v"))
+        return cos(turn) + u * sin(turn) + v * cos(turn / 2), 1 - v
+
+    return establish(
+        "modes.period",
+        scalar(symbol or free_letter("tau")),
+        lambda omega: Ratio(2 * pi, omega),
+        {"frequency": of},
+        lines=Lines(put_in=None, arranged=explicit),
+        routes={"once_round": same_again},
+        key=key,
+        kind="time",
+    )
+
+
+def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str = "beats") -> Quantity:
+    """Frequency of the beats of two oscillations of the same amplitude, omega_beat = omega_2 - omega_1.
+
+    slow, fast   the angular frequencies of two modes, 1/s
+    cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2) cos((omega_1 + omega_2) t/2), whose size rises and
+    falls with the difference.
+    Check: the two swings added are that product, at any time.
+    Errors: the first is faster, or the two are the same; one is no frequency of an oscillation.
+    Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
+    """
+    for role, each in (("slow", slow), ("fast", fast)):
+        require_kind("beats", role, each, "angular speed")
+    if slow.value == 0 or is_zero(fast.value - slow.value):
+        raise Rejected(Complaint("no-beats", f"`{slow.key}` and `{fast.key}` do not beat", help="give two frequencies"))
+
+    def product(found: Expr) -> tuple[Expr, Expr]:
+        middle = (slow.value + fast.value) / 2
+        return cos(slow.value * T) + cos(fast.value * T), 2 * cos(found * T / 2) * cos(middle * T)
+
+    return establish(
+        "modes.beats",
+        scalar(symbol),
+        lambda one, other: Terms(other, -one),
+        {"slow": slow, "fast": fast},
+        lines=Lines(put_in=Level.STANDARD, arranged=explicit),
+        routes={"product": product},
+        key=key,
+        kind="angular speed",
+    )

@@ -1,0 +1,232 @@
+"""Small oscillations of one coordinate about an equilibrium: their frequency, by the linear equation of motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sympy import Abs, Add, Expr, I, Integer, Mul, Pow, Rational, cos, diff, exp, prime, sqrt
+
+from derive.algebra.collect import spread, spread_or_by_terms
+from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar, stand_in
+from derive.algebra.length import length
+from derive.algebra.ranges import fulfilling, rational_in_range, settled, strict_sign_within
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import OfCoordinate, T
+from derive.mechanics.vibrations.linearised import Linear
+from derive.solving.characteristic import root_of
+from derive.solving.signs import sign_by_factors
+from derive.solving.zeros import positive, sign_where
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Form, Level, Quantity
+
+__all__ = ["frequency", "frequency_and_growth", "frequency_squared"]
+
+SHORT = 4  # a condition of more terms is not told
+
+
+@dataclass(frozen=True)
+class SquareOf(Fact):
+    """The letter of what this is the square of, and where the state exists about which it is."""
+
+    missing = "is not the square of a frequency"
+    letter: str
+    exists: Relation | None = None
+
+
+def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "frequency_squared") -> Quantity:
+    """Square of the frequency of small oscillations, omega_0^2 = k/m, in 1/s^2.
+
+    linear   the equation m q_ddot + k q = 0, as `linearised` yields it
+    Check: q = cos(omega_0 t) put back into the equation.
+    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
+    """
+    q = linear.needed(OfCoordinate).coordinate.symbol
+    left = linear.value.left
+    stiffness, mass = spread(diff(left, q)), spread(diff(left, rate(q, 2)))
+    damping = diff(left, rate(q))
+    if mass == 0 or damping != 0 or (left - stiffness * q - mass * rate(q, 2)).expand() != 0:
+        message = f"`frequency_squared` needs an equation m q_ddot + k q = 0, which `{linear.key}` is not"
+        raise Rejected(Complaint("wrong-argument", message))
+    for role, coefficient in (("stiffness", stiffness), ("inertia", mass)):
+        require_constant("frequency_squared", role, coefficient)
+    whole = linear.fact(Linear)
+    exists = whole.exists if whole is not None else None
+    entries = (whole.stiffness[0], whole.mass[0]) if whole is not None else (stiffness, mass)
+    trial = stand_in("w", positive=True)
+
+    def put_back(found: Expr) -> tuple[Expr, Expr]:
+        swing = cos(trial * T)
+        left_side = left.subs({rate(q, 2): diff(swing, T, 2), q: swing})
+        return left_side.expand().subs(trial**2, found), Integer(0)
+
+    return establish(
+        "oscillations.frequency_squared",
+        Pow(scalar(symbol), 2),
+        lambda _: _quotient(stiffness, mass),
+        {"q": q},
+        lines=Lines(
+            put_in=None,
+            arranged=_squared_form if not mass.has(Add) or not stiffness.has(Add) else explicit,
+            means={scalar(symbol): sqrt(Ratio(stiffness, mass).doit())},
+        ),
+        routes={"put_back": put_back},
+        outcome=lambda value: _sort_of(value, entries, exists),
+        key=key,
+        kind="squared angular speed",
+        parents=[linear],
+        phrase_data=PhraseData(
+            named={
+                **({} if mass == 1 else {"inertia": mass, "acceleration": rate(q, 2)}),
+                "oscillator": Relation(Terms(rate(q, 2), Factors(scalar(symbol) ** 2, q)), "=", 0),
+            },
+            points_to={"linear": linear},
+            outcome_data={"exists": exists} if exists is not None else {},
+        ),
+        facts=[SquareOf(symbol, exists)],
+    )
+
+
+def _quotient(stiffness: Expr, mass: Expr) -> Expr:
+    """k/m over one line."""
+    above, below = stiffness.as_numer_denom()
+    if below.free_symbols:
+        return Ratio(above, below * mass)
+    return stiffness if mass == 1 else Ratio(stiffness, mass)
+
+
+def _squared_form(value: Expr) -> Expr:
+    """g/l - omega^2, not (g - l omega^2)/l, where that is shorter."""
+    forms = [tidied(value), spread_or_by_terms(tidied(value))]
+    return min(forms, key=length)
+
+
+def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:
+    """What is known of the sign of omega_0^2 = k/m, where there is that state of rest."""
+    value = tidied(value)
+    if value == 0:
+        return "neutral"
+    sign = strict_sign_within(value) or sign_where(value, exists)
+    if sign is None:
+        sign = 1 if all(sign_by_factors(tidied(each)) == 1 for each in entries) else None
+    return {1: "stable", -1: "unstable"}.get(sign or 0, "conditional")
+
+
+def _turned(value: Expr) -> Expr:
+    """Its negative, M g (a/2 - R) of M g (R - a/2): the sign goes into a sum, where one has a minus sign already."""
+    factors = list(Mul.make_args(value))
+    sums = [
+        i for i, f in enumerate(factors) if isinstance(f, Add) and any(t.could_extract_minus_sign() for t in f.args)
+    ]
+    if not sums:
+        return -value
+    factors[sums[0]] = Add(*(-term for term in factors[sums[0]].args))
+    return Mul(*factors)
+
+
+def told_where_positive(square: Expr) -> dict[str, tuple[Relation, Relation]]:
+    """Where the square of a frequency is positive, if that can be told in short."""
+    has_roots = any(not power.exp.is_Integer for power in square.atoms(Pow))
+    if has_roots or len(Add.make_args(square.expand())) > SHORT:
+        return {}
+    return {"condition": (positive(square), Relation(square, ">", Integer(0)))}
+
+
+def frequency(
+    squared: Quantity,
+    symbol: str | None = None,
+    key: str = "frequency",
+    condition: bool = False,
+    stands_for: Sequence[str] = (),
+) -> Quantity:
+    """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); where that is negative, the rate of growth.
+
+    squared     as `frequency_squared` yields it, 1/s^2
+    condition   whether the sentence says for which letters there is an oscillation
+    stands_for  keys of what there would be beside it, were the sign of the square open
+    Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
+    Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
+    """
+    return _rate(squared, squared.step.outcome, symbol, key, condition, stands_for)
+
+
+def frequency_and_growth(
+    squared: Quantity, keys: Sequence[str] = ("frequency", "growth_rate"), condition: bool = False
+) -> tuple[Quantity, Quantity]:
+    """Frequency of small oscillations, omega_0, where the square is positive; rate of growth, kappa, where negative.
+
+    squared     as `frequency_squared` yields it, 1/s^2
+    keys        of the two; where the sign of the square is known one step stands for both
+    condition   as for `frequency`
+    Check: as for `frequency`.
+    Outcomes: those of `frequency`; beside a conditional one that of the rate of growth, growing.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
+    """
+    first, second = keys
+    if squared.step.outcome != "conditional":
+        return (frequency(squared, key=first, stands_for=[second]),) * 2
+    return frequency(squared, key=first, condition=condition), _rate(squared, "growing", None, second)
+
+
+def _rate(
+    squared: Quantity,
+    outcome: str,
+    symbol: str | None,
+    key: str,
+    condition: bool = False,
+    stands_for: Sequence[str] = (),
+) -> Quantity:
+    """One of the two rates: that of the oscillation, or kappa where the motion grows.
+
+    Second route: the motion put back; its sign.
+    Outcomes: stable, conditional, neutral, unstable, growing (unstable where the square is negative, which is open).
+    Source: that of `frequency`.
+    """
+    known = squared.needed(SquareOf)
+    grows = outcome in ("unstable", "growing")
+    name = symbol or ("kappa" if grows else known.letter)
+    size = _turned(squared.value) if grows else squared.value
+    plain = explicit(Root(size))
+    shown = settled(plain) if settled(plain) != plain else Root(size) if size.has(Add) else root_of(size)
+    trial = stand_in("w", positive=True)
+
+    def satisfies(found: Expr) -> tuple[Expr, Expr]:
+        motion = exp(trial * T) if grows else cos(trial * T)
+        left = diff(motion, T, 2) / motion + squared.value
+        return left.expand().subs(trial**2, found**2), Integer(0)
+
+    def positive_root(found: Expr) -> tuple[Expr, Expr]:
+        """Neither motion knows the sign of its rate. It cannot change unless the root vanishes: one place tells."""
+        letters = sorted(squared.value.free_symbols, key=str)
+        drawn = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
+        there = fulfilling(drawn)
+        imaginary = explicit(size).subs(there).is_negative
+        value = found.subs(there) / (I if imaginary else 1)
+        return value, Abs(value)
+
+    return establish(
+        "oscillations.frequency",
+        scalar(name),
+        lambda square: Root(-square if grows else square),
+        {"squared": squared},
+        lines=Lines(
+            law=Level.FULL if grows else Level.BRIEF,
+            put_in=None,
+            after=[Form(shown, "result")],
+            result=False,
+            arranged=lambda value: settled(explicit(value)),
+        ),
+        routes={"motion": satisfies, "positive": positive_root},
+        outcome=outcome,
+        phrase_data=PhraseData(
+            formulas=told_where_positive(squared.value) if condition and outcome == "conditional" else {},
+            outcome_data={"exists": known.exists} if known.exists is not None else {},
+            stands_for=stands_for,
+        ),
+        key=key,
+        kind="angular speed",
+    )

@@ -1,0 +1,245 @@
+"""The motion of coupled coordinates from its start: a sum of normal modes, each as large as the start makes it.
+
+Shapes are orthogonal with M between them, so that along the shape a there is one oscillator with the mass a.M a, the
+stiffness a.K a and, where drag does not mix the modes, the drag a.C a; it starts from a.M eta(0)/(a.M a).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, cos, cosh, diff, factor_terms, sin, sinh
+from sympy.matrices import MatrixBase
+
+from derive.algebra.expressions import TIME, Relation, Terms, explicit
+from derive.algebra.length import length
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.vibrations import linear_motion
+from derive.mechanics.vibrations.linearised import Linear, with_motion
+from derive.mechanics.vibrations.modes import Mode
+from derive.solving.characteristic import Pencil
+from derive.steps.derivation import with_ancestors
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Form, Quantity, approximations_among, is_zero, value_behind
+
+__all__ = ["motions_by_modes"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Swing:
+    """One mode in a motion: its shape, what its own oscillator starts from, and its frequency where that is a step."""
+
+    column: MatrixBase
+    first: Expr
+    initial: Expr
+    frequency: Quantity | None
+    sign: int | None = 1
+    damped: Expr = ZERO
+
+    @property
+    def is_there(self) -> bool:
+        return bool(self.first != 0 or self.initial != 0)
+
+    def course(self, w: Expr) -> Expr:
+        """Cosine and sine, or what stands in their place for a mode that is free or grows."""
+        if self.frequency is None:
+            return self.damped
+        if self.sign == 0:
+            return self.first + self.initial * TIME
+        even, odd = (cosh, sinh) if self.sign == -1 else (cos, sin)
+        return self.first * even(w * TIME) + self.initial / w * odd(w * TIME)
+
+
+def motions_by_modes(
+    modes: Sequence[Quantity],
+    start: Mapping[Coordinate, Expr],
+    start_rate: Mapping[Coordinate, Expr] | None = None,
+    case: str | None = None,
+    key: str = "",
+) -> tuple[Quantity, ...]:
+    """The motion of all coordinates from a given start, eta(t) = sum of a_n (A_n cos(omega_n t) + B_n sin(omega_n t)).
+
+    modes        as `normal_modes` yields them
+    start        the value of each coordinate at t = 0; without one, that which it has at rest
+    start_rate   its rate there; 0 without one
+    case         `underdamped`, `critically_damped` or `overdamped` where the letters leave that open
+    Keys: of_t and the name of the coordinate; or what `key` says.
+    Check: put back into all linear equations together; the values and the rates at t = 0.
+    Outcomes: generic, zero (this coordinate stays where it is).
+    Errors: drag mixes the modes; forces linear in the rates turn them; a start that is not constant.
+    Source: Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*,
+    section 6.3.
+    """
+    equations = _equations(modes)
+    together = equations[0].needed(Linear)
+    first, initial = _start(start, together), _start(start_rate or {}, together)
+    swings = [s for s in _swings(modes, together, first, initial, case) if s.is_there]
+    motion = [tidied_motion(Add(*(_part(s, i) for s in swings))) for i in range(len(first))]
+    equations += approximations_among(*start.values(), *(start_rate or {}).values())
+    return tuple(_motion(equations, together, swings, motion, i, (first, initial), key) for i in range(len(first)))
+
+
+def _equations(modes: Sequence[Quantity]) -> list[Quantity]:
+    found = [q for q in with_ancestors(tuple(modes)).values() if q.fact(Linear) is not None]
+    if not found:
+        raise Rejected(Complaint("wrong-argument", "`motions_by_modes` needs the modes that `normal_modes` yields"))
+    together = found[-1].needed(Linear)
+    return [q for q in found if q.fact(Linear) == together]
+
+
+def _check_displaced(given: Mapping[Coordinate, Expr], together: Linear) -> None:
+    for q in given:
+        if all(s.symbol != q.symbol for s in together.displacements):
+            names = ", ".join(s.symbol.name for s in together.displacements)
+            message = f"`motions_by_modes` needs the start of the displacements, {names}, but {q.symbol.name} is none"
+            raise Rejected(Complaint("wrong-argument", message))
+
+
+def _start(given: Mapping[Coordinate, Expr], together: Linear) -> list[Expr]:
+    _check_displaced(given, together)
+    for q, value in given.items():
+        require_constant("motions_by_modes", f"start of {q.symbol.name}", value)
+    by_name = {q.symbol: explicit(value_behind(value)) for q, value in given.items()}
+    return [by_name.get(s.symbol, ZERO) for s in together.displacements]
+
+
+def _swings(
+    modes: Sequence[Quantity], together: Linear, first: Sequence[Expr], initial: Sequence[Expr], case: str | None
+) -> list[Swing]:
+    M, C = together.mass, together.turning
+    roots = Pencil(together.stiffness, M, together.exists).roots
+    columns = [c for root in roots for c in root.columns]
+    frequencies = {c: (q, m.root.sign) for q in modes if (m := q.fact(Mode)) is not None for c in m.root.columns}
+    if len(columns) == 1:
+        frequencies = {columns[0]: (modes[0], roots[0].sign)}
+    if not is_zero(C) and (is_zero(C + C.T) or not _separates(C, columns)):
+        message = "with forces of the rates that mix the modes, their shapes are not those without these forces"
+        help_line = "drag that goes with the masses or with the springs does not mix them"
+        raise Rejected(Complaint("no-closed-form", message, help=help_line))
+    found = []
+    for column in columns:
+        mass = (column.T * M * column)[0]
+        own = [
+            tidied((column.T * M * ImmutableDenseMatrix(values))[0] / mass)
+            for values in ([[v] for v in first], [[v] for v in initial])
+        ]
+        if is_zero(C):
+            frequency, sign = frequencies[column]
+            found.append(Swing(column, own[0], own[1], frequency, sign))
+        elif any(own):
+            found.append(Swing(column, own[0], own[1], None, 1, _damped(together, column, own, case)))
+    return found
+
+
+def _separates(drag: MatrixBase, columns: Sequence[MatrixBase]) -> bool:
+    pairs = ((one, other) for i, one in enumerate(columns) for other in columns[:i])
+    return drag == drag.T and all(is_zero((one.T * drag * other)[0]) for one, other in pairs)
+
+
+def _damped(together: Linear, column: MatrixBase, own: Sequence[Expr], case: str | None) -> Expr:
+    """The motion of the one oscillator along a shape."""
+    a, b, c = (tidied((column.T * each * column)[0]) for each in (together.mass, together.turning, together.stiffness))
+    return linear_motion.free_motion(linear_motion.Linear(a, b, c, ZERO), own[0], own[1], case)
+
+
+def _part(swing: Swing, i: int) -> Expr:
+    w = ZERO if swing.frequency is None else explicit(swing.frequency.value)
+    return swing.column[i] * swing.course(w)
+
+
+def tidied_motion(motion: Expr) -> Expr:
+    forms = (motion, factor_terms(motion.expand()), factor_terms(motion))
+    return min(forms, key=length)
+
+
+def _motion(
+    equations: Sequence[Quantity],
+    together: Linear,
+    swings: Sequence[Swing],
+    motion: Sequence[Expr],
+    i: int,
+    started: tuple[Sequence[Expr], Sequence[Expr]],
+    key: str,
+) -> Quantity:
+    """One coordinate as a function of the time.
+
+    Outcomes: generic, zero.
+    Source: that of `motions_by_modes`.
+    """
+    q = together.displacements[i]
+    own = [s for s in swings if not is_zero(s.column[i])]
+    named = {s.frequency.key: s.frequency for s in own if s.frequency is not None and s.sign != 0}
+
+    def law(*letters: Expr) -> Expr:
+        by_key = dict(zip(named, letters, strict=True))
+        parts = [
+            s.column[i] * s.course(by_key.get(s.frequency.key, ZERO) if s.frequency is not None else ZERO) for s in own
+        ]
+        terms = [term for part in parts for term in Add.make_args(part.expand() if named else part)]
+        return Terms(*terms) if len(terms) > 1 else terms[0] if terms else ZERO
+
+    def put_back(found: Expr) -> tuple[Any, Any]:
+        whole = [found if j == i else value for j, value in enumerate(motion)]
+        left = [with_motion(each, together, whole) for each in equations if each.fact(Linear) is not None]
+        return ImmutableDenseMatrix([value.expand() for value in left]), ImmutableDenseMatrix([ZERO for _ in left])
+
+    def from_the_start(found: Expr) -> tuple[Any, Any]:
+        at = [found.subs(TIME, 0), diff(found, TIME).subs(TIME, 0)]
+        return ImmutableDenseMatrix(at), ImmutableDenseMatrix([each[i] for each in started])
+
+    product = _as_product(own, i)
+    told = {**_told(together, started), "coordinate": (q.symbol, q.symbol)}
+    return establish(
+        "superposition.motion",
+        q.symbol,
+        law,
+        named,
+        lines=Lines(
+            put_in=None,
+            result=not named,
+            between=[Form(product, "product")] if product is not None else [],
+            arranged=lambda _: motion[i],
+        ),
+        routes={"put_back": put_back, "start": from_the_start},
+        outcome="zero" if is_zero(motion[i]) else "generic",
+        phrase_data=PhraseData(
+            formulas=told,
+            words={"seen": "all_told" if all(value != 0 for _, value in _starts(together, started)) else "others_zero"},
+        ),
+        key=f"{key or 'of_t'}_{q.symbol.name}",
+        kind=q.kind,
+        parents=list(equations),
+    )
+
+
+def _told(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> dict[str, tuple[Any, Any]]:
+    """All that is not zero at the start."""
+    pairs = [(s, value) for s, value in _starts(together, started) if value != 0]
+    return {f"start_{n}": (Relation(s, "=", value), Relation(value, "=", s)) for n, (s, value) in enumerate(pairs, 1)}
+
+
+def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> list[tuple[Expr, Expr]]:
+    """Each displacement and each rate with its value at the start."""
+    letters = [*(s.symbol for s in together.displacements), *(s.rate for s in together.displacements)]
+    return list(zip(letters, [*started[0], *started[1]], strict=True))
+
+
+def _as_product(swings: Sequence[Swing], i: int) -> Expr | None:
+    """A cos(w_1 t) + A cos(w_2 t) = 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), by the letters of the frequencies:
+    how they beat."""
+    plain = [s for s in swings if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
+    if len(swings) != 2 or len(plain) != 2:
+        return None
+    one, other = (tidied(s.column[i] * s.first) for s in plain)
+    slow, fast = (s.frequency.symbol for s in plain if s.frequency is not None)
+    half = (fast - slow) * TIME / 2, (slow + fast) * TIME / 2
+    if is_zero(one - other):
+        return 2 * one * cos(half[0]) * cos(half[1])
+    return 2 * one * sin(half[0]) * sin(half[1]) if is_zero(one + other) else None

@@ -1,0 +1,60 @@
+"""Which values a letter can have that lies in a range, and a sine or a cosine."""
+
+from __future__ import annotations
+
+from itertools import islice
+
+from sympy import Expr, Rational, Symbol, cos, sin
+
+from derive.algebra.expressions import Relation
+from derive.algebra.ranges import Range, ends_within, range_of
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.solving.signs import sign_by_factors
+from derive.solving.zeros import within_one
+
+DRAWN = 24  # sets of numbers for the letters
+LITTLE = Rational(1, 10**12)
+
+
+def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
+    """The condition under which the letter of an unknown can be such that this has the value; and whether it never can.
+
+    No cosine is greater than one, and no letter leaves its range.
+    """
+    exists, never = (None, False)
+    if isinstance(unknown, sin | cos) and value not in (1, -1):
+        exists, never = within_one(value)
+    return exists, never or is_out_of_range(unknown, value)
+
+
+def is_out_of_range(unknown: Expr, value: Expr) -> bool:
+    """Whether the letter would be beyond its range."""
+    ends = ends_within(unknown)
+    beyond = (value - ends[1], ends[0] - value) if ends else ()
+    return any(end.is_finite is not False and sign_by_factors(tidied(end)) in (0, 1) for end in beyond)
+
+
+def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:
+    """Whether a value is in the range of a letter, by numbers for the letters for which it exists; None where it is so
+    for some of them only."""
+    known, seen = range_of(letter), set()
+    if known is None:
+        return True
+    condition = [] if exists is None else [exists]
+    letters = letters_of(value).union(*(letters_of(each.residual) for each in condition))
+    for point in islice(points(letters, seed_of(value)), DRAWN if letters else 1):
+        try:
+            if any(bool(value_at(each.residual, point) > 0) != (each.mark == ">") for each in condition):
+                continue
+            seen.add(_is_inside(value_at(value, point), known))
+        except (Undefined, NoNumber, TypeError):
+            continue
+    return seen.pop() if len(seen) == 1 else None
+
+
+def _is_inside(number: Expr, known: Range) -> bool:
+    ends = number - known.least, known.greatest - number
+    return all(
+        bool(abs(end) < LITTLE and closed or end > LITTLE) for end, closed in zip(ends, known.closed, strict=True)
+    )

@@ -1,0 +1,106 @@
+"""Solve a relation, v > 0 or v = 0, for one letter; which values the letter must have, and what must not vanish."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Expr, Integer, Mul, sqrt
+
+from derive.algebra.expressions import Relation
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.solving.attainable import reached
+from derive.solving.presentation import presented
+from derive.solving.unknowns import left_over, mark_for, unknown_of, with_unknown, without_factors_beside
+from derive.steps.known_numbers import sign_known
+from derive.steps.step import Quantity
+
+TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
+
+
+def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
+    """The relation of a value and zero, solved for a letter where that can be told from the letters alone."""
+    try:
+        alone, solved, turned = solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
+    except Rejected:
+        return None
+    return Relation(alone, turned, solved)
+
+
+def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
+    """What the sentence says must hold."""
+    return {
+        role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
+        for role, each in conditions.items()
+        if each is not None
+    }
+
+
+def existence(of: Quantity, alone: Expr, mark: str, solved: Expr) -> Relation | None:
+    """For which letters there is such a value; an inequality holds or fails where there is none."""
+    exists, never = reached(alone, solved) if mark == "=" else (None, False)
+    if never:
+        letters = ", ".join(sorted(s.name for s in alone.free_symbols))
+        message = f"`{of.key}` would be so at {alone} = {solved}, which no value of {letters} reaches"
+        raise Rejected(Complaint("no-condition", message))
+    return exists
+
+
+def number_of(of: Quantity) -> Expr:
+    if not isinstance(of.value, Expr) or isinstance(of.value, Relation):
+        raise Rejected(Complaint("wrong-argument", f"`{of.key}` is no number that could be compared"))
+    return of.value
+
+
+def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[Expr, Expr, str]:
+    """What stands alone, the unknown or its square; its bound, and the mark between."""
+    u = mark_for(unknown)
+    written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
+    if left_over(written, unknown):
+        raise unsolvable(of, unknown)
+    factors = Mul.make_args(written)
+    core = Mul(*(f for f in factors if f.has(u) and strict_sign_within(f.xreplace({u: unknown})) != 1))
+    outside = Mul(written / core, *beside).xreplace({u: unknown})
+    polynomial = core.as_numer_denom()[0].as_poly(u)
+    below = core.as_numer_denom()[1]
+    powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
+    if powers in ([1], [2]):
+        powers = [*powers, 0]
+    if powers not in ([1, 0], [2, 0]) or below.has(u):
+        raise unsolvable(of, unknown)
+    leading = polynomial.all_coeffs()[0]
+    rest = polynomial.as_expr().xreplace({u: Integer(0)})
+    divided = leading * outside / below
+    rising = sign_known(divided)
+    if not rising and mark not in ("=", "!="):
+        raise unsolvable(of, unknown, _without_sign(divided))
+    solved = presented(-rest / leading)
+    turned = mark if rising != -1 else TURNED[mark]
+    if powers[0] == 1:
+        return unknown, solved, turned
+    if unknown.is_nonnegative and solved.is_nonnegative:
+        return unknown, presented(sqrt(solved)), turned
+    return unknown**2, solved, turned
+
+
+def _without_sign(value: Expr) -> Expr | None:
+    """The first factor of which no sign is known."""
+    return next((f for f in Mul.make_args(tidied(value)) if sign_known(f) is None), None)
+
+
+def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
+    """The factor by which the two sides differ, where its sign is known from the numbers."""
+    slope = tidied(difference.diff(alone)) if alone.is_Symbol else alone
+    factor = slope if slope != 0 and not slope.has(alone) else tidied(difference / (alone - solved))
+    return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())
+
+
+def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None) -> Rejected:
+    if factor is not None:
+        message = f"`{of.key}` cannot be compared by {unknown} alone: it would be divided by {factor}, of unknown sign"
+        letters = ", ".join(sorted(f"`{s}`" for s in factor.free_symbols))
+        help_line = f"say what is known of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
+        return Rejected(Complaint("no-condition", message, help=help_line))
+    message = f"`{of.key}` cannot be compared by {unknown} alone: it is not linear in it"
+    return Rejected(Complaint("no-condition", message, help="give another of the letters it depends on"))

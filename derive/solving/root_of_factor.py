@@ -1,0 +1,73 @@
+"""One root of a linear or of a quadratic factor of a polynomial: its formula, and its value as one writes it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, factor_list, gcd, sqrt
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.expressions import Factors, Ratio, Root, Terms
+from derive.algebra.tidy import tidied
+from derive.solving.presentation import presented
+from derive.steps.step import Fact
+
+FOUR = Integer(4)
+
+
+@dataclass(frozen=True)
+class RootOf(Fact):
+    """One root of a factor of the polynomial: the coefficients of the factor, from the highest, and the sign taken.
+
+    sign   that of the square root; none for a linear factor
+    """
+
+    coefficients: tuple[Expr, ...]
+    sign: int
+    times: int
+
+    @property
+    def discriminant(self) -> Expr:
+        a, b, c = self.coefficients
+        return tidied(b**2 - FOUR * a * c)
+
+    @property
+    def value(self) -> Expr:
+        if len(self.coefficients) == 2:
+            a, b = self.coefficients
+            return tidied(-b / a)
+        a, b, _ = self.coefficients
+        return _drawn(a, b, self.discriminant, self.sign)
+
+    @property
+    def formula(self) -> Expr:
+        if len(self.coefficients) == 2:
+            a, b = self.coefficients
+            return Ratio(-b, a)
+        a, b, c = self.coefficients
+        under = Root(Terms(b**2, -FOUR * a * c))
+        return Ratio(Terms(-b, under if self.sign > 0 else Factors(Integer(-1), under)), 2 * a)
+
+
+def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
+    """k (-b/k +- sqrt(D/k^2))/(2 a), with what b and the root have in common in front."""
+    under = sqrt(discriminant)
+    if not any(isinstance(part, Pow) and part.exp == Rational(1, 2) and part.free_symbols for part in under.atoms(Pow)):
+        return presented((-b + sign * under) / (2 * a))
+    if b == 0:
+        return presented(sign * under / (2 * a), in_sums=False)
+    common = _common_root(b, discriminant)
+    inside = presented(discriminant / common**2, in_sums=False)
+    both = Add(tidied(-b / common), sign * sqrt(inside))
+    return Mul(tidied(common / (2 * a)), both)
+
+
+def _common_root(b: Expr, discriminant: Expr) -> Expr:
+    """The largest k of positive factors for which b/k and D/k^2 have no new denominators."""
+    try:
+        content, factors = factor_list(gcd(b**2, discriminant))
+    except PolynomialError:
+        return Integer(1)
+    number = sqrt(content)
+    k = number if number.is_Rational else Integer(1)
+    return k * Mul(*(base ** (power // 2) for base, power in factors if base.is_positive))

@@ -1,0 +1,202 @@
+"""What an equation may be solved for, and what may be put into one: a letter, a rate, its square, a cosine.
+
+An unknown is an expression of one letter, such as theta_dot^2 or cos(theta). Where it stands, something else is put;
+where its letter stands in any other way, it cannot be taken for an unknown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import (
+    Dummy,
+    Expr,
+    Function,
+    Integer,
+    Matrix,
+    Mul,
+    Pow,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cos,
+    sin,
+    tan,
+)
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import RATES, Relation, explicit, rate
+from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.lowest_terms import factored
+from derive.algebra.ranges import never_vanishes_within
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.solving.presentation import LARGEST
+from derive.steps.record import assume
+from derive.steps.step import Fact, Quantity
+
+INVERSE = {cos: acos, sin: asin, tan: atan}
+
+
+@dataclass(frozen=True)
+class ValueOf(Fact):
+    """The unknown of an equation that this is a root of: its value replaces that unknown, whatever it is called."""
+
+    missing = "is not a root of an equation"
+    unknown: Expr
+
+
+def unknown_of(verb: str, given: Any) -> Expr:
+    """The expression of an unknown: that of a coordinate is its letter, that of a quantity what it is called."""
+    found = getattr(given, "symbol", given)
+    if isinstance(found, Symbol) or _letter_within(found) is not None:
+        return found
+    message = f"`{verb}` needs a letter, a rate, a square of one or a cosine as its unknown, but it is {found}"
+    raise Rejected(Complaint("wrong-argument", message))
+
+
+def _letter_within(unknown: Any) -> Symbol | None:
+    """The letter of theta_dot^2 or of cos(theta)."""
+    if isinstance(unknown, Pow) and isinstance(unknown.base, Symbol) and unknown.exp.is_Integer and unknown.exp > 0:
+        return unknown.base
+    if isinstance(unknown, Function) and unknown.func in INVERSE and isinstance(unknown.args[0], Symbol):
+        return unknown.args[0]
+    return None
+
+
+def letter_of(unknown: Expr) -> Symbol:
+    """The letter that an unknown is made of."""
+    found = unknown if isinstance(unknown, Symbol) else _letter_within(unknown)
+    if found is None:
+        raise Rejected(Complaint("wrong-argument", f"{unknown} is made of more than one letter"))
+    return found
+
+
+def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
+    """What the letter of an unknown is where the unknown has that value: theta of cos(theta) = 2/3."""
+    if isinstance(unknown, Symbol):
+        return {unknown: value}
+    letter = letter_of(unknown)
+    if isinstance(unknown, Pow):
+        return {letter: Pow(value, 1 / unknown.exp)}
+    return {letter: INVERSE[unknown.func](value)}
+
+
+def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
+    """The expression with a value where the unknown stands: of theta_dot^2 also in theta_dot^4, of cos in sin^2."""
+    if isinstance(unknown, Symbol):
+        return expr.xreplace({unknown: value})
+    if isinstance(unknown, Pow):
+        base, n = unknown.args
+
+        def power(e: Expr) -> Expr:
+            return value ** (e.exp / n)
+
+        return expr.replace(lambda e: isinstance(e, Pow) and e.base == base and (e.exp / n).is_Integer, power)
+    angle = unknown.args[0]
+    other = {cos: sin, sin: cos}.get(unknown.func)
+    found = expr.xreplace({unknown: value})
+    if other is None or not found.has(other(angle)):
+        return found
+
+    def square(e: Expr) -> Expr:
+        return (1 - value**2) ** (e.exp / 2)
+
+    return found.replace(lambda e: isinstance(e, Pow) and e.base == other(angle) and (e.exp / 2).is_Integer, square)
+
+
+def left_over(expr: Expr, unknown: Expr) -> bool:
+    """Whether the letter of an unknown still stands in an expression."""
+    return letter_of(unknown) in explicit(expr).free_symbols
+
+
+def is_number(quantity: Quantity) -> bool:
+    """Whether it is a value, and no equation."""
+    return isinstance(quantity.value, Expr) and not isinstance(quantity.value, Relation)
+
+
+def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
+    """Left less right of an equation; or the value that is to vanish, where one will do too."""
+    value = equation.value
+    if or_value and is_number(equation):
+        return explicit(value)
+    if not isinstance(value, Relation) or value.mark != "=":
+        message = f"`{verb}` needs an equation, but `{equation.key}` is none"
+        raise Rejected(Complaint("wrong-argument", message, help="give an equation of motion, a condition or a `let`"))
+    return explicit(value).residual
+
+
+def mark_for(unknown: Expr) -> Dummy:
+    """A letter that stands for the unknown, and is known to be positive where that is."""
+    return Dummy("u", positive=True) if unknown.is_positive else Dummy("u", real=True)
+
+
+def polynomial_in(
+    verb: str, equation: Quantity, unknowns: Sequence[Expr], or_value: bool = False
+) -> tuple[Expr, list[Dummy]]:
+    """The residual of an equation with a mark for each unknown, and these marks."""
+    left = residual_of(verb, equation, or_value)
+    marks = [mark_for(unknown) for unknown in unknowns]
+    for unknown, mark in zip(unknowns, marks, strict=True):
+        left, beside = without_factors_beside(with_unknown(left, unknown, mark), unknown, mark)
+        unsure = [f for f in beside if not never_vanishes_within(f)]
+        if unsure and not or_value:
+            assume(Relation(Mul(*unsure), "!=", Integer(0)))
+        if left_over(left, unknown):
+            message = f"`{verb}`: `{equation.key}` contains {letter_of(unknown).name} otherwise than in {unknown}"
+            raise Rejected(Complaint("wrong-argument", message))
+    return left, marks
+
+
+def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
+    """Of sin(theta)(a cos(theta) - b) the sine, for the unknown cos(theta), where it is not known to last."""
+    mark = mark_for(unknown)
+    _, beside = without_factors_beside(with_unknown(value, unknown, mark), unknown, mark)
+    above = (f.as_base_exp() for f in beside if not never_vanishes_within(f))
+    return [base for base, power in above if power.is_positive]
+
+
+def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
+    """Of sin(theta)(a cos(theta) - b) the bracket, for the unknown cos(theta); and what it is multiplied by."""
+    for form in (left, factored(left)) if left.is_Add and left.count_ops() <= LARGEST else (left,):
+        factors = Mul.make_args(form)
+        beside = [f for f in factors if left_over(f, unknown) and not f.has(mark)]
+        rest = Mul(*(f for f in factors if f not in beside))
+        if beside and rest.has(mark):
+            return rest, beside
+    return left, []
+
+
+def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:
+    """The kind of a coordinate, of its rate or of its acceleration; of another letter that an equation brings in."""
+    if not isinstance(unknown, Symbol):
+        return None
+    if unknown in known:
+        return known[unknown]
+    for q, kind in known.items():
+        order = next((n for n in range(1, len(RATES)) if rate(q, n) == unknown), 0)
+        if order and kind == "angle":
+            return {1: "angular speed", 2: "angular acceleration"}.get(order)
+        if order:
+            return kind_of_dimension(_per_time(dimension_of_kind(kind), order))
+    return None
+
+
+def _per_time(dimension: Dimension, order: int) -> Dimension:
+    return dimension / dimension_of_kind("time") ** order
+
+
+def coordinates_of(*quantities: Quantity) -> dict[Symbol, str]:
+    return {q: kind for quantity in quantities for q, kind in quantity.coordinates.items()}
+
+
+def linear_coefficients(expressions: Sequence[Expr], marks: Sequence[Symbol]) -> tuple[Matrix, Matrix] | None:
+    """Matrix and right side of linear equations A u = b; nothing where one is not linear."""
+    matrix = Matrix([[tidied(each.diff(mark)) for mark in marks] for each in expressions])
+    if matrix.has(*marks):
+        return None
+    at_zero = dict.fromkeys(marks, Integer(0))
+    return matrix, Matrix([-tidied(each.xreplace(at_zero)) for each in expressions])

@@ -1,0 +1,401 @@
+"""All real zeros of a force, in closed form: by its factors, each of which is solved or the whole refused.
+
+A product vanishes where a factor does, and nowhere else; each factor is solved completely: a polynomial in the cosine
+or in the sine, a cos q + b sin q, a polynomial, a square root less a constant. So what is found are all zeros.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    Integer,
+    Mul,
+    Pow,
+    Rational,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cos,
+    expand,
+    expand_trig,
+    factor_list,
+    igcd,
+    pi,
+    sin,
+    sqrt,
+    tan,
+    together,
+)
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.collect import spread
+from derive.algebra.expressions import Relation
+from derive.algebra.ranges import never_vanishes_within, settled, strict_sign_within
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.solving.signs import sign_by_factors
+from derive.steps.known_numbers import sign_known
+from derive.steps.record import assume
+from derive.steps.step import is_zero
+
+HIGHEST = 6  # power of a coordinate
+LARGEST_PRODUCT = 60  # operations of a sum that may be a product
+ZERO, ONE = Integer(0), Integer(1)
+
+
+class Unsolved(Exception):
+    """A factor whose zeros have no closed form, or none that is known here."""
+
+    def __init__(self, factor: Expr):
+        self.factor = factor
+        super().__init__(str(factor))
+
+
+@dataclass(frozen=True)
+class Zero:
+    """A value of the coordinate, and the condition under which it is one, if there is any."""
+
+    value: Expr
+    exists: Relation | None = None
+
+
+def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
+    """All real zeros, those of an angle from -pi (without it) to pi; positive ones where q is positive."""
+    found: dict[Expr, Zero] = {}
+    for factor in factors_of(force, q):
+        for zero in _of_factor(factor, q):
+            found.setdefault(tidied(zero.value), Zero(settled(zero.value), zero.exists))
+    return sorted(found.values(), key=_order)
+
+
+def _order(zero: Zero) -> tuple[bool, int, str]:
+    """Those that always are first, 0 before all, pi before fractions of it."""
+    value = zero.value
+    rank = 0 if value == 0 else 1 if value == pi else 2 if not value.could_extract_minus_sign() else 3
+    return zero.exists is not None, rank, str(value)
+
+
+def factors_of(force: Expr, q: Symbol) -> Iterator[Expr]:
+    """The factors that hold the coordinate, of what stands above the fraction."""
+    value = together(force.rewrite(cos) if force.has(tan) else force).as_numer_denom()[0]
+    value = _in_sine_and_cosine(value, q)
+    try:
+        _, factors = factor_list(value)
+    except PolynomialError:
+        factors = [(f.as_base_exp()[0], 1) for f in Mul.make_args(value)]
+    for factor, _ in factors:
+        if factor.has(q):
+            yield factor
+
+
+def _in_sine_and_cosine(value: Expr, q: Symbol) -> Expr:
+    """In sin q and cos q, or in those of a part of q; with cos^2 in place of sin^2."""
+    angles = {f.args[0] for f in value.atoms(sin, cos) if f.has(q)}
+    if not angles:
+        return expand(value)
+    u = _part(angles, q)
+    s, c = sin(u), cos(u)
+    spread_out = expand(expand_trig(value))
+    polynomial = spread_out.as_poly(s, c)
+    if polynomial is None:
+        raise Unsolved(value)
+    both: Expr = Integer(0)
+    for (n, m), coefficient in polynomial.terms():
+        both += coefficient * c**m * (s if n % 2 else ONE) * expand((1 - c**2) ** (n // 2))
+    by_cosine = expand(both)
+    forms = [spread_out, by_cosine]
+    return max(forms, key=lambda form: len(_factors_or_none(form)))
+
+
+def _factors_or_none(value: Expr) -> list[Expr]:
+    try:
+        return [f for f, _ in factor_list(value)[1]]
+    except PolynomialError:
+        return []
+
+
+def _part(angles: set[Expr], q: Symbol) -> Expr:
+    """The largest part of q of which all angles are multiples, but for constants added."""
+    numbers = [angle.coeff(q) for angle in (expand(angle) for angle in angles)]
+    if not all(number.is_Rational and number != 0 for number in numbers):
+        raise Unsolved(next(iter(angles)))
+    denominator = 1
+    for number in numbers:
+        denominator = denominator * number.q // igcd(denominator, number.q)
+    return q / denominator
+
+
+def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
+    functions = {f for f in factor.atoms(sin, cos) if f.has(q)}
+    if not functions:
+        return _of_lengths(factor, q)
+    angles = {f.args[0] for f in functions}
+    if len(angles) > 1 or factor.xreplace(dict.fromkeys(functions, ONE)).has(q):
+        raise Unsolved(factor)
+    u = angles.pop()
+    parts = int(1 / u.coeff(q)) if u.coeff(q) else 1
+    return [Zero(parts * z.value, z.exists) for z in _of_angle(factor, u) if _is_one_turn(parts * z.value, parts)]
+
+
+def _is_one_turn(value: Expr, parts: int) -> bool:
+    """Of an angle that was found from a part of it, what is within one turn."""
+    return parts == 1 or not value.is_number or bool(-pi < value and value <= pi)
+
+
+def _of_angle(factor: Expr, u: Expr) -> list[Zero]:
+    s, c = sin(u), cos(u)
+    polynomial = factor.as_poly(s, c)
+    if polynomial is None:
+        raise Unsolved(factor)
+    if not factor.has(s):
+        return [zero for value in _roots(factor, c) for zero in _with_cosine(value)]
+    if not factor.has(c):
+        return [zero for value in _roots(factor, s) for zero in _with_sine(value)]
+    terms = dict(polynomial.terms())
+    if set(terms) == {(1, 0), (0, 1)}:
+        place = atan(tidied(-terms[0, 1] / terms[1, 0]))
+        return [Zero(place), Zero(place + pi if sign_by_factors(place) == -1 else place - pi)]
+    raise Unsolved(factor)
+
+
+def _with_cosine(value: Expr) -> list[Zero]:
+    if value in (1, -1):
+        return [Zero(acos(value))]
+    exists, never = within_one(value)
+    return [] if never else [Zero(acos(value), exists), Zero(-acos(value), exists)]
+
+
+def _with_sine(value: Expr) -> list[Zero]:
+    if value in (1, -1):
+        return [Zero(asin(value))]
+    exists, never = within_one(value)
+    if never:
+        return []
+    other = pi - asin(value) if sign_by_factors(value) != -1 else -pi - asin(value)
+    return [Zero(asin(value), exists), Zero(other, exists)]
+
+
+def within_one(value: Expr) -> tuple[Relation | None, bool]:
+    """The condition for -1 < v < 1, if it needs one; and whether it can never be."""
+    sign = sign_by_factors(value)
+    room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
+    known = sign_by_factors(room)
+    if known is not None:
+        return None, known != 1
+    return positive(room), False
+
+
+def positive(value: Expr, letter: Symbol | None = None) -> Relation:
+    """The condition v > 0, without factors that are positive, solved for a letter if it occurs in a square alone.
+
+    What is added stands on one side, what is subtracted on the other: R omega^2 > g.
+    """
+    above, below = tidied(value).as_numer_denom()
+    open_ = (f for part in (above, below) for f in Mul.make_args(part) if strict_sign_within(f) != 1)
+    core = expand(Mul(*open_))  # a quotient has the sign of the product
+    chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
+    if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
+        return solved
+    terms = Add.make_args(core)
+    less = [-t for t in terms if t.could_extract_minus_sign()]
+    more = [t for t in terms if not t.could_extract_minus_sign()]
+    if len(less) == 1 and len(more) == 1 or not less:
+        return Relation(spread(Add(*more)), ">", spread(Add(*less)))
+    return Relation(_in_factors(core), ">", 0)
+
+
+def _in_factors(core: Expr) -> Expr:
+    """The product that a sum is, (k - m w^2) (c - m w^2), if it is one."""
+    if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
+        return tidied(core)
+    number, factors = factor_list(core)
+    sums = [(factor, times) for factor, times in factors if isinstance(factor, Add)]
+    return tidied(core) if len(sums) < 2 else number * Mul(*(tidied(factor) ** times for factor, times in factors))
+
+
+def different_from_zero(value: Expr) -> Relation | None:
+    """What must be so that a value by which one divides does not vanish, omega^2 != k/m; nothing where it cannot."""
+    if sign_known(value) is not None:
+        return None
+    condition = positive(tidied(value).as_numer_denom()[0])
+    return Relation(condition.left, "!=", condition.right)
+
+
+def _solved(core: Expr, letter: Symbol) -> Relation | None:
+    polynomial = core.as_poly(letter)
+    if polynomial is None or len(polynomial.terms()) != 2 or polynomial.terms()[1][0] != (0,):
+        return None
+    ((power,), leading), (_, rest) = polynomial.terms()
+    sign = sign_by_factors(leading)
+    if sign is None or power % 2 == 0 and power != 2:
+        return None
+    return Relation(letter**power, ">" if sign == 1 else "<", spread(tidied(-rest / leading)))
+
+
+def _roots(factor: Expr, x: Expr) -> list[Expr]:
+    """Of a polynomial of the first or second degree in x."""
+    polynomial = factor.as_poly(x)
+    if polynomial is None or polynomial.degree() > 2:
+        raise Unsolved(factor)
+    if polynomial.degree() == 1:
+        a, b = polynomial.all_coeffs()
+        return [tidied(-b / a)]
+    a, b, c = polynomial.all_coeffs()
+    inside = tidied(b**2 - 4 * a * c)
+    sign = sign_by_factors(inside)
+    if sign is None:
+        raise Unsolved(factor)
+    if sign == -1:
+        return []
+    return [tidied((-b + turn * sqrt(inside)) / (2 * a)) for turn in ((1, -1) if sign else (1,))]
+
+
+def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
+    """Of a polynomial in q, or of sqrt(P(q)) less a constant."""
+    if q.is_positive and any(p.exp.free_symbols for p in factor.atoms(Pow) if p.base == q):
+        return [Zero(value) for value in _of_two_powers(factor, q)]
+    roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
+    if roots:
+        return _of_root(factor, roots, q)
+    polynomial = factor.as_poly(q)
+    if polynomial is None or polynomial.degree() > HIGHEST:
+        raise Unsolved(factor)
+    terms = polynomial.terms()
+    if polynomial.degree() > 2 and len(terms) == 2 and terms[1][0] == (0,):
+        values = _of_power(int(terms[0][0][0]), tidied(-terms[1][1] / terms[0][1]), factor)
+    else:
+        values = _roots(factor, q)
+    return [zero for value in values for zero in _allowed(value, q)]
+
+
+def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
+    """The root of A q^a + B q^b, q^(a - b) = -B/A, where the exponents depend on letters and are never the same."""
+    terms: dict[Expr, Expr] = {}
+    for term in Add.make_args(expand(factor)):
+        outside, inside = term.as_independent(q, as_Add=False)
+        power = _exponent(inside, q)
+        if power.has(q):
+            raise Unsolved(factor)
+        terms[expand(power)] = terms.get(expand(power), ZERO) + outside
+    if len(terms) != 2:
+        raise Unsolved(factor)
+    (one, a), (other, b) = terms.items()
+    apart = tidied(one - other)
+    value = tidied(-b / a)
+    sign = 1 if _is_square_of_letters(value) else sign_by_factors(value)
+    if sign is None or not never_vanishes_within(apart):
+        raise Unsolved(factor)
+    if apart.could_extract_minus_sign():
+        apart, value = -apart, 1 / value
+    return [] if sign < 0 else [value ** (1 / apart)]
+
+
+def _exponent(product: Expr, q: Symbol) -> Expr:
+    """Of q^a q^b the sum, of 1 zero; of anything else q itself."""
+    parts = [f.as_base_exp() for f in Mul.make_args(product) if f != 1]
+    return Add(*(power for _, power in parts)) if all(base == q for base, _ in parts) else q
+
+
+def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
+    """The real roots of q^n = v."""
+    sign = 1 if _is_square_of_letters(value) else sign_by_factors(value)
+    if sign is None:
+        raise Unsolved(factor)
+    if n % 2:
+        return [sign * (sign * value) ** Rational(1, n)]
+    return [] if sign < 0 else [value ** Rational(1, n), -(value ** Rational(1, n))]
+
+
+def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
+    """A sqrt(P) + B = 0 with A and B constant: P = (B/A)^2, where -B/A is not negative."""
+    root = roots[0]
+    linear = factor.as_poly(root)
+    if len(roots) > 1 or root.exp != Rational(1, 2) or linear is None or linear.degree() != 1:
+        raise Unsolved(factor)
+    a, b = linear.all_coeffs()
+    if a.has(q) or b.has(q):
+        raise Unsolved(factor)
+    size = tidied(-b / a)
+    sign = sign_by_factors(size)
+    if sign is None:
+        raise Unsolved(factor)
+    if sign == -1:
+        return []
+    inside = expand(root.base - size**2).as_poly(q)
+    if inside is None or inside.degree() != 2 or inside.coeff_monomial(q) != 0:
+        raise Unsolved(factor)
+    square = tidied(-inside.coeff_monomial(1) / inside.LC())
+    sign = sign_by_factors(square)
+    if sign == -1:
+        return []
+    exists = positive(square) if sign is None else None
+    both = [Zero(sqrt(square), exists), Zero(-sqrt(square), exists)]
+    return both[:1] if q.is_positive or sign == 0 else both
+
+
+def _allowed(value: Expr, q: Symbol) -> list[Zero]:
+    """A distance is positive."""
+    if not q.is_positive:
+        return [Zero(value)]
+    sign = sign_by_factors(value)
+    if sign is None and (_is_square_of_letters(value) or _is_square_of_letters(-value)):
+        return [Zero(value)] if _is_square_of_letters(value) else []
+    return [] if sign in (0, -1) else [Zero(value, positive(value) if sign is None else None)]
+
+
+def _is_square_of_letters(value: Expr) -> bool:
+    """Whether it is positive once some letters do not vanish, which is then assumed: l^2 of a momentum."""
+    above, below = value.as_numer_denom()
+    parts = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]
+    letters = [base.args[0] if isinstance(base, Abs) else base if power.is_even else None for base, power in parts]
+    if not letters or not _is_size(below) or not all(isinstance(s, Symbol) and s.is_real for s in letters):
+        return False
+    for letter in letters:
+        assume(Relation(letter, "!=", Integer(0)))
+    return True
+
+
+def _is_size(below: Expr) -> bool:
+    """Whether what stands below a fraction, and so does not vanish, is positive: c^2, or the size of c."""
+    parts = (f.as_base_exp() for f in Mul.make_args(below) if not f.is_positive)
+    return all(isinstance(base, Abs) or bool(base.is_real and power.is_even) for base, power in parts)
+
+
+def sign_where(value: Expr, exists: Relation | None) -> int | None:
+    """The sign of a value, where a condition of existence holds: a letter of it a little beyond its border."""
+    own = sign_by_factors(value)
+    border = border_of(exists) if own is None and exists is not None else None
+    if border is None or exists is None:
+        return own
+    beyond = Symbol("u_beyond", positive=True)
+    more = exists.mark == ">"
+    size = border.right * (sqrt(1 + beyond) if exists.left.is_Pow else 1 + beyond) ** (1 if more else -1)
+    return sign_by_factors(tidied(value.subs(border.left, size)))
+
+
+def border_of(condition: Relation) -> Relation | None:
+    """The letter of a condition and its value on the border."""
+    left, right = condition.sides
+    if isinstance(left, Symbol):
+        return Relation(left, "=", right)
+    if isinstance(left, Pow) and left.exp == 2 and isinstance(left.base, Symbol) and right.is_positive:
+        return Relation(left.base, "=", sqrt(right))
+    for one, other in ((left, right), (right, left)):
+        for s in sorted(one.free_symbols - other.free_symbols, key=str):
+            if s.is_positive and one.as_poly(s) is not None and (one / s).cancel().has(s) is False:
+                return Relation(s, "=", tidied(other * s / one))
+    return None
+
+
+def check_no_resonance(stiffness: Expr) -> None:
+    """Refuse a driving for which c - a w^2 vanishes by the given numbers, where the result in letters has no value."""
+    if not is_zero(stiffness) and sign_known(stiffness) == 0:
+        message = f"with the given numbers {stiffness} vanishes: this motion is at resonance"
+        help_line = "write the frequency of the driving in letters, such as `sqrt(k/m)`"
+        raise Rejected(Complaint("resonance", message, help=help_line))
