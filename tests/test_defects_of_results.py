@@ -141,7 +141,7 @@ def test_a_letter_has_one_value_in_a_run() -> None:
 
 
 def test_a_result_that_breaks_off_is_refused_under_the_letter_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("derive.mechanics.equations.limits.letter_of_limit", lambda whole, *_: whole)
+    monkeypatch.setattr("derive.mechanics.answers.limits.letter_of_limit", lambda whole, *_: whole)
     with pytest.raises(Unverified, match="needs a letter of its own"):
         limiting_case(given(sqrt((M + m) * g / (m * l)), "w", symbol="w"), M)
 
@@ -336,7 +336,7 @@ def test_a_place_outside_of_the_interval_is_none() -> None:
 
 def test_a_condition_that_leaves_the_interval_out_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     n = symbols("n", real=True)
-    monkeypatch.setattr("derive.mechanics.equations.extrema._inside", lambda *_: [])
+    monkeypatch.setattr("derive.mechanics.answers.extrema._inside", lambda *_: [])
     with pytest.raises(Unverified):
         maximum(given(M * n - m * n**2), n, within=(0, 1))
 

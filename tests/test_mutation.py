@@ -136,7 +136,7 @@ PRINTED_SOMETHING_FALSE = {  # on which run, and how the ids begin
     "library/drift": ["mechanics.model.forces:Charge.stored: sign: -self.charge -> self.charge"],
     "library/kepler": ["mechanics.rest.sides:_sides_taken: and/or"],
     "library/power_law": [
-        "mechanics.motion.steady:frequency_squared_about: role: {'potential': about.potential",
+        "mechanics.vibrations.about_steady_motion:frequency_squared_about: role: {'potential': about.potential",
         "mechanics.vibrations.oscillations:_rate: outcome: 'unstable' -> 'conditional'",
     ],
     "library/spherical_pendulum": ["mechanics.answers.roots:_excluded: condition: f not in"],

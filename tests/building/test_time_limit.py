@@ -103,7 +103,7 @@ def test_the_part_the_step_and_what_is_finished_are_told(tmp_path: Path, monkeyp
     root, cache = course_with(tmp_path, PENDULUM), Cache(tmp_path / "kept")
     job = job_of(root, "trial/one", lambda: rendered(root, "trial/one", cache=cache), 1)
     with monkeypatch.context() as patched:
-        patched.setattr("derive.mechanics.systems.lagrangian.by_accelerations", lambda *_: endless())
+        patched.setattr("derive.mechanics.lagrange.lagrangian.by_accelerations", lambda *_: endless())
         with pytest.raises(BuildFailed) as caught:
             done(job)
     (complaint,) = caught.value.complaints

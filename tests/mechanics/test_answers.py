@@ -587,30 +587,30 @@ def driven() -> tuple[Quantity, Quantity]:
 @pytest.mark.parametrize(
     ("module", "name", "wrong", "asked"),
     [
-        ("solving", "_written", lambda matrix: 2 - matrix.det(), lambda: atwood()),
-        ("solving", "presented", lambda value: 2 * value, lambda: atwood()),
-        ("substitution", "with_unknown", lambda e, u, at: e.xreplace({u: -at}), lambda: put_in(given(c + R), c=h)),
-        ("limits", "tidied_terms", lambda series, x, to: Integer(7), lambda: limiting_case(given(sin(h)), h)),
+        ("answers.solved_for", "_written", lambda matrix: 2 - matrix.det(), lambda: atwood()),
+        ("answers.solved_for", "presented", lambda value: 2 * value, lambda: atwood()),
+        ("answers.substitution", "with_unknown", lambda e, u, at: e.xreplace({u: -at}), lambda: put_in(given(c + R), c=h)),
+        ("answers.limits", "tidied_terms", lambda series, x, to: Integer(7), lambda: limiting_case(given(sin(h)), h)),
         (
-            "extrema",
+            "answers.extrema",
             "_places",
             lambda slope, x: iter([(pi / 3, None)]),
             lambda: maximum(given(sin(theta0)), theta0, within=(0, pi)),
         ),
         (
-            "linear_motion",
+            "vibrations.linear_motion",
             "_constants",
             lambda *_: [x0, x0],
             lambda: solution(equation(along().acceleration + along().symbol), along(), x0),
         ),
         (
-            "linear_motion",
+            "vibrations.linear_motion",
             "_particular",
             lambda *_: Integer(1),
             lambda: solution(equation(along().acceleration + along().symbol, h), along(), x0),
         ),
         (
-            "forced",
+            "vibrations.driven",
             "_amplitude",
             lambda F, s, b: F / s,
             lambda: steady_amplitude(damped_oscillator(along(), drive=cos(w * t)), along()),
@@ -620,7 +620,7 @@ def driven() -> tuple[Quantity, Quantity]:
 def test_a_wrong_law_is_refused(
     monkeypatch: pytest.MonkeyPatch, module: str, name: str, wrong: Any, asked: Callable[[], Any]
 ) -> None:
-    monkeypatch.setattr(f"derive.mechanics.equations.{module}.{name}", wrong)
+    monkeypatch.setattr(f"derive.mechanics.{module}.{name}", wrong)
     with pytest.raises(Unverified):
         asked()
 

@@ -170,7 +170,7 @@ def test_a_common_factor_that_may_vanish_is_told() -> None:
 
 def test_what_is_said_to_vanish_elsewhere_must_do_so(monkeypatch: pytest.MonkeyPatch) -> None:
     phi = symbols("phi", real=True)
-    monkeypatch.setattr("derive.mechanics.equations.roots.factors_elsewhere", lambda *_: [tan(phi / 2)])
+    monkeypatch.setattr("derive.mechanics.answers.roots.factors_elsewhere", lambda *_: [tan(phi / 2)])
     with pytest.raises(Unverified):
         roots(given(sin(phi) * (3 * cos(phi) - 2)), cos(phi))
 

@@ -39,6 +39,7 @@ from derive.mechanics import (
     where,
 )
 from derive.mechanics.motion import steady as steady_module
+from derive.mechanics.vibrations import about_steady_motion as about_module
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 
@@ -257,15 +258,15 @@ def test_a_curvature_with_the_rate_held_in_place_of_the_momentum_is_refused(monk
     """The commonest slip: the rate is not constant in the oscillation, the momentum is."""
     U, steady = conical()
     wrong = Omega**2 * (1 - cos(alpha) ** 2)  # that of a hoop driven at this rate
-    monkeypatch.setattr(steady_module, "_of_plain_sign", lambda _: wrong)
-    monkeypatch.setattr(steady_module, "Ratio", lambda *_: wrong)
+    monkeypatch.setattr(about_module, "_of_plain_sign", lambda _: wrong)
+    monkeypatch.setattr(about_module, "Ratio", lambda *_: wrong)
     with pytest.raises(Unverified):
         frequency_squared_about(U, steady)
 
 
 def test_a_wrong_mass_is_refused_by_the_second_route(monkeypatch: pytest.MonkeyPatch) -> None:
     U, steady = conical()
-    plain = steady_module.tidied
-    monkeypatch.setattr(steady_module, "tidied", lambda value: 2 * plain(value))
+    plain = about_module.tidied
+    monkeypatch.setattr(about_module, "tidied", lambda value: 2 * plain(value))
     with pytest.raises(Unverified, match="all_coordinates"):
         frequency_squared_about(U, steady, without=g)
