@@ -31,37 +31,46 @@ SCALE, SHARE = Rational(7, 3), Rational(3, 11)
 
 # (rule, what is changed) -> why no route need refuse it
 EXCEPTIONS = {
-    ("principal.axis", "sign"): "an axis has a direction and no sign: e and -e are the same axis",
-    ("principal.axis", "sign of an entry"): "the same, or any axis across that of a round body, which is as good",
-    ("principal.axis", "order"): "where all moments are equal every axis is as good; elsewhere a route refuses",
-    ("equilibria.rest", "sign"): "the mirror image of a state of rest is another one, where the energy is even",
+    ("rotation.principal_axis", "sign"): "an axis has a direction and no sign: e and -e are the same axis",
+    (
+        "rotation.principal_axis",
+        "sign of an entry",
+    ): "the same, or any axis across that of a round body, which is as good",
+    (
+        "rotation.principal_axis",
+        "order",
+    ): "where all moments are equal every axis is as good; elsewhere a route refuses",
+    ("rest.equilibrium", "sign"): "the mirror image of a state of rest is another one, where the energy is even",
     **dict.fromkeys(
         [
             (rule, "sign")
             for rule in (
-                "modes.frequency",
-                "modes.period",
-                "modes.beats",
-                "linear_motion.steady_amplitude",
-                "tensors.radius_of_gyration",
-                "gyroscopic.frequency",
-                "damped.frequency",
+                "vibrations.mode_frequency",
+                "vibrations.period",
+                "vibrations.beats",
+                "vibrations.steady_amplitude",
+                "rotation.radius_of_gyration",
+                "vibrations.gyroscopic_frequency",
+                "vibrations.damped_frequency",
             )
         ],
         "the routes see its square; that it is not negative is asked of it by its word",
     ),
     **{
         (rule, what): "the amplitudes of a mode are in proportion: it has no size and no sign"
-        for rule in ("gyroscopic.motion", "damped.shape")
+        for rule in ("vibrations.gyroscopic_motion", "vibrations.damped_shape")
         for what in ("sign", "scale", "order")
     },
     **{
-        ("gyroscopic.stability", what): "the route sees the border; on which side it is stable is asked by its word"
+        (
+            "vibrations.gyroscopic_stability",
+            what,
+        ): "the route sees the border; on which side it is stable is asked by its word"
         for what in ("mark", "sides")
     },
-    ("equilibria.rest", "sign of an entry"): "the angle -pi is pi",
-    ("symmetry.change", "mark"): "nothing is left on either side",
-    ("principal.principal_moments", "order"): "which moment of a tensor that is not diagonal is the first is a name",
+    ("rest.equilibrium", "sign of an entry"): "the angle -pi is pi",
+    ("lagrange.change_under_shift", "mark"): "nothing is left on either side",
+    ("rotation.principal_moments", "order"): "which moment of a tensor that is not diagonal is the first is a name",
 }
 
 
@@ -91,7 +100,7 @@ class Established:
 
     def is_exception(self, what: str, other: Any) -> bool:
         """For a reason told above; and work tells a potential energy but for a constant."""
-        if self.rule == "systems.potential_energy":
+        if self.rule == "lagrange.potential_energy":
             return not (explicit(other - self.result)).expand().free_symbols & {*self.moving, TIME}
         return (self.rule, what) in EXCEPTIONS
 

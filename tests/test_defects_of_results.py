@@ -150,7 +150,7 @@ def test_a_restated_limit_says_the_same_of_its_letter() -> None:
     with recorded(Run()):
         limit = limiting_case(given(sqrt((M + m) * g / (m * l)), "w", symbol="w"), M)
         again = establish(
-            "equations.let",
+            "answers.let",
             limit.symbol,
             lambda w: w,
             {"w": limit},

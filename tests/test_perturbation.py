@@ -24,10 +24,10 @@ def test_no_changed_result_passes_its_second_routes(found: list[Established]) ->
 def test_values_relations_and_numbers_are_all_tried(found: list[Established]) -> None:
     rules = {each.rule for each in found}
     assert {
-        "numbers.value",
-        "numbers.comparison",
+        "numeric.value",
+        "numeric.comparison",
         "bodies.density",
         "rotation.torque",
-        "rigid.angular_velocity",
+        "model.angular_velocity",
     } <= rules
-    assert {"principal.axis"} <= rules & {rule for rule, _ in EXCEPTIONS}
+    assert {"rotation.principal_axis"} <= rules & {rule for rule, _ in EXCEPTIONS}

@@ -297,7 +297,7 @@ def derived(
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
     """Two answers may be the same condition: once is enough to say whether the numbers fulfil it."""
-    return step.rule == "numbers.comparison" and step.chain in [other.chain for other in others]
+    return step.rule == "numeric.comparison" and step.chain in [other.chain for other in others]
 
 
 def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> None:

@@ -62,7 +62,7 @@ class Theorem:
 
 
 ALWAYS: frozenset[str] = frozenset()
-PLAIN, WITH_FORCES = "lagrangian.equation_of_motion", "forced.equation_of_motion"
+PLAIN, WITH_FORCES = "lagrange.equation_of_motion", "lagrange.forced_equation"
 
 THEOREMS = (
     Theorem(
@@ -77,8 +77,8 @@ THEOREMS = (
         ),
         {
             # Of one axis the sentence of the step says it.
-            "inertia.entry_moved": frozenset({"moment", "product", "outward"}),
-            "assembly.part_tensor": frozenset({"moved", "turned_moved"}),
+            "rotation.entry_moved": frozenset({"moment", "product", "outward"}),
+            "rotation.tensor_of_part": frozenset({"moved", "turned_moved"}),
         },
         "Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
         {"total": scalar("J_ij"), "centre": scalar("I_ij"), "way": vector("r")},
@@ -86,14 +86,14 @@ THEOREMS = (
     Theorem(
         "perpendicular_axes",
         Relation(scalar("I_zz"), "=", Terms(scalar("I_xx"), scalar("I_yy"))),
-        {"assembly.own_moment": frozenset({"flat"})},
+        {"rotation.own_moment": frozenset({"flat"})},
         "Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
         {"x": scalar("x"), "y": scalar("y")},
     ),
     Theorem(
         "rotating_axes",
         Relation(CarriedRate(G, OMEGA), "=", MatAdd(BodyRate(G), Cross(OMEGA, G))),
-        {"free_rotation.rate_in_space": ALWAYS, "rotation.torque": ALWAYS},
+        {"rotation.rate_in_space": ALWAYS, "rotation.torque": ALWAYS},
         "Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9",
         {"any": G, "turning": OMEGA},
     ),
@@ -103,7 +103,7 @@ THEOREMS = (
         {PLAIN: ALWAYS},
         "Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
         {"coordinate": q},
-        prepared_by="lagrangian.generalized_force",
+        prepared_by="lagrange.generalized_force",
         law_of=frozenset({(PLAIN, "generic"), (PLAIN, "cyclic")}),
     ),
     Theorem(

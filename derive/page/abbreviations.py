@@ -10,8 +10,8 @@ from sympy import Add, Pow
 from derive.algebra.expressions import explicit
 from derive.steps.step import Step, is_zero
 
-ABBREVIATING = "systems.distance"  # the rule of a step whose letter stands for its formula from then on
-LINEAR = "linearised.equation"
+ABBREVIATING = "model.distance"  # the rule of a step whose letter stands for its formula from then on
+LINEAR = "vibrations.linearised"
 
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:

@@ -18,7 +18,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.outcomes import ZERO
 from derive.steps.step import Step
 
-PUT_IN = "substitution.put_in"  # of which the sentence names what is put into
+PUT_IN = "answers.put_in"  # of which the sentence names what is put into
 Nodes = tuple[Inline, ...]
 
 

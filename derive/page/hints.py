@@ -25,7 +25,7 @@ from derive.page.wording import Inline, Math, Phrases
 from derive.steps.derivation import Derivation
 from derive.steps.step import Step
 
-OF_NUMBERS = "numbers."  # the rules of steps that only put numbers in
+OF_NUMBERS = "numeric."  # the rules of steps that only put numbers in
 TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 
 

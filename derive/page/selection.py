@@ -49,51 +49,51 @@ MANNERS: Mapping[str, tuple[Manner, Manner]] = {
     # The density has the letter under the integrals; the volume only gives the density.
     "bodies.density": (TOLD, TOLD),
     "bodies.volume": (TAKEN_IN, TAKEN_IN),
-    "general.size_by_integration": (TAKEN_IN, OWN),
+    "bodies.size_by_integration": (TAKEN_IN, OWN),
     "bodies.section_radius": (TOLD, TOLD),
-    "assembly.total_mass": (TOLD, TOLD),
-    "in_letters.centre_distance": (TOLD, OWN),
+    "rotation.total_mass": (TOLD, TOLD),
+    "rotation.centre_distance": (TOLD, OWN),
     # Entries that were just listed are the tensor, and the one coordinate that was integrated is the centre.
-    "inertia.inertia_tensor": (LEFT_OUT, LEFT_OUT),
-    "inertia.moved_to": (LEFT_OUT, LEFT_OUT),
+    "rotation.inertia_tensor": (LEFT_OUT, LEFT_OUT),
+    "rotation.moved_to": (LEFT_OUT, LEFT_OUT),
     "bodies.centre_of_mass": (LEFT_OUT, LEFT_OUT),
     # The moments of the parts of a body.
-    "inertia.moment_of_inertia": (TOLD, OWN),
-    "assembly.own_moment:flat": (TOLD, OWN),
-    "assembly.own_moment:none": (TOLD, TOLD),
+    "rotation.moment_of_inertia": (TOLD, OWN),
+    "rotation.own_moment:flat": (TOLD, OWN),
+    "rotation.own_moment:none": (TOLD, TOLD),
     # What is under the integrals of the entries; told in words there; what the sentence of a sum says that it
     # multiplies.
-    "inertia.definition": (LEFT_OUT, LEFT_OUT),
-    "conservation.product": (LEFT_OUT, LEFT_OUT),
+    "rotation.inertia_definition": (LEFT_OUT, LEFT_OUT),
+    "motion.product": (LEFT_OUT, LEFT_OUT),
     # What stands under the root of both roots.
-    "roots.discriminant": (LEFT_OUT, LEFT_OUT),
-    "roots.discriminant:linear": (OWN, OWN),
+    "answers.discriminant": (LEFT_OUT, LEFT_OUT),
+    "answers.discriminant:linear": (OWN, OWN),
     # A direction, an angle, a number that the next line uses.
     "bodies.axis_vector": (TAKEN_IN, TAKEN_IN),
-    "equations.let": (TOLD, TOLD),
-    "oscillations.frequency_squared": (TAKEN_IN, TAKEN_IN),
+    "answers.let": (TOLD, TOLD),
+    "vibrations.frequency_squared": (TAKEN_IN, TAKEN_IN),
     # Squares of speeds go into the kinetic energy.
-    "systems.squared_speed": (TAKEN_IN, OWN),
+    "lagrange.squared_speed": (TAKEN_IN, OWN),
     # What Lagrange's equation differentiates.
-    "lagrangian.generalized_force": (LEFT_OUT, OWN),
-    "lagrangian.generalized_momentum": (LEFT_OUT, LEFT_OUT),
-    "lagrangian.momentum_rate": (LEFT_OUT, OWN),
-    "canonical.rate_by_momenta": (LEFT_OUT, OWN),
-    "kept.constraint_rate": (LEFT_OUT, OWN),
+    "lagrange.generalized_force": (LEFT_OUT, OWN),
+    "lagrange.generalized_momentum": (LEFT_OUT, LEFT_OUT),
+    "lagrange.momentum_rate": (LEFT_OUT, OWN),
+    "hamilton.rate_by_momenta": (LEFT_OUT, OWN),
+    "lagrange.constraint_rate": (LEFT_OUT, OWN),
     # The slope and the curvature in general, where the curvature at a place is what counts.
-    "potentials.slope": (LEFT_OUT, OWN),
+    "rest.slope": (LEFT_OUT, OWN),
 }
 TOLD_ALONG = {"generic", "curvature"}  # outcomes of which the sentence of the step before may tell
 # Steps of which a second one of the same form only repeats the law, so that its result is enough.
-LAW_ONCE = {"lagrangian.equation_of_motion", "forced.equation_of_motion"}
-RESULTS_ONLY = {*LAW_ONCE, "inertia.entry", "inertia.entry_moved"}  # at `brief`
+LAW_ONCE = {"lagrange.equation_of_motion", "lagrange.forced_equation"}
+RESULTS_ONLY = {*LAW_ONCE, "rotation.entry", "rotation.entry_moved"}  # at `brief`
 # Steps of one form of which each has an argument of its own: what cancels in one sum does so by another identity than
 # what cancels in the next.
-EACH_WORKED_OUT = {"conservation.sum"}
+EACH_WORKED_OUT = {"motion.sum"}
 # Of several coordinates the first is worked out, the others are alike.
-FIRST_ONLY = {"lagrangian.generalized_force", "lagrangian.momentum_rate"}
+FIRST_ONLY = {"lagrange.generalized_force", "lagrange.momentum_rate"}
 # Left out at `standard` too, where they are long.
-LEFT_OUT_IF_LONG = {"kept.constraint_rate"}
+LEFT_OUT_IF_LONG = {"lagrange.constraint_rate"}
 LONGEST_CLAUSE = 24  # nodes of a value that is still told within a sentence
 
 
@@ -196,7 +196,7 @@ class Selection:
         is_long = step.rule in LEFT_OUT_IF_LONG and _length(step.result) > LONGEST_CLAUSE
         if is_long or repeats and step.rule in FIRST_ONLY:
             manner = LEFT_OUT
-        if step.rule == "systems.squared_speed" and _is_plain(step):
+        if step.rule == "lagrange.squared_speed" and _is_plain(step):
             manner = TAKEN_IN
         for _ in range(self.needed.letters.get(step.key, 0)):
             manner = LESS[manner]

@@ -126,7 +126,7 @@ def value_of(
     shown = [_with_unit(exact, *each, figures) for each in units]
     given = _given_beside(answer, amounts, units[-1], figures)
     return establish(
-        "numbers.value",
+        "numeric.value",
         answer.symbol,
         lambda: within(substituted),
         {},
@@ -175,7 +175,7 @@ def _period_of(
         return _error(found, result), Integer(0)
 
     return establish(
-        "numbers.value",
+        "numeric.value",
         series.step.approximates,
         lambda: Factors(whole.factor, time),
         {},
@@ -350,7 +350,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
         return ImmutableDenseMatrix([marked, *shown]), ImmutableDenseMatrix([apart, *taken])
 
     return establish(
-        "numbers.comparison",
+        "numeric.comparison",
         None,
         lambda _: Relation(left, mark, right),
         {"condition": relation},
@@ -383,7 +383,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
         return None
     rounded = rounded_form(number, figures)
     return establish(
-        "numbers.value",
+        "numeric.value",
         answer.symbol,
         lambda: value,
         {},

@@ -146,19 +146,19 @@ CHECKS = frozenset(
 )
 # Where a rule means something else by a name than the others do.
 OTHERWISE = {
-    ("brackets.poisson_bracket", "given_along_the_motion"): Compared.ROUTE,  # the varied action
-    ("conservation.rate_under", "functions_of_time"): Compared.ROUTE,  # by Euler's equations, not by their sum
-    ("effective.value_kept", "given_along_the_motion"): Compared.ROUTE,
-    ("energy.energy_function_rate", "given_along_the_motion"): Compared.ROUTE,
-    ("energy_integral.energy_kept", "motion"): Compared.ROUTE,
-    ("energy_integral.speed_from_energy", "motion"): Compared.ROUTE,
-    ("gyroscopic.characteristic", "quadrature"): Compared.ROUTE,  # cosines and sines, not complex amplitudes
-    ("gyroscopic.stability", "quadrature"): Compared.ROUTE,
-    ("lagrangian.lagrangian", "energy"): Compared.CHECK,  # the energy function of the same T and U
-    ("lagrangian.generalized_force", "given_virtual_work"): Compared.CHECK,  # the first order of the Lagrangian
-    ("minima.stability_on_constraints", "along_curves"): Compared.ROUTE,  # without multipliers
-    ("minima.stable_where", "energies"): Compared.CHECK,  # in numbers
-    ("rolling.no_slip", "at_rest"): Compared.ROUTE,
+    ("hamilton.poisson_bracket", "given_along_the_motion"): Compared.ROUTE,  # the varied action
+    ("motion.rate_under", "functions_of_time"): Compared.ROUTE,  # by Euler's equations, not by their sum
+    ("lagrange.value_kept", "given_along_the_motion"): Compared.ROUTE,
+    ("lagrange.energy_function_rate", "given_along_the_motion"): Compared.ROUTE,
+    ("motion.energy_kept", "motion"): Compared.ROUTE,
+    ("motion.speed_from_energy", "motion"): Compared.ROUTE,
+    ("vibrations.gyroscopic_characteristic", "quadrature"): Compared.ROUTE,  # cosines and sines, not complex amplitudes
+    ("vibrations.gyroscopic_stability", "quadrature"): Compared.ROUTE,
+    ("lagrange.lagrangian", "energy"): Compared.CHECK,  # the energy function of the same T and U
+    ("lagrange.generalized_force", "given_virtual_work"): Compared.CHECK,  # the first order of the Lagrangian
+    ("rest.stability_on_constraints", "along_curves"): Compared.ROUTE,  # without multipliers
+    ("rest.stable_where", "energies"): Compared.CHECK,  # in numbers
+    ("model.no_slip", "at_rest"): Compared.ROUTE,
 }
 
 

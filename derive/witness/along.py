@@ -14,16 +14,16 @@ from derive.witness.trial import Contradiction
 
 OF_MOTION = frozenset(
     [
-        "lagrangian.equation_of_motion",
-        "forced.equation_of_motion",
-        "kept.acceleration",
-        "kept.constraint_force",
-        "kept.constraint_rate",
-        "kept.multiplier",
-        "canonical.rate_by_momenta",
+        "lagrange.equation_of_motion",
+        "lagrange.forced_equation",
+        "lagrange.acceleration",
+        "lagrange.constraint_force",
+        "lagrange.constraint_rate",
+        "lagrange.multiplier",
+        "hamilton.rate_by_momenta",
     ]
 )
-PASSED_ON = frozenset([PUT_IN, "solving.solved_for"])  # what follows from a statement that holds at every moment
+PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # what follows from a statement that holds at every moment
 CONSERVED = frozenset(["energy", "conserved", "given_conserved"])
 
 
@@ -98,7 +98,7 @@ def kinetic_energy(claim: Claim) -> Verdict | None:
 
 def conserved(claim: Claim) -> Verdict | None:
     """A value that is stated to be constant does not change along the motion."""
-    if claim.rule == "energy.energy_function" and claim.outcome not in CONSERVED:
+    if claim.rule == "lagrange.energy_function" and claim.outcome not in CONSERVED:
         return None
     if not isinstance(claim.value, Expr) or isinstance(claim.value, Relation):
         return None

@@ -19,8 +19,8 @@ from derive.witness.geometry import Reals, State
 from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
-PUT_IN = "substitution.put_in"
-REDUCED = frozenset(["effective.routhian", "effective.effective_potential"])
+PUT_IN = "answers.put_in"
+REDUCED = frozenset(["hamilton.routhian", "hamilton.effective_potential"])
 APPROXIMATE = frozenset(["approximate", "limits"])
 CLOSE = 1e-6  # to which the two must agree, relative to the terms that are compared
 TRIALS = 2
@@ -89,12 +89,12 @@ class Claim:
         found: dict[Symbol, Expr] = {}
         reduced = [each for each in self.quantity.ancestors() if each.step.rule in REDUCED]
         for each in (ancestor for step in reduced for ancestor in step.ancestors()):
-            if each.step.rule == "effective.conserved" and isinstance(each.symbol, Symbol):
+            if each.step.rule == "hamilton.conserved" and isinstance(each.symbol, Symbol):
                 found.setdefault(dict(each.step.roles)["coordinate"], each.symbol)
         if found:
             for each in self.quantity.ancestors():
                 roles = dict(each.step.roles)
-                if each.step.rule == "effective.value_kept" and roles.get("momentum") in self.momenta:
+                if each.step.rule == "lagrange.value_kept" and roles.get("momentum") in self.momenta:
                     found[self.momenta[roles["momentum"]]] = explicit(roles["value"])
         return found
 

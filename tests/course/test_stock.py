@@ -61,7 +61,9 @@ def test_a_number_goes_behind_a_letter() -> None:
 
 
 def test_a_help_for_scripts_is_said_in_the_keys_of_a_file() -> None:
-    source = "".join(file.read_text(encoding="utf-8") for room in ("mechanics", "solving", "steps") for file in _modules(room))
+    source = "".join(
+        file.read_text(encoding="utf-8") for room in ("mechanics", "solving", "steps") for file in _modules(room)
+    )
     assert [known for known in HELP_IN_KEYS if known not in source] == []
     assert (
         in_keys("give the equation of motion as `motion=...`") == "add `results: motion_theta`, its equation of motion"

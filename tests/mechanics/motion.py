@@ -36,7 +36,7 @@ def position(name: str, value: Any, *coordinates: Coordinate, kind: str = "lengt
     letters = {symbol: known for q in coordinates for symbol, known in q.letters.items()}
     value = Integer(value) if isinstance(value, int) else value
     return establish(
-        "equations.let",
+        "answers.let",
         scalar(name),
         lambda: value,
         {},

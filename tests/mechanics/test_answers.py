@@ -589,7 +589,12 @@ def driven() -> tuple[Quantity, Quantity]:
     [
         ("answers.solved_for", "_written", lambda matrix: 2 - matrix.det(), lambda: atwood()),
         ("answers.solved_for", "presented", lambda value: 2 * value, lambda: atwood()),
-        ("answers.substitution", "with_unknown", lambda e, u, at: e.xreplace({u: -at}), lambda: put_in(given(c + R), c=h)),
+        (
+            "answers.substitution",
+            "with_unknown",
+            lambda e, u, at: e.xreplace({u: -at}),
+            lambda: put_in(given(c + R), c=h),
+        ),
         ("answers.limits", "tidied_terms", lambda series, x, to: Integer(7), lambda: limiting_case(given(sin(h)), h)),
         (
             "answers.extrema",

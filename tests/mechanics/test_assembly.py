@@ -266,6 +266,6 @@ def test_a_turn_is_right_handed(axis: str) -> None:
 
 def test_a_composite_without_a_turn_or_a_way_shows_only_its_parts() -> None:
     tensor = inertia_tensor(Composite(Ball(R, M).at(0, 0, 0), Rod(l, m).at(0, 0, 0)))
-    assert not [q for q in tensor.ancestors() if q.step.rule == "assembly.part_tensor"]
+    assert not [q for q in tensor.ancestors() if q.step.rule == "rotation.tensor_of_part"]
     assert tensor.value[2, 2] == Rational(2, 5) * M * R**2
     assert Integer(0) == tensor.value[0, 1]

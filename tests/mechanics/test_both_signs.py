@@ -20,13 +20,13 @@ alpha, beta = symbols("alpha beta", real=True)
 
 def frequency(word: str, stiffness: Expr, found: Expr) -> bool:
     one: dict[str, Any] = {"stiffness": ImmutableDenseMatrix([[stiffness]]), "mass": ImmutableDenseMatrix([[m]])}
-    return holds("modes.frequency", word, Judged(found, one))
+    return holds("vibrations.mode_frequency", word, Judged(found, one))
 
 
 def root(word: str, b: Expr, c: Expr, turn: int) -> bool:
     """(-b +- sqrt(b^2 - 4 c))/2"""
     return holds(
-        "roots.one_of_two", word, Judged((-b + turn * sqrt(b**2 - 4 * c)) / 2, {"quadratic": Quadratic(m / m, b, c)})
+        "answers.one_of_two", word, Judged((-b + turn * sqrt(b**2 - 4 * c)) / 2, {"quadratic": Quadratic(m / m, b, c)})
     )
 
 

@@ -269,7 +269,11 @@ def test_what_makes_no_sense_is_refused(wrong: Callable[[], Any], said: str) -> 
         ("hamilton.canonical.Factors", lambda *f: 2 * f[0] * f[1], hamiltonian),
         ("hamilton.canonical.bound", lambda value, _: value, hamiltonian),
         ("lagrange.energy_function.Factors", lambda *f: f[0] * f[1] / 2, energy_function),
-        ("lagrange.energy_function.Partial", lambda f, x: -f.diff(x), lambda L: energy_function_rate(energy_function(L))),
+        (
+            "lagrange.energy_function.Partial",
+            lambda f, x: -f.diff(x),
+            lambda L: energy_function_rate(energy_function(L)),
+        ),
         ("lagrange.momenta.Partial", lambda f, x: 2 * explicit(f).diff(x), momenta),
         ("hamilton.canonical.Partial", lambda f, x: -explicit(f).diff(x), lambda L: hamilton_equations(hamiltonian(L))),
     ],

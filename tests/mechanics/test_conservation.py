@@ -26,7 +26,7 @@ both = SimpleNamespace(letters={**x.letters, **theta.letters})
 
 def named(key: str, value: Expr, moving: Any, kind: str | None = None) -> Quantity:
     return establish(
-        "equations.let",
+        "answers.let",
         Symbol(key, real=True),
         lambda: value,
         {},
@@ -39,7 +39,7 @@ def named(key: str, value: Expr, moving: Any, kind: str | None = None) -> Quanti
 
 def equation(left: Expr, moving: Any, right: Expr = NONE, key: str = "motion") -> Quantity:
     return establish(
-        "equations.let",
+        "answers.let",
         None,
         lambda: Relation(left, "=", right),
         {},
@@ -82,7 +82,7 @@ def test_each_equation_is_multiplied_by_what_the_quantity_needs() -> None:
     y = coordinate("y", "length")
     both = {**x.letters, **y.letters}
     turning = establish(
-        "equations.let",
+        "answers.let",
         Symbol("l_z", real=True),
         lambda: M * (x.symbol * y.rate - y.symbol * x.rate),
         {},
@@ -94,7 +94,7 @@ def test_each_equation_is_multiplied_by_what_the_quantity_needs() -> None:
     found = rate_under(turning, pulls)
     assert found.value == 0
     assert [found_sum.key for found_sum in found.parents[:1]] == ["l_z_sum"]
-    products = [p.step for p in found.parents[0].parents if p.step.rule == "conservation.product"]
+    products = [p.step for p in found.parents[0].parents if p.step.rule == "motion.product"]
     assert {p.key: dict(p.roles)["factor"] for p in products} == {"l_z_x": -y.symbol, "l_z_y": x.symbol}
     assert {p.outcome for p in products} == {"one_of_several"}
     told = dict(found.parents[0].step.roles)

@@ -15,7 +15,7 @@ from tests.mechanics.block import M, a, b, c, known_block, omega, outcomes, valu
 
 def defined(name: str, *components: object) -> Quantity:
     column = Matrix(components).as_immutable()
-    return establish("equations.let", vector(name), lambda: column, {}, definition=True, key=name)
+    return establish("answers.let", vector(name), lambda: column, {}, definition=True, key=name)
 
 
 @pytest.mark.parametrize(

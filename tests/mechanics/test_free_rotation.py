@@ -54,7 +54,7 @@ def component(i: int) -> Quantity:
     """A component of the angular velocity by itself."""
     names = component_names("omega")
     return establish(
-        "equations.let",
+        "answers.let",
         scalar("n"),
         lambda: names[i],
         {},

@@ -26,10 +26,10 @@ def test_block_about_its_centre_has_the_moments_of_the_tables() -> None:
 def test_mirror_planes_leave_three_integrals_about_the_centre_and_none_about_a_corner() -> None:
     block = Cuboid((a, b, c), M)
     central, corner = inertia_tensor(block), inertia_tensor(block, about="corner", key="corner_tensor")
-    found = {q.key: q.step.outcome for q in central.parents if q.step.rule == "inertia.entry"}
+    found = {q.key: q.step.outcome for q in central.parents if q.step.rule == "rotation.entry"}
     assert found == {f"inertia_tensor_{axis * 2}": "mirrored" for axis in "xyz"}
     assert (central.value - M / 12 * diag(b**2 + c**2, a**2 + c**2, a**2 + b**2)).expand() == zeros(3)
-    assert len([q for q in corner.parents if q.step.rule == "inertia.entry"]) == 6
+    assert len([q for q in corner.parents if q.step.rule == "rotation.entry"]) == 6
 
 
 def test_a_tensor_of_three_integrals_is_moved_to_a_corner_with_all_its_products() -> None:

@@ -141,17 +141,17 @@ def test_a_quotient_comes_close_to_the_number_that_is_named() -> None:
 @pytest.mark.parametrize(
     ("rule", "facts", "named"),
     [
-        ("damped.characteristic", Judged(0, {"exponent": s}), ("trial", exp(s * TIME), exp(-s * TIME))),
-        ("damped.characteristic", Judged(0, {"exponent": s}), ("trial", exp(s * TIME), cos(s * TIME))),
-        ("solving.solved_for", Judged(k, symbol=x), ("unknown", x, w)),
-        ("extrema.place", Judged(h, {"quantity": (x - h) ** 2 + w}, symbol=Symbol("x_min")), ("letter", x, w)),
+        ("vibrations.damped_characteristic", Judged(0, {"exponent": s}), ("trial", exp(s * TIME), exp(-s * TIME))),
+        ("vibrations.damped_characteristic", Judged(0, {"exponent": s}), ("trial", exp(s * TIME), cos(s * TIME))),
+        ("answers.solved_for", Judged(k, symbol=x), ("unknown", x, w)),
+        ("answers.extremum_place", Judged(h, {"quantity": (x - h) ** 2 + w}, symbol=Symbol("x_min")), ("letter", x, w)),
         (
-            "energy_integral.energy_kept",
+            "motion.energy_kept",
             Judged(Relation(x, "=", k * h**2), {"energy": k * x**2 + m * rate(x) ** 2, "initial": Integer(0)}),
             ("place", Relation(x, "=", h), Relation(x, "=", 2 * h)),
         ),
         (
-            "approximate.equation_in_limit",
+            "answers.equation_in_limit",
             Judged(0, {"letter": k, "to": h, "small": k - h, "kept": k, "order": 1}),
             ("small", k - h, k + h),
         ),

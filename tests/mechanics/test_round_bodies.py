@@ -231,7 +231,7 @@ def test_a_hole_is_taken_off_and_a_turned_part_counted_about_its_own_axis() -> N
     wheel = Composite(Disc(R, M).turned("x", pi / 2), Rod(h, M).at(0, 0, h))
     found = moment_of_inertia(wheel, "y", "origin", key="about_y")
     assert (found.value - M * R**2 / 2 - M * h**2 / 12 - M * h**2).expand() == 0
-    assert found.step.rule == "assembly.moment_of_inertia"
+    assert found.step.rule == "rotation.moment_of_parts"
 
 
 def test_centre_of_mass_of_a_hoop_is_its_middle() -> None:

@@ -76,30 +76,30 @@ def test_two_moments_cannot_have_one_name() -> None:
     names = ImmutableDenseMatrix([scalar("I_1"), scalar("I_3"), scalar("I_3")])
     values = ImmutableDenseMatrix([a, a, R])
     with pytest.raises(Unverified, match="have one name"):
-        establish("equations.let", names, lambda: values, {}, key="moments", definition=True)
+        establish("answers.let", names, lambda: values, {}, key="moments", definition=True)
 
 
 @pytest.mark.parametrize(
     ("rule", "right", "wrong"),
     [
         (
-            "effective.value_kept",
+            "lagrange.value_kept",
             Judged(Relation(rate(q), "=", (g - R) / a), KEEPING),
             Judged(Relation(rate(q), "=", (g - R) / a), KEEPING | {"value": R}),
         ),
-        ("equations.at", Judged(R, {"vector": zeros(3, 1)}), Judged(R, {"vector": R})),
+        ("answers.at", Judged(R, {"vector": zeros(3, 1)}), Judged(R, {"vector": R})),
         (
-            "inertia.moment_of_inertia",
+            "rotation.moment_of_inertia",
             Judged(R, subject=Subject(axis="z"), words={"axis": "z"}),
             Judged(R, subject=Subject(axis="z"), words={"axis": "corner"}),
         ),
         (
-            "roots.together",
+            "answers.roots_together",
             Judged(R, {"equation": KEPT, "unknown": rate(q)}),
             Judged(R, {"equation": q, "unknown": KEPT}),
         ),
         (
-            "roots.together",
+            "answers.roots_together",
             Judged(R, {"equation": KEPT, "unknown": rate(q)}),
             Judged(R, {"equation": KEPT, "unknown": x}),
         ),
@@ -122,8 +122,8 @@ def test_what_is_told_is_what_it_is_called(rule: str, right: Judged, wrong: Judg
 
 @pytest.mark.parametrize("wrong", [Relation(R, "<=", 0), Relation(R, "<", a)])
 def test_that_no_root_is_real_is_said_of_what_is_below_zero(wrong: Relation) -> None:
-    assert told_rightly("roots.one_of_two", "none", Judged(Relation(R, "<", 0)))
-    assert not told_rightly("roots.one_of_two", "none", Judged(wrong))
+    assert told_rightly("answers.one_of_two", "none", Judged(Relation(R, "<", 0)))
+    assert not told_rightly("answers.one_of_two", "none", Judged(wrong))
 
 
 def test_a_long_diagonal_is_called_so() -> None:
@@ -135,7 +135,7 @@ def test_a_long_diagonal_is_called_so() -> None:
 @pytest.mark.parametrize("mark", ["<", ">", "!="])
 def test_nothing_is_less_than_itself(mark: str) -> None:
     with pytest.raises(Unverified, match="can never hold"):
-        establish("equations.let", None, lambda: Relation(a, mark, a), {}, key="bound", definition=True)
+        establish("answers.let", None, lambda: Relation(a, mark, a), {}, key="bound", definition=True)
 
 
 def test_the_component_along_the_axis_is_that_along_z() -> None:
@@ -147,7 +147,7 @@ def test_the_component_along_the_axis_is_that_along_z() -> None:
 
 
 @pytest.mark.parametrize(
-    "rule", ["modes.period", "modes.beats", "tensors.radius_of_gyration", "linear_motion.steady_amplitude"]
+    "rule", ["vibrations.period", "vibrations.beats", "rotation.radius_of_gyration", "vibrations.steady_amplitude"]
 )
 def test_what_is_a_size_is_not_negative(rule: str) -> None:
     of = {"equation": Relation(x, "=", 0), "q": x}
@@ -161,45 +161,45 @@ ROOTS = {"equation": Relation(a * q**2, "=", z), "unknown": q, "positive": Integ
 def test_a_root_is_real_where_it_is_said_to_be_and_nowhere_else() -> None:
     facts = {"symbol": scalar("q_1"), "words": {"asked": "roots"}}
     root = sqrt(x / a)
-    assert told_rightly("roots.roots", "several", Judged(root, ROOTS | {"condition": Relation(x, ">", 0)}, **facts))
+    assert told_rightly("answers.roots", "several", Judged(root, ROOTS | {"condition": Relation(x, ">", 0)}, **facts))
     for told in ({}, {"condition": Relation(x, "<", 0)}, {"condition": Relation(a, ">", 0)}):
-        assert not told_rightly("roots.roots", "several", Judged(root, ROOTS | told, **facts))
-    assert not told_rightly("roots.roots", "several", Judged(R, ROOTS, **(facts | {"symbol": q})))
+        assert not told_rightly("answers.roots", "several", Judged(root, ROOTS | told, **facts))
+    assert not told_rightly("answers.roots", "several", Judged(R, ROOTS, **(facts | {"symbol": q})))
 
 
 def test_a_motion_starts_as_its_sentence_says() -> None:
     of = {"equation": Relation(x, "=", 0), "q": x}
     start = {"start": Relation(x, "=", R), "start_rate": Relation(rate(x), "=", a)}
-    assert told_rightly("linear_motion.solution", "uniform", Judged(R + a * TIME, of | start))
-    assert not told_rightly("linear_motion.solution", "uniform", Judged(a + R * TIME, of | start))
+    assert told_rightly("vibrations.solution", "uniform", Judged(R + a * TIME, of | start))
+    assert not told_rightly("vibrations.solution", "uniform", Judged(a + R * TIME, of | start))
     other = of | start | {"q": Relation(x, "=", 0)}
-    assert not told_rightly("linear_motion.solution", "uniform", Judged(R + a * TIME, other))
+    assert not told_rightly("vibrations.solution", "uniform", Judged(R + a * TIME, other))
 
 
 def test_a_comparison_has_the_word_of_its_mark() -> None:
     at_most = {"words": {"comparison": "at_most"}}
     compared = {"quantity": R, "bound": a, "difference": R - a}
-    assert told_rightly("conditions.where", "solved", Judged(R, {**compared, "mark": Str("<=")}, **at_most))
-    assert not told_rightly("conditions.where", "solved", Judged(R, {**compared, "mark": Str("=")}, **at_most))
+    assert told_rightly("answers.where", "solved", Judged(R, {**compared, "mark": Str("<=")}, **at_most))
+    assert not told_rightly("answers.where", "solved", Judged(R, {**compared, "mark": Str("=")}, **at_most))
 
 
 def test_a_quantity_is_compared_with_its_bound_and_not_the_other_way_round() -> None:
     turned = {"quantity": Integer(0), "bound": R, "difference": R, "mark": Str(">")}
-    assert not told_rightly("conditions.where", "solved", Judged(R, turned, words={"comparison": "greater_than"}))
+    assert not told_rightly("answers.where", "solved", Judged(R, turned, words={"comparison": "greater_than"}))
 
 
 def test_the_tangent_of_a_lag_is_told_as_such() -> None:
-    assert told_rightly("linear_motion.lag", "damped", Judged(R, symbol=tan(theta)))
-    assert not told_rightly("linear_motion.lag", "damped", Judged(R, symbol=theta))
+    assert told_rightly("vibrations.lag", "damped", Judged(R, symbol=tan(theta)))
+    assert not told_rightly("vibrations.lag", "damped", Judged(R, symbol=theta))
 
 
 def test_the_given_number_fulfils_a_condition_just_where_it_is_said_to() -> None:
     for given, word, right in ((3, "fulfilled", True), (1, "fulfilled", False), (1, "not_fulfilled", True)):
         inputs = {"given": Relation(x, "=", Integer(given)), "condition": Relation(Integer(given), ">", Integer(2))}
         facts = Judged(Relation(x, ">", Integer(2)), inputs, words={"seen": word})
-        assert told_rightly("numbers.value", "measured", facts) == right
+        assert told_rightly("numeric.value", "measured", facts) == right
     other = {"given": Relation(x, "=", Integer(5)), "condition": Relation(Integer(3), ">", Integer(2))}
     assert not told_rightly(
-        "numbers.value", "measured", Judged(Relation(x, ">", Integer(2)), other, words={"seen": "fulfilled"})
+        "numeric.value", "measured", Judged(Relation(x, ">", Integer(2)), other, words={"seen": "fulfilled"})
     )
-    assert told_rightly("numbers.value", "measured", Judged(x, {}))
+    assert told_rightly("numeric.value", "measured", Judged(x, {}))

@@ -23,7 +23,7 @@ from tests.mechanics.verbs import verbs_as_imported
 def test_definitions_alone_have_no_second_route() -> None:
     found = [*known_block().values(), derive.mechanics.let("half", lambda T: T / 2, known_block()["kinetic_energy"])]
     without = {q.step.rule for q in found if {e.grade for e in q.step.evidence} == {Grade.DEFINITION}}
-    assert without == {"rotation.any_angular_velocity", "bodies.axis_vector", "inertia.definition"}
+    assert without == {"rotation.any_angular_velocity", "bodies.axis_vector", "rotation.inertia_definition"}
     assert {q.key for q in found if any(e.grade is Grade.DEFINITION for e in q.step.evidence)} == {
         "angular_velocity",
         "axis_vector",

@@ -153,7 +153,7 @@ def test_the_rungs_go_from_what_is_sought_to_how_it_goes_on(courses: Any, name: 
 
 def test_an_equation_of_motion_has_its_law(courses: Any) -> None:
     _, hints, _, solved = of(courses, "new/system")
-    law = next(step.chain[0].expr for step in solved.derivation.steps if step.rule == "lagrangian.equation_of_motion")
+    law = next(step.chain[0].expr for step in solved.derivation.steps if step.rule == "lagrange.equation_of_motion")
     assert any(line.left == law.left for rung, _, line in told(hints) if rung.title == WORDS.labels["hints"]["law"])
 
 

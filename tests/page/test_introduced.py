@@ -24,7 +24,7 @@ def test_the_letters_of_a_step_are_its_symbol_and_the_components_of_a_vector() -
 
 def test_what_is_within_dm_is_not_seen(tmp_path: Path) -> None:
     _, solved = solved_once(course_in(tmp_path), "hw9/block")
-    definition = next(step for step in solved.derivation.steps if step.rule == "inertia.definition")
+    definition = next(step for step in solved.derivation.steps if step.rule == "rotation.inertia_definition")
     density = next(step for step in solved.derivation.steps if step.rule == "bodies.density")
     assert definition.chain[0].expr.has(density.symbol)
     assert density.symbol not in letters_in([definition.chain[0].expr])

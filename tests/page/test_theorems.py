@@ -32,12 +32,12 @@ def test_a_theorem_is_told_once(level: Level) -> None:
     (told,) = theorems.before(a_step("rotation.torque"))
     assert isinstance(told, ToldOnce) and any(isinstance(node, Math) for node in told.nodes)
     assert any(isinstance(node, ToldIn) for node in told.again)
-    assert theorems.before(a_step("free_rotation.rate_in_space")) == (), "it has been told"
-    assert len(theorems.before(a_step("inertia.entry_moved", "moment"))) == 1
-    assert theorems.before(a_step("forced.equation_of_motion", "applied")) == ()
-    assert len(theorems.before(a_step("forced.equation_of_motion", "both"))) == 1
-    assert theorems.before(a_step("forced.equation_of_motion", "both")) == (), "it has been told"
-    assert len(theorems.before(a_step("forced.equation_of_motion", "both", "rates"))) == 1, "the form for rates has not"
+    assert theorems.before(a_step("rotation.rate_in_space")) == (), "it has been told"
+    assert len(theorems.before(a_step("rotation.entry_moved", "moment"))) == 1
+    assert theorems.before(a_step("lagrange.forced_equation", "applied")) == ()
+    assert len(theorems.before(a_step("lagrange.forced_equation", "both"))) == 1
+    assert theorems.before(a_step("lagrange.forced_equation", "both")) == (), "it has been told"
+    assert len(theorems.before(a_step("lagrange.forced_equation", "both", "rates"))) == 1, "the form for rates has not"
 
 
 def the_steps_of_a_pendulum() -> tuple[Step, Step]:
@@ -46,7 +46,7 @@ def the_steps_of_a_pendulum() -> tuple[Step, Step]:
         theta = coordinate("theta")
         bob = Particle(m, point(l * sin(theta), -l * cos(theta)))
         motion = equation_of_motion(lagrangian(System(bob, weight(gravity))), theta)
-    force = next(q for q in motion.parents if q.step.rule == "lagrangian.generalized_force")
+    force = next(q for q in motion.parents if q.step.rule == "lagrange.generalized_force")
     return force.step, motion.step
 
 

@@ -179,7 +179,7 @@ def test_what_goes_on_from_an_alike_step_has_the_words_for_that() -> None:
 
 def test_an_alike_outcome_of_another_rule_changes_no_words() -> None:
     first, second = (known_block()[f"corner_tensor_{pair}"].step for pair in ("xx", "yy"))
-    assert WORDS.phrase(second, before=replace(first, rule="inertia.entry_moved")) == WORDS.phrase(second)
+    assert WORDS.phrase(second, before=replace(first, rule="rotation.entry_moved")) == WORDS.phrase(second)
 
 
 def test_the_words_of_the_torque_change_when_it_vanishes() -> None:
@@ -213,8 +213,8 @@ def test_a_number_offers_no_unit() -> None:
 
 def test_a_step_of_a_certain_other_rule_before_it_may_change_its_words() -> None:
     factor = known_block()["torque"].step
-    total = replace(factor, rule="conservation.sum", outcome="cancel")
-    product = replace(factor, rule="conservation.product", outcome="one_of_several")
+    total = replace(factor, rule="motion.sum", outcome="cancel")
+    product = replace(factor, rule="motion.product", outcome="one_of_several")
     assert WORDS.phrase(total, before=factor) == WORDS.phrase(total) != WORDS.phrase(total, before=product)
 
 

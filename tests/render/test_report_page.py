@@ -14,7 +14,7 @@ from tests.render.pages import NOTATION, WHOLE, WORDS, M, a
 
 ROWS = (
     Row(("energy",), (), "test.kinetic_energy", Grade.PROVED, 3, ("by halves",), ()),
-    Row(("law", "mass"), ("energy",), "numbers.value", Grade.DEFINITION, 0, (), ("its sign",)),
+    Row(("law", "mass"), ("energy",), "numeric.value", Grade.DEFINITION, 0, (), ("its sign",)),
 )
 SLIP = Erratum("energy", "2", "a slip in $M a$", M * a, M * a**2)
 
@@ -31,7 +31,7 @@ def test_a_step_is_told_by_its_symbol_and_the_number_of_its_equation() -> None:
 
 
 def test_a_step_without_either_is_told_by_the_equations_that_it_comes_from() -> None:
-    from_an_equation = Row(("law",), ("mass", "energy"), "substitution.put_in", Grade.PROVED, 1, (), ())
+    from_an_equation = Row(("law",), ("mass", "energy"), "answers.put_in", Grade.PROVED, 1, (), ())
     assert page().steps(from_an_equation) == "from (1), (2)"
     from_a_letter = ReportPage(replace(WHOLE, numbers={}), WORDS, NOTATION)
     assert from_a_letter.steps(from_an_equation).startswith("from ")

@@ -56,7 +56,7 @@ def test_a_block_on_a_wedge_that_slides(tmp_path: Path) -> None:
 def test_the_energy_that_friction_takes(tmp_path: Path) -> None:
     """dh/dt = -mu N s_dot."""
     steps = solved(tmp_path, edited(INCLINE, ("[multipliers, accelerations]", "energy_function_rate")))
-    found = next(explicit(q.value).right for q in steps.values() if q.step.rule == "energy.energy_function_rate")
+    found = next(explicit(q.value).right for q in steps.values() if q.step.rule == "lagrange.energy_function_rate")
     N, s_dot = Symbol("N", real=True), Symbol("s_dot", real=True)
     assert equal(found, -mu * N * s_dot)
 

@@ -107,7 +107,7 @@ def test_an_energy_that_friction_takes_is_not_stated_to_be_conserved() -> None:
 def test_that_an_energy_keeps_its_value_is_tested_along_the_motion() -> None:
     L = pendulum()
     speed = speed_from_energy(energy_function(L), THETA, l / l, motion=equations_of_motion(L)[0])
-    (kept,) = [each for each in speed.parents if each.step.rule == "energy_integral.energy_kept"]
+    (kept,) = [each for each in speed.parents if each.step.rule == "motion.energy_kept"]
     assert judged(along.kept, kept)
     wrong = Relation(kept.value.left + m * g * l * sin(q), "=", kept.value.right)
     assert not judged(along.kept, kept, wrong)

@@ -91,7 +91,7 @@ def tension(start_rate: Expr) -> Quantity:
 
 def test_the_speed_of_a_followed_motion_is_that_of_the_energy() -> None:
     found = tension(v / l)
-    (speed,) = [each for each in found.ancestors() if each.step.rule == "energy_integral.speed_from_energy"]
+    (speed,) = [each for each in found.ancestors() if each.step.rule == "motion.speed_from_energy"]
     start = {"coordinate": q, "start": Integer(0), "start_rate": v / l}
     assert runs.speed(claim(speed, **start))
     assert not runs.speed(claim(replace(speed, value=speed.value * 2), **start))

@@ -140,8 +140,8 @@ def damped_pair() -> tuple[System, tuple[Quantity, ...]]:
 def test_rates_of_decay_and_damped_frequencies_are_exponents_of_small_motions() -> None:
     system, modes = damped_pair()
     of = system.described.description
-    decays = [each for each in modes if each.step.rule == "damped.rate"]
-    swings = [each for each in modes if each.step.rule == "damped.frequency"]
+    decays = [each for each in modes if each.step.rule == "vibrations.damped_rate"]
+    swings = [each for each in modes if each.step.rule == "vibrations.damped_frequency"]
     assert decays and swings
     for each in decays:
         assert small.damped(claim(each, of))

@@ -62,7 +62,7 @@ def equation_in_limit(
     if kept.has(TIME) and place == 0 and any(f.has(x) and f.has(TIME) for f in left.atoms(Function)):
         told["short"] = 1 / x  # a sine of Omega t is small with Omega only as long as the time is short
     return establish(
-        "approximate.equation_in_limit",
+        "answers.equation_in_limit",
         None,
         lambda *_: found,
         {"equation": equation, "letter": x},

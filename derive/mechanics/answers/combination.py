@@ -39,7 +39,7 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
         return bound(expression, dict(zip(values, those, strict=True)))
 
     return establish(
-        "combination.combination",
+        "answers.combination",
         scalar(symbol or key),
         law,
         inputs,

@@ -40,7 +40,7 @@ WORDS = {
     ">=": "at_least",
     "<=": "at_most",
 }
-REAL = {("roots.discriminant", mark) for mark in (">=", ">")}  # the quantities that decide whether roots are real
+REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # the quantities that decide whether roots are real
 POINTS = 40
 
 
@@ -89,7 +89,7 @@ def where(
         return _same_truth(found, difference, mark, unknown)
 
     return establish(
-        "conditions.where",
+        "answers.where",
         None,
         lambda v, b: Relation(v, mark, b),
         {"quantity": of, "bound": bound},
@@ -128,7 +128,7 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
     holds = sign in SIGNS_OF[mark]
     fact = mark if holds else {1: ">", -1: "<", 0: "="}[sign]
     return establish(
-        "conditions.where",
+        "answers.where",
         None,
         lambda v, b: Relation(v, fact, b),
         {"quantity": of, "bound": bound},

@@ -77,7 +77,7 @@ def _extremum(
     ((place, conditions),) = fitting
     name = scalar(f"{x.name}_{verb[:3]}", **({"positive": True} if x.is_positive else {}))
     at = establish(
-        "extrema.place",
+        "answers.extremum_place",
         name,
         lambda *_: place,
         {"quantity": of},
@@ -97,7 +97,7 @@ def _extremum(
         scope=Scope(coordinates={}),
     )
     top = establish(
-        "extrema.value",
+        "answers.extremum_value",
         scalar(f"{of.symbol.name}_{verb[:3]}") if isinstance(of.symbol, Symbol) else scalar(key),
         lambda f, p: At(f, x, p),
         {"quantity": of, "place": at},

@@ -86,7 +86,7 @@ def limiting_case(
     again = terms_by_arithmetic(value, series, x, place, power)
     own = _own_letter(name, symbol, x, aim) if not exact else name if symbol is None else Symbol(symbol, real=True)
     return establish(
-        "limits.limiting_case",
+        "answers.limiting_case",
         own,
         lambda *_: entry_by_entry(lambda f: Expansion(_as_written(f, x, place), x, place, power), value),
         {"quantity": of, "letter": goes, "approach": Approach(goes, aim)},
@@ -260,7 +260,7 @@ def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Qua
     if not equal(*values):
         raise Rejected(Complaint("wrong-limit", f"`{found.key}` is {values[0]}, but `{known.key}` is {values[1]}"))
     return establish(
-        "limits.known_case",
+        "answers.known_case",
         found.symbol,
         lambda *_: values[0],
         {},
@@ -288,7 +288,7 @@ def case_in_letters(
     """
     value = explicit(found.value.right if _solved_for(found) is not None else found.value)
     return establish(
-        "limits.case_in_letters",
+        "answers.case_in_letters",
         found.symbol,
         lambda *_: formula,
         {},

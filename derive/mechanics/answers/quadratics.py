@@ -151,7 +151,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
         return found + found.xreplace({PLUS_MINUS: -PLUS_MINUS}), -here.b / here.a
 
     return establish(
-        "roots.together",
+        "answers.roots_together",
         x,
         lambda _, __, *those: of.with_those(formula, those),
         {"equation": equation, "unknown": x, **of.roles},
@@ -230,7 +230,7 @@ def _one_of_two(
         return 2 * quadratic.c / (-quadratic.b - sign * sqrt(quadratic.discriminant))
 
     return establish(
-        "roots.one_of_two",
+        "answers.one_of_two",
         scalar(letter or _indexed(of.unknown.name, key)),
         lambda _: _of_sign(both.value, sign),
         {"roots": both},
@@ -275,7 +275,7 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
         return found, Relation(_by_resultant(of), "<" if sign_known(other) == -1 else ">=", 0)
 
     return establish(
-        "roots.one_of_two",
+        "answers.one_of_two",
         None,
         lambda *those: Relation(of.with_those(of.general.of_terms, those[1:]), "<", 0),
         {"roots": both, **of.roles},
@@ -319,7 +319,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
         return -here.a * found, _resultant(here)
 
     return establish(
-        "roots.discriminant",
+        "answers.discriminant",
         scalar(symbol),
         lambda *those: of.with_those(of.general.of_terms, those),
         of.roles,
@@ -327,7 +327,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
         routes={"resultant": otherwise},
         outcome="linear" if here.is_linear else lambda found: SIGNS[sign_known(found)],
         key=key,
-        parents=[next((q for q in (roots, *roots.parents) if q.step.rule == "roots.together"), roots)],
+        parents=[next((q for q in (roots, *roots.parents) if q.step.rule == "answers.roots_together"), roots)],
         phrase_data=PhraseData(outcome_data={"quadratic": here}),
         scope=Scope(differ=EVERYTHING),
     )

@@ -155,7 +155,7 @@ def _step(
         if each is not None
     }
     return establish(
-        "roots.roots",
+        "answers.roots",
         name,
         lambda *_: root.formula,
         {"equation": equation, "unknown": unknown},
@@ -226,7 +226,7 @@ def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: b
         a, b, c = last.coefficients
         decides, otherwise = Terms(b**2, -FOUR * a * c), _by_resultant(last)
     return establish(
-        "roots.roots_absent",
+        "answers.roots_absent",
         None,
         lambda *_: Relation(decides, mark, ZERO),
         {"equation": equation, "unknown": unknown},
@@ -257,7 +257,7 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
     nearest = min(every, key=lambda root: abs(number) if (number := with_numbers(root.value)).is_number else 1)
     side = 1 if sign_known(nearest.value) == 1 else -1
     return establish(
-        "roots.roots_absent",
+        "answers.roots_absent",
         None,
         lambda *_: Relation(nearest.value, ">" if side > 0 else "<", Integer(side)),
         {"equation": equation, "unknown": unknown},

@@ -99,7 +99,7 @@ def _solution(
 
     known = coordinates_of(*given)
     return establish(
-        "solving.solved_for",
+        "answers.solved_for",
         unknown,
         lambda *_: Ratio(_written(above), _written(matrix)),
         {f"equation_{n + 1}": equation for n, equation in enumerate(given)},

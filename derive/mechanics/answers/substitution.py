@@ -69,7 +69,7 @@ def put_in(
     _check_holds(of, result)
     name = _name(of, symbol)
     return establish(
-        "substitution.put_in",
+        "answers.put_in",
         name,
         lambda *_: value,
         {"original": of, **{f"other_{i + 1}": quantity for i, quantity in enumerate(rests)}},

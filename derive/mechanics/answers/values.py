@@ -63,7 +63,7 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
         return _put_in(general_value, {name: Group(v) for name, v in zip(names, vector, strict=True)})
 
     return establish(
-        "equations.at",
+        "answers.at",
         general.symbol,
         lambda _, vector: value(general.value, vector),
         {"general": general, "vector": particular},
@@ -129,7 +129,7 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
         return explicit(bound(bound(general.step.chain[0].expr, behind), known))
 
     return establish(
-        "equations.with_values",
+        "answers.with_values",
         general.symbol,
         lambda _, *those: bound(general.value, dict(zip(known, those, strict=True))),
         {"general": general, **{q.key: q for q in values}},
@@ -154,7 +154,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
     squares = [entry**2 for entry in rest if entry != 0]
     worked = [] if len(squares) < 2 else [Form(Factors(size, Root(Terms(*squares))), "squares", Level.STANDARD)]
     return establish(
-        "equations.magnitude",
+        "answers.magnitude",
         Norm(of.symbol),
         lambda v: Root(Dot(v, v)),
         {"vector": of},
@@ -176,7 +176,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
     """
     v = of.value
     return establish(
-        "equations.squared_magnitude",
+        "answers.squared_magnitude",
         Pow(Norm(of.symbol), 2),
         lambda v: Dot(v, v),
         {"vector": of},
@@ -240,7 +240,7 @@ def let(
         raise Rejected(Complaint("wrong-argument", message))
     reason = {"because": because} if because else {}
     return establish(
-        "equations.let",
+        "answers.let",
         None if is_equation else scalar(symbol or key),
         scalar_law,
         {q.key: q for q in quantities},

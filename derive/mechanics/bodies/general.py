@@ -261,7 +261,7 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
 
     size_now = cell(position, limits)
     return establish(
-        "general.cell_of",
+        "bodies.cell_of",
         size(*letters),
         lambda: size(*tangents),
         {},
@@ -302,7 +302,7 @@ def size_by_integration(body: GeneralBody) -> Quantity:
     kind, letter = SIZES[body.count]
     exact(body, region.element, kind)
     return establish(
-        "general.size_by_integration",
+        "bodies.size_by_integration",
         Symbol(_free(body, letter, f"{letter}_0"), positive=True),
         lambda: region.integral(Integer(1)),
         {},
@@ -326,7 +326,7 @@ def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
     region = body.region(ORIGIN)
     front = body.front
     return establish(
-        "general.mass_by_integration",
+        "bodies.mass_by_integration",
         Symbol(_free(body, "M", "M_0"), positive=True),
         lambda: Factors(front, region.integral(Integer(1))),
         {},
@@ -353,7 +353,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
     """
     region, p = body.region(ORIGIN), body.profile
     return establish(
-        "general.normalised_density",
+        "bodies.normalised_density",
         scalar(body.density_letter),
         lambda mass: Factors(mass, Ratio(p, region.integral(Integer(1)))),
         {"mass": body.mass},

@@ -49,7 +49,7 @@ def poisson_bracket(
     one, other = (_function(each, pairs) for each in (f, g))
     names = [each.symbol if isinstance(each, Quantity) else each for each in (one, other)]
     flat = [s for pair in pairs for s in pair]
-    flow = g.fact(PhaseSpace) if isinstance(g, Quantity) and g.step.rule == "canonical.hamiltonian" else None
+    flow = g.fact(PhaseSpace) if isinstance(g, Quantity) and g.step.rule == "hamilton.hamiltonian" else None
 
     values = [explicit(value_behind(each)) for each in (one, other)]
     derivatives = _derivatives(values[0], values[1], pairs)
@@ -73,7 +73,7 @@ def poisson_bracket(
     worked = [sign * Factors(diff(values[0], u), diff(values[1], v)) for sign, u, v in derivatives]
     plain = isinstance(one, Symbol) or isinstance(other, Symbol)  # whose derivatives are not worth a line
     return establish(
-        "brackets.poisson_bracket",
+        "hamilton.poisson_bracket",
         PoissonBracket(*names, *flat),
         law,
         {"f": one, "g": other},

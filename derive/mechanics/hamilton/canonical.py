@@ -74,7 +74,7 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     h = explicit(sum((p.value * v for p, v in zip(given, put_in, strict=True)), -explicit(of.value)))
     written = beside_potential(bound(h, put_in), of, list(letters))
     return establish(
-        "canonical.hamiltonian",
+        "hamilton.hamiltonian",
         scalar(symbol or free_letter("H")),
         law,
         {
@@ -133,7 +133,7 @@ def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
         return _with_mark(found, sides), ImmutableDenseMatrix([q.rate, q.rate, 1])
 
     return establish(
-        "canonical.hamilton_equation",
+        "hamilton.hamilton_equation",
         None,
         lambda H: Relation(q.rate, "=", Partial(H, p)),
         {"hamiltonian": of},
@@ -172,7 +172,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
         return Relation(rate(p), "=", Terms(*terms) if len(terms) > 1 else terms[0])
 
     return establish(
-        "canonical.hamilton_equation",
+        "hamilton.hamilton_equation",
         None,
         law,
         {"hamiltonian": of, **{push.key: push for push in pushes}},
@@ -215,7 +215,7 @@ def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quan
         return bound(explicit(found), space.in_rates), explicit(quantity.value)
 
     return establish(
-        "canonical.in_momenta",
+        "hamilton.in_momenta",
         quantity.symbol,
         lambda _, *those: bound(explicit(quantity.value), dict(zip(values, those, strict=True))),
         {"quantity": quantity, **{v.key: v for v in present}},

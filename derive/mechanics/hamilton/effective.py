@@ -139,7 +139,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
         return by_functions_of_time(found, moving), matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
 
     momentum = establish(
-        "effective.conserved",
+        "hamilton.conserved",
         letter,
         lambda L, _: Partial(L, q.rate),
         {"lagrangian": of, "coordinate": q.symbol},
@@ -232,7 +232,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
 
     written = beside_potential(whole, of, letters, [q.symbol for q in left], sign=-1)
     return establish(
-        "effective.routhian",
+        "hamilton.routhian",
         scalar(symbol or free_letter("R")),
         law,
         _inputs(of, constants, rates, put_in),
@@ -310,7 +310,7 @@ def effective_potential(
 
     written = beside_potential(whole, of, letters)
     return establish(
-        "effective.effective_potential",
+        "hamilton.effective_potential",
         scalar(symbol or free_letter("U_eff")),
         law,
         _inputs(of, constants, rates, put_in),

@@ -90,7 +90,7 @@ def rates_by_momenta(
 
     def of_one(q: Coordinate) -> Quantity:
         return establish(
-            "canonical.rate_by_momenta",
+            "hamilton.rate_by_momenta",
             q.rate,
             lambda *names: bound(solved[q.rate], dict(zip(letters, names, strict=False))),
             {f"momentum_{each.symbol.name}": lettered(p) for each, p in zip(own, given, strict=True)},

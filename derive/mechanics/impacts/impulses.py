@@ -62,7 +62,7 @@ def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None 
         return explicit(found.left) - explicit(found.right), changed - diff(blow.power(), q.rate)
 
     return establish(
-        "impulses.momentum_jump",
+        "impacts.momentum_jump",
         None,
         law,
         {"kinetic": kinetic},
@@ -110,7 +110,7 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
         return explicit(found.left) - explicit(found.right), blow.read_again(speed) + returned
 
     return establish(
-        "impulses.meeting_condition",
+        "impacts.meeting_condition",
         None,
         law,
         {},
@@ -190,7 +190,7 @@ def work_of_impulses(
         return work, mean.xreplace({each.letter: found[each.letter] for each in blow.meetings})
 
     return establish(
-        "impulses.work_of_impulses",
+        "impacts.work_of_impulses",
         scalar(symbol),
         lambda T: Terms(T, -before) if before != 0 else T,
         {"energy": energy},

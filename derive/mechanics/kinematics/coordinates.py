@@ -205,7 +205,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
         return by_functions_of_time(quantity.value, moving)
 
     return establish(
-        "coordinates.rate_of",
+        "kinematics.rate_of",
         rate(quantity.symbol),
         lambda x: TimeRate(x, *moving),
         {"quantity": quantity},

@@ -92,7 +92,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
         return 2 * found, -Add(*(power_of(load, moving) for load in loads))
 
     return establish(
-        "forced.dissipation_function",
+        "lagrange.dissipation_function",
         scalar(symbol),
         law,
         {},
@@ -157,7 +157,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
     name = f"Q_{q.symbol.name}"
     return establish(
-        "forced.applied_force",
+        "lagrange.applied_force",
         scalar(name),
         law,
         {"dissipation": acted.dissipation} if acted.dissipation is not None else {},
@@ -218,7 +218,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
 
     return establish(
-        "forced.equation_of_motion",
+        "lagrange.forced_equation",
         None,
         law,
         {"lagrangian": of, **({"applied": applied} if applied is not None else {})},

@@ -192,7 +192,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         return Relation(once if each.in_rates else TimeRate(explicit(once), *moving), "=", ZERO)
 
     return establish(
-        "kept.constraint_rate",
+        "lagrange.constraint_rate",
         None,
         law,
         {"condition": each.residual},
@@ -215,7 +215,7 @@ def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Qu
     found = _solution(problem)
     coordinate = Coordinate(q, problem.lagrangian.coordinates[q])
     return establish(
-        "kept.acceleration",
+        "lagrange.acceleration",
         rate(q, 2),
         lambda: found[rate(q, 2)],
         {},
@@ -239,7 +239,7 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
     is_force = length is None or is_zero(length - 1)
     shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
     return establish(
-        "kept.multiplier",
+        "lagrange.multiplier",
         each.force,
         lambda: _gathered(problem, found[each.force]),
         {},
@@ -305,7 +305,7 @@ def constraint_force(
         return Terms(*terms) if len(terms) > 1 else Add(*terms)
 
     return establish(
-        "kept.constraint_force",
+        "lagrange.constraint_force",
         scalar(symbol),
         law,
         acting,

@@ -99,7 +99,7 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     velocity = _velocity(mover, moving)
     at = {f"place_{k}": c for k, c in enumerate(mover.place)}
     return establish(
-        "systems.squared_speed",
+        "lagrange.squared_speed",
         Pow(letter, 2),
         (lambda *v: Terms(*(Pow(c, 2) for c in v))) if velocity else (lambda *at: squares_of_rates(at, moving)),
         {f"velocity_{k}": v for k, v in enumerate(velocity)} if velocity else at,
@@ -240,7 +240,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
         return min((gathered, whole), key=length)
 
     return establish(
-        "systems.kinetic_energy",
+        "lagrange.kinetic_energy",
         scalar(symbol or free_letter("T")),
         law,
         inputs,
@@ -308,7 +308,7 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
         return Terms(*terms) if len(terms) > 1 else Add(*terms)
 
     return establish(
-        "systems.potential_energy",
+        "lagrange.potential_energy",
         scalar(symbol or free_letter("U")),
         law,
         named,
@@ -361,7 +361,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         return Add(*(slope * mark for slope, mark in zip(slopes, marks, strict=True))), Add(*works)
 
     return establish(
-        "systems.magnetic_term",
+        "lagrange.magnetic_term",
         scalar(symbol),
         law,
         {},

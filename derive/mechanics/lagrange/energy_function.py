@@ -113,7 +113,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     carried = Add(*(explicit(Partial(of.value, v)) * v for v in rates))
     plain = beside_potential(explicit(carried - of.value), of, [], [q.symbol for q in moving])
     return establish(
-        "energy.energy_function",
+        "lagrange.energy_function",
         scalar(symbol or free_letter("h")),
         law,
         {"lagrangian": of},
@@ -165,7 +165,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])
 
     return establish(
-        "energy.energy_function_rate",
+        "lagrange.energy_function_rate",
         None,
         law,
         {"energy": of, "lagrangian": L, **{force.key: force for _, force in applied}},

@@ -161,7 +161,7 @@ def given_lagrangian(
     for base in sorted(_radicands(whole), key=str):
         _take_as_real(base)
     return establish(
-        "lagrangian.given",
+        "lagrange.given_lagrangian",
         scalar(symbol or free_letter("L")),
         lambda: function,
         {},

@@ -63,7 +63,7 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
         return ImmutableDenseMatrix(ours), ImmutableDenseMatrix([matter.momentum_along(q.symbol) - value, at_work, 0])
 
     return establish(
-        "effective.value_kept",
+        "lagrange.value_kept",
         None,
         lambda p, v: Relation(p, "=", v),
         {"momentum": momentum, "value": value},

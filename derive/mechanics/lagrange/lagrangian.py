@@ -103,7 +103,7 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
     driven = matter.is_driven or bool(beside) or changes(potential.value) is not None
 
     return establish(
-        "lagrangian.lagrangian",
+        "lagrange.lagrangian",
         scalar(symbol),
         lambda t, u, *b: _side_by_side(*Add.make_args(t), *(-term for term in Add.make_args(u)), *b),
         {"kinetic": kinetic, "potential": potential, **beside},
@@ -170,7 +170,7 @@ def equation_of_motion(
     left = _without_common_factor(gathered, moving) if alone else gathered
 
     return establish(
-        "lagrangian.equation_of_motion",
+        "lagrange.equation_of_motion",
         None,
         lambda L: Relation(Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol)), "=", 0),
         {"lagrangian": of},
@@ -281,7 +281,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
     """
     matter = of.needed(Matter)
     return establish(
-        "lagrangian.generalized_force",
+        "lagrange.generalized_force",
         Partial(of.symbol, q.symbol),
         lambda L: Partial(L, q.symbol),
         {"lagrangian": of},
@@ -313,7 +313,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
     """
     matter = of.needed(Matter)
     return establish(
-        "lagrangian.generalized_momentum",
+        "lagrange.generalized_momentum",
         Partial(of.symbol, q.rate),
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},
@@ -334,7 +334,7 @@ def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> 
     """
     moving = list(momentum.coordinates)
     return establish(
-        "lagrangian.momentum_rate",
+        "lagrange.momentum_rate",
         TimeRate(momentum.symbol, *moving),
         lambda p: TimeRate(p, *moving),
         {"momentum": momentum},

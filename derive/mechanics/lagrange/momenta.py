@@ -63,7 +63,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
     matter = of.needed(Matter)
     letter = scalar(symbol) if symbol else letter_of_momentum(q)
     return establish(
-        "canonical.conjugate_momentum",
+        "lagrange.conjugate_momentum",
         letter,
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},

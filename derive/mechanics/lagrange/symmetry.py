@@ -69,7 +69,7 @@ def noether(
         return found, Add(*(m * way * v for m, way, v in _ways(matter, xi)), *in_fields) - gain
 
     return establish(
-        "symmetry.noether",
+        "lagrange.noether",
         scalar(symbol),
         law,
         {f"momentum_{q.symbol.name}": p for q, p in momenta.items()},
@@ -143,7 +143,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([Add(*done), changed_by(gain)])
 
     return establish(
-        "symmetry.change",
+        "lagrange.change_under_shift",
         None,
         law,
         {"lagrangian": of, **told},

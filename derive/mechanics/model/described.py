@@ -19,8 +19,8 @@ from derive.steps.step import Quantity, Witness
 from derive.witness import description as plain
 
 XYZ = (0, 1, 2)
-SOLVED = "solving.solved_for"
-CONSERVED = "effective.conserved"  # the rule of momenta that keep their value
+SOLVED = "answers.solved_for"
+CONSERVED = "hamilton.conserved"  # the rule of momenta that keep their value
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ def _distance(system: System, each: Central, name: str) -> Quantity:
     """
     way = [c for c in (each.end - each.start).components if c != 0]
     return establish(
-        "systems.distance",
+        "model.distance",
         scalar(name),
         lambda: sqrt(Terms(*(Pow(c, 2) for c in way))) if len(way) > 1 else each.length,
         {},

@@ -41,7 +41,7 @@ def integrated(condition: Quantity, key: str | None = None) -> Quantity:
         return by_functions_of_time(found, list(moving)), condition.value.residual.subs(rate(q), 0) * -1
 
     return establish(
-        "located.integrated",
+        "model.integrated",
         q,
         lambda *_: function,
         {},
@@ -102,7 +102,7 @@ def _component(
 
     centre = {"centre": body.moved(values).centre.components[i]} if body is not None else {}
     return establish(
-        "located.component",
+        "model.component",
         scalar(name),
         lambda *known: component.xreplace(dict(zip(letters, known, strict=True))),
         used,

@@ -281,7 +281,7 @@ def _solved(
         assume(Relation(each, "!=", ZERO))
     solved = Relation(rate(q), "=", found)
     return establish(
-        "rolling.no_slip",
+        "model.no_slip",
         None,
         lambda: Relation(by_rates(condition.left, moving), "=", ZERO),
         {},

@@ -66,7 +66,7 @@ def angular_velocity(
         return column(*((rows[i, :] * columns[:, j])[0].expand() for i, j in ((2, 1), (0, 2), (1, 0))))
 
     return establish(
-        "rigid.angular_velocity",
+        "model.angular_velocity",
         vector(symbol),
         lambda *_: MatAdd(*whole) if len(whole) > 1 else whole[0],
         {f"turn_{n}": angle for n, (_, angle) in enumerate(axes.turns, 1)},

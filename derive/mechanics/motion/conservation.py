@@ -54,7 +54,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     taken_off = common * Add(*(_equation(equation).residual for equation in known))  # zero along the motion
 
     return establish(
-        "conservation.rate_under",
+        "motion.rate_under",
         TimeRate(quantity.symbol, *moving),
         lambda q: TimeRate(q, *moving),
         {"quantity": quantity},
@@ -102,7 +102,7 @@ def _product(
     """
     written = equation.value
     return establish(
-        "conservation.product",
+        "motion.product",
         None,
         lambda f, _: Relation(Factors(f, written.left), "=", _times(f, written.right)),
         {"factor": factor, "quantity": quantity},
@@ -158,7 +158,7 @@ def _sum(
     sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
     moving = _moving([quantity, *products])
     return establish(
-        "conservation.sum",
+        "motion.sum",
         None,
         lambda: Relation(Terms(*_added(sides[0])), "=", Terms(*_added(sides[1]))),
         {},

@@ -80,7 +80,7 @@ def speed_from_energy(
         return ImmutableDenseMatrix([diff(found, letter) / 2, there]), ImmutableDenseMatrix([expected, initial**2])
 
     return establish(
-        "energy_integral.speed_from_energy",
+        "motion.speed_from_energy",
         speed**2,
         lambda *_: Ratio(Factors(TWO, Terms(at_start, -rest)), mass),
         {"kept": conserved},
@@ -118,7 +118,7 @@ def _energy_kept(
         return ImmutableDenseMatrix([there, changing, found.left, is_equation]), ImmutableDenseMatrix([0, 0, value, 1])
 
     return establish(
-        "energy_integral.energy_kept",
+        "motion.energy_kept",
         None,
         lambda e: Relation(e, "=", at_start),
         {"energy": energy},
@@ -202,7 +202,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
 
     period, integral = scalar(symbol or free_letter("tau")), SwingTime(value, q, amplitude, Integer(order))
     return establish(
-        "energy_integral.period_by_energy",
+        "motion.period_by_energy",
         period if exact else letter_of_limit(period, amplitude, ZERO),
         lambda *_: Factors(Integer(4), integral),
         {"squared": squared, "approach": Approach(amplitude, ZERO)},

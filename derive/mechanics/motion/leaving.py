@@ -56,7 +56,7 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
     if sign_known(value) == 1:
         return establish(
-            "conditions.leaves_contact",
+            "motion.leaves_contact",
             None,
             lambda v: Relation(v, ">", 0),
             {"force": force},
@@ -96,7 +96,7 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
         return Relation(found.left, found.mark, on_the_way + 7 * at_place), Relation(unknown, "=", u * at_start)
 
     return establish(
-        "conditions.leaves_contact",
+        "motion.leaves_contact",
         None,
         lambda v: Relation(v, "=", 0),
         {"force": force},
@@ -166,7 +166,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
         return found.residual * 0 + sure, Integer(1)
 
     return establish(
-        "conditions.leaves_contact",
+        "motion.leaves_contact",
         None,
         lambda v: Relation(v, mark, 0),
         {"force": force},

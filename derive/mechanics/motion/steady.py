@@ -110,7 +110,7 @@ def _of_equation(
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
     kept = {s: v for s, v in steady.rates.items() if rate(s) != v}
     return establish(
-        "steady.motion",
+        "motion.steady_motion",
         None,
         lambda *_: Relation(bound(equation.value.left, still), "=", 0),
         {"equation": equation, "coordinate": q.symbol},
@@ -163,7 +163,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
     told |= {f"turns_{n}": (rate(s), v) for n, (s, v) in enumerate(steady.rates.items(), 1) if rate(s) != v}
     return establish(
-        "steady.motion",
+        "motion.steady_motion",
         None,
         lambda L: Relation(Partial(L, q.symbol), "=", 0),
         {"lagrangian": of},

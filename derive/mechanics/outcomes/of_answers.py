@@ -316,18 +316,18 @@ def _in_step(*signs: int | None) -> Predicate:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "equations.let": {
+    "answers.let": {
         "generic": _as_let(False, False),
         "because": _as_let(False, True),
         "equation": _as_let(True, False),
         "equation_because": _as_let(True, True),
     },
-    "solving.solved_for": {
+    "answers.solved_for": {
         "alone": _one_of(True, True),
         "several": _one_of(False, True),
         "following": _one_of(False, False),
     },
-    "roots.roots": {
+    "answers.roots": {
         word: _where_the_coefficients_last(predicate)
         for word, predicate in (
             ("single", _single),
@@ -337,22 +337,22 @@ _TABLE: dict[str, dict[str, Predicate]] = {
             ("following", _of_several(False)),
         )
     },
-    "roots.roots_absent": {"none": _absent, "none_positive": _absent, "none_reached": _beyond_one},
-    "substitution.put_in": {
+    "answers.roots_absent": {"none": _absent, "none_positive": _absent, "none_reached": _beyond_one},
+    "answers.put_in": {
         "results": _put_in(False),
         "values": _put_in(True),
         "zero": lambda facts: _put_in(True)(facts) and is_zero(facts.result),
         "identity": _identity,
         "again": lambda facts: bool(equal(facts.result, facts.inputs["found"])),
     },
-    "conditions.where": {
+    "answers.where": {
         "solved": _compared(False),
         "squared": _compared(True),
         "always": _always(True),
         "never": lambda facts: _always(False)(facts) and not is_zero(facts.inputs["difference"]),
         "equal": lambda facts: _always(False)(facts) and is_zero(facts.inputs["difference"]),
     },
-    "limits.limiting_case": {
+    "answers.limiting_case": {
         "finite": lambda facts: _is_nothing(facts) or _goes_as(0)(facts),
         "vanishes": _goes_as(1),
         "diverges": _goes_as(-1),
@@ -361,11 +361,11 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "near": _near(),
         "exact": _nothing_left_out,
     },
-    "extrema.place": {"greatest": _bent(1), "least": _bent(-1)},
-    "extrema.value": {"greatest": _bent(1), "least": _bent(-1)},
-    "energy_integral.energy_kept": {"from_rest": _released(True), "moving": _released(False)},
-    "energy_integral.period_by_energy": {"exact": _isochronous(True), "expanded": _isochronous(False)},
-    "linear_motion.solution": {
+    "answers.extremum_place": {"greatest": _bent(1), "least": _bent(-1)},
+    "answers.extremum_value": {"greatest": _bent(1), "least": _bent(-1)},
+    "motion.energy_kept": {"from_rest": _released(True), "moving": _released(False)},
+    "motion.period_by_energy": {"exact": _isochronous(True), "expanded": _isochronous(False)},
+    "vibrations.solution": {
         word: _free_motion(word)
         for word in (
             "oscillates",
@@ -379,8 +379,8 @@ _TABLE: dict[str, dict[str, Predicate]] = {
             "accumulates",
         )
     },
-    "linear_motion.steady_amplitude": {"damped": _loses(True), "undamped": _loses(False)},
-    "linear_motion.lag": {"damped": _loses(True), "undamped": _in_step(1, None), "opposite": _in_step(-1)},
+    "vibrations.steady_amplitude": {"damped": _loses(True), "undamped": _loses(False)},
+    "vibrations.lag": {"damped": _loses(True), "undamped": _in_step(1, None), "opposite": _in_step(-1)},
 }
 
 for _rule, _predicates in _TABLE.items():

@@ -47,7 +47,7 @@ def _to_order(wanted: int | None) -> Predicate:
 
 
 outcomes_of(
-    "approximate.equation_in_limit",
+    "answers.equation_in_limit",
     {
         "small": _leading(0),
         "large": _leading(oo, -oo),

@@ -200,42 +200,42 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "bodies.centre_component": {"on_axis": _is_round, "generic": _counted_along_one_axis},
     "bodies.axis_vector": {"diagonal": _joins_corners, "edge": _along_the_edge, "components": lasts},
-    "inertia.entry": {
+    "rotation.entry": {
         "moment": _entry("xx", "yy", "zz"),
         "product": _entry("xy", "xz", "yz"),
         "mirrored": _is_mirrored,
         "across": _entry("xx", round_body=True),
         "along": _entry("zz", round_body=True),
     },
-    "inertia.entry_moved": {
+    "rotation.entry_moved": {
         "moment": _entry("xx", "yy", "zz"),
         "product": _entry("xy", "xz", "yz"),
         "across": _entry("xx", round_body=True),
         "along": _entry("zz", round_body=True),
         "outward": _entry("xx", "yy", "zz", "xy", "xz", "yz"),
     },
-    "inertia.inertia_tensor": {**TENSORS, **_ROUND_TENSORS},
-    "inertia.moved_to": {**TENSORS, **_ROUND_TENSORS, "outward": _is_away_from_the_centre},
-    "inertia.agreement": {
+    "rotation.inertia_tensor": {**TENSORS, **_ROUND_TENSORS},
+    "rotation.moved_to": {**TENSORS, **_ROUND_TENSORS, "outward": _is_away_from_the_centre},
+    "rotation.agreement": {
         "generic": lambda facts: bool(facts.inputs["turn"].is_Identity),
         "turned": lambda facts: facts.inputs["turn"] == _HALF_TURN_ABOUT_X,
     },
-    "principal.principal_moments": {
+    "rotation.principal_moments": {
         "isotropic": _moments(1, diagonal=True),
         "two_equal": _moments(2, diagonal=True),
         "distinct": _moments(3, diagonal=True),
         "two_equal_roots": _moments(2, diagonal=False),
         "roots": _moments(3, diagonal=False),
     },
-    "principal.axis": {
+    "rotation.principal_axis": {
         "single": _axis_of(2, alone=True),
         "symmetry": _axis_of_symmetry,
         "free": _axis_of(2, alone=False),
         "any": _axis_of(1),
         "distinct": _axis_of(3),
     },
-    "principal.isotropic_where": {word: _moments_compared(word) for word in ("special", "always", "never")},
-    "free_rotation.principal_tensor": {"generic": _tensor(3), "two_equal": _tensor(2), "isotropic": _tensor(1)},
+    "rotation.isotropic_where": {word: _moments_compared(word) for word in ("special", "always", "never")},
+    "rotation.principal_tensor": {"generic": _tensor(3), "two_equal": _tensor(2), "isotropic": _tensor(1)},
 }
 
 for _rule, _predicates in _TABLE.items():

@@ -113,7 +113,7 @@ def _bends(sign: int) -> Predicate:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "roots.one_of_two": {
+    "answers.one_of_two": {
         "smaller": _whether(True, _SMALLER),
         "larger": _whether(True, _LARGER),
         "smaller_where_real": _whether(False, _roots_fit(lambda this, other, b: abs(this) < abs(other))),
@@ -123,7 +123,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "coinciding": lambda facts: sign_known(facts.inputs["quadratic"].discriminant) == 0,
         "none": lambda facts: sign_known(facts.inputs["quadratic"].discriminant) == -1,
     },
-    "roots.together": {
+    "answers.roots_together": {
         "two": _roots(1),
         "opposite": _roots(1, product=-1),
         "none": _roots(-1),
@@ -131,21 +131,21 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "conditional": _roots(None),
         "linear": _linear,
     },
-    "roots.discriminant": {
+    "answers.discriminant": {
         "positive": sign_is(1),
         "negative": sign_is(-1),
         "vanishing": sign_is(0),
         "conditional": sign_is(None),
         "linear": _linear,
     },
-    "numbers.value": {
+    "numeric.value": {
         "exact": _of_numbers("exact"),
         "measured": _of_numbers("measured"),
         "integrated": lambda facts: "integral" in facts.inputs and bool(facts.result.is_positive),
         "minimum": _bends(1),
         "maximum": _bends(-1),
     },
-    "numbers.comparison": {"fulfilled": _numbers_fulfil(True), "not_fulfilled": _numbers_fulfil(False)},
+    "numeric.comparison": {"fulfilled": _numbers_fulfil(True), "not_fulfilled": _numbers_fulfil(False)},
 }
 
 for _rule, _predicates in _TABLE.items():

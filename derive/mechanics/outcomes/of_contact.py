@@ -87,7 +87,7 @@ def _turned_back(facts: Judged) -> bool:
 
 
 outcomes_of(
-    "conditions.leaves_contact",
+    "motion.leaves_contact",
     {
         "lost": _lost(later=False),
         "lost_later": _lost(later=True),

@@ -348,20 +348,20 @@ def _level_as_told(facts: Judged) -> bool:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "equilibria.potential_at_rest": {
+    "rest.potential_at_rest": {
         "generic": _both(_is_at_rest, _is_what_the_lagrangian_has),
         "pushed": _both(_is_at_rest, lambda facts: not _is_what_the_lagrangian_has(facts)),
     },
-    "equilibria.condition": {
+    "rest.condition": {
         "generic": lambda facts: lasts(_residual(facts)),
         "zero": lambda f: vanishes(_residual(f)),
     },
-    "equilibria.rest": {
+    "rest.equilibrium": {
         "only": _both(_anywhere, lambda facts: not _several(facts), _all_are_told, _sides_as_told, _level_as_told),
         "always": _both(_anywhere, _several, _all_are_told, _sides_as_told, _level_as_told),
         "where": _both(_under_its_condition, _all_are_told, _sides_as_told, _level_as_told),
     },
-    "minima.stability": {
+    "rest.stability": {
         "stable": _both(_always(1), _kinetic_energy_is_positive),
         "unstable": _both(_always(-1), _runs_away),
         "stable_by_higher_order": _both(_higher("stable"), _higher_lasts),
@@ -371,19 +371,19 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "depends_stable_on_border": _both(_depends("stable"), _runs_away, _higher_lasts),
         "depends_unstable_on_border": _both(_depends("unstable"), _runs_away, _higher_lasts),
     },
-    "minima.stable_where": {
+    "rest.stable_where": {
         "with_border": _bordered("stable"),
         "without_border": _bordered("unstable"),
         "open": _bordered(None),
     },
-    "minima.stability_of_several": {
+    "rest.stability_of_several": {
         "stable": _both(_always(1), _kinetic_energy_is_positive),
         "unstable": _both(_always(-1), _runs_away),
         "unstable_along": _both(_always(-1), _runs_away, _falls_as_told),
         "level": _both(_always(0), _nothing_turns_it),
         "depends": _both(lambda facts: len(_signs(facts)) > 1, _runs_away),
     },
-    "minima.stability_on_constraints": {
+    "rest.stability_on_constraints": {
         word: lambda facts, sign=sign: signs_on_constraints(facts, _numbers_here(facts)) == sign
         for word, sign in (("stable", {1}), ("unstable", {-1}), ("level", {0}))
     }

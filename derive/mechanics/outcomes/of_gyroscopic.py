@@ -209,14 +209,14 @@ def _has_turning(facts: Judged) -> bool:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "gyroscopic.characteristic": {"generic": _has_turning, "plain": lambda facts: not _has_turning(facts)},
-    "gyroscopic.frequency": {
+    "vibrations.gyroscopic_characteristic": {"generic": _has_turning, "plain": lambda facts: not _has_turning(facts)},
+    "vibrations.gyroscopic_frequency": {
         "oscillating": _frequency(1),
         "growing": _frequency(-1),
         "free": _free,
         "conditional": _frequency(None),
     },
-    "gyroscopic.motion": {
+    "vibrations.gyroscopic_motion": {
         "departing": _departing,
         "circle_forwards": _sense(1, circle=True),
         "circle_backwards": _sense(-1, circle=True),
@@ -226,7 +226,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "straight": _straight,
         "generic": lambda facts: len(_moving(facts)) > 2,
     },
-    "gyroscopic.stability": {
+    "vibrations.gyroscopic_stability": {
         "stable": _always(True),
         "unstable": _always(False),
         "depends": lambda facts: _depends(facts) and len(facts.inputs["conditions"]) == 1,
@@ -234,13 +234,13 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "further": lambda facts: _depends(facts) and facts.result in facts.inputs["conditions"][1:-1],
         "last": lambda facts: _depends(facts) and _is_among_conditions(facts, -1),
     },
-    "damped.characteristic": {
+    "vibrations.damped_characteristic": {
         "one": lambda facts: Poly(facts.result.left, facts.inputs["exponent"]).degree() == 2,
         "several": lambda facts: Poly(explicit(facts.result.left), facts.inputs["exponent"]).degree() > 2,
     },
-    "damped.rate": {kind: _rate(kind) for kind in ("oscillator", "decay", "growth")},
-    "damped.frequency": {"oscillating": _damped(1), "conditional": _damped(None), "overdamped": _damped(-1)},
-    "damped.shape": {
+    "vibrations.damped_rate": {kind: _rate(kind) for kind in ("oscillator", "decay", "growth")},
+    "vibrations.damped_frequency": {"oscillating": _damped(1), "conditional": _damped(None), "overdamped": _damped(-1)},
+    "vibrations.damped_shape": {
         "in_phase": _sign_of_product(1),
         "opposite": _sign_of_product(-1),
         "generic": lambda facts: len(facts.result) > 1,

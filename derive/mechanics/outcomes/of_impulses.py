@@ -27,9 +27,9 @@ def _restitution(wanted: int | None) -> Predicate:
     return is_so
 
 
-outcomes_of("impulses.momentum_jump", {"struck": _is_struck(True), "free": _is_struck(False)})
+outcomes_of("impacts.momentum_jump", {"struck": _is_struck(True), "free": _is_struck(False)})
 outcomes_of(
-    "impulses.meeting_condition",
+    "impacts.meeting_condition",
     {
         "together": _restitution(0),
         "kept": _restitution(0),
@@ -38,6 +38,6 @@ outcomes_of(
     },
 )
 outcomes_of(
-    "impulses.work_of_impulses",
+    "impacts.work_of_impulses",
     {"zero": vanishes, "lost": always_sign(-1), "gained": always_sign(1), "generic": always_sign(None)},
 )

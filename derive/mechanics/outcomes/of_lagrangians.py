@@ -164,7 +164,7 @@ def _keeps_along_the_motion(facts: Judged) -> bool:
     in_rates = {p: matter.momentum_along(q) for q, p in space.pairs}
     sums = [bound(diff(f, p), in_rates) * (matter.inertia_along(q) - matter.force_along(q)) for q, p in space.pairs]
     kept = equal(by_functions_of_time(bound(f, in_rates), matter.coordinates), Add(*sums))
-    return other.step.rule == "canonical.hamiltonian" and bool(kept)
+    return other.step.rule == "hamilton.hamiltonian" and bool(kept)
 
 
 def _bracket_as_told(facts: Judged, outcome: str) -> bool:
@@ -189,48 +189,48 @@ def _shifted_as_told(facts: Judged, outcome: str) -> bool:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "brackets.poisson_bracket": {
+    "hamilton.poisson_bracket": {
         "generic": lasts,
         "zero": vanishes,
         "conserved": lambda facts: vanishes(facts) and _keeps_along_the_motion(facts),
     },
-    "canonical.conjugate_momentum": {"generic": lasts, "zero": vanishes},
-    "canonical.rate_by_momenta": {
+    "lagrange.conjugate_momentum": {"generic": lasts, "zero": vanishes},
+    "hamilton.rate_by_momenta": {
         "alone": lambda facts: len(facts.quantities) == 1,
         "together": lambda facts: len(facts.quantities) > 1,
     },
-    "canonical.hamiltonian": _ENERGIES,
-    "canonical.hamilton_equation": {
+    "hamilton.hamiltonian": _ENERGIES,
+    "hamilton.hamilton_equation": {
         "rate": lambda facts: _is_equation_of(facts, facts.inputs["coordinate"]),
         "force": lambda facts: _pushed(facts, beside=False) and not is_zero(facts.result.right),
         "cyclic": lambda facts: _pushed(facts, beside=False) and is_zero(facts.result.right),
         "applied": lambda facts: _pushed(facts, beside=True),
     },
-    "effective.conserved": {
+    "hamilton.conserved": {
         "angular": _conserved("angle"),
         "linear": _conserved("length"),
         "other": _conserved(None),
     },
-    "effective.routhian": {
+    "hamilton.routhian": {
         "one": lambda facts: _constants(facts) == 1,
         "several": lambda facts: _constants(facts) > 1,
     },
-    "effective.effective_potential": {
+    "hamilton.effective_potential": {
         "reduced": _seen_by_the_rest(True, None),
         "driven": _seen_by_the_rest(False, True),
         "unchanged": _seen_by_the_rest(False, False),
         "given": lambda facts: energies_of(facts.quantities["lagrangian"]) is None and _constants(facts) == 0,
     },
-    "symmetry.change": {
+    "lagrange.change_under_shift": {
         "none": lambda facts: facts.result.mark == "=" and is_zero(facts.result.right),
         "gain": lambda facts: facts.result.mark == "=" and not is_zero(facts.result.right),
     },
-    "symmetry.noether": {
+    "lagrange.noether": {
         "symmetry": lambda facts: _carries_momenta_alone(facts),
         "with_gain": lambda facts: not _carries_momenta_alone(facts),
     },
-    "energy.energy_function": _ENERGIES,
-    "energy.energy_function_rate": {
+    "lagrange.energy_function": _ENERGIES,
+    "lagrange.energy_function_rate": {
         "conserved": _rate_by(in_time=None, worked=False),
         "changes": _rate_by(in_time=True, worked=False),
         "work": _rate_by(in_time=False, worked=True),
@@ -242,5 +242,5 @@ _TABLE: dict[str, dict[str, Predicate]] = {
 for _rule, _predicates in _TABLE.items():
     outcomes_of(_rule, _predicates)
 
-told_by("brackets.poisson_bracket", _bracket_as_told)
-told_by("symmetry.change", _shifted_as_told)
+told_by("hamilton.poisson_bracket", _bracket_as_told)
+told_by("lagrange.change_under_shift", _shifted_as_told)

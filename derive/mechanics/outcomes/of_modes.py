@@ -175,7 +175,7 @@ def _drifts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "linearised.equation": {
+    "vibrations.linearised": {
         "generic": _linear(displaced=False, lossy=False, driven=False),
         "displaced": _linear(displaced=True, lossy=False, driven=False),
         "damped": _linear(displaced=False, lossy=True, driven=False),
@@ -183,14 +183,14 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "driven": _linear(displaced=False, lossy=None, driven=True),
         "displaced_driven": _linear(displaced=True, lossy=None, driven=True),
     },
-    "superposition.motion": {"generic": lasts, "zero": vanishes},
-    "modes.frequency": {
+    "vibrations.superposition": {"generic": lasts, "zero": vanishes},
+    "vibrations.mode_frequency": {
         f"{word}{suffix}": _frequency(sign, repeated)
         for word, sign in (("oscillating", 1), ("growing", -1), ("free", 0), ("conditional", None))
         for suffix, repeated in (("", False), ("_repeated", True))
     }
     | {"ordered": _is_in_order(whole=True), "ordered_part": _is_in_order(whole=False)},
-    "modes.shape": {
+    "vibrations.mode_shape": {
         "in_phase": _of_pair(same=True),
         "opposite": _of_pair(same=False),
         "alone": _alone,
@@ -203,5 +203,5 @@ _TABLE: dict[str, dict[str, Predicate]] = {
 
 for _rule, _predicates in _TABLE.items():
     outcomes_of(_rule, _predicates)
-for _rule in ("modes.frequency", "modes.shape"):
+for _rule in ("vibrations.mode_frequency", "vibrations.mode_shape"):
     told_by(_rule, _drifts_as_told)

@@ -99,39 +99,39 @@ def _on_the_sides_that_are_assumed(facts: Judged) -> bool:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "coordinates.rate_of": {"generic": lasts, "zero": vanishes},
-    "systems.squared_speed": {
+    "kinematics.rate_of": {"generic": lasts, "zero": vanishes},
+    "lagrange.squared_speed": {
         "alone": lambda facts: len(facts.subject.body.particles) == 1 and _free_bodies(facts) == 0,
         "centre": lambda facts: not facts.subject.body.particles and _free_bodies(facts) <= 1,
         "of_several": lambda facts: len(facts.subject.body.masses) > 1,
     },
-    "systems.potential_energy": {"generic": _on_the_sides_that_are_assumed, "zero": vanishes},
-    "systems.magnetic_term": {
+    "lagrange.potential_energy": {"generic": _on_the_sides_that_are_assumed, "zero": vanishes},
+    "lagrange.magnetic_term": {
         "alone": lambda facts: facts.inputs["fields"] == 1,
         "several": lambda facts: facts.inputs["fields"] > 1,
     },
-    "lagrangian.lagrangian": {
+    "lagrange.lagrangian": {
         "generic": lambda facts: "magnetic" not in facts.inputs,
         "in_field": lambda facts: "magnetic" in facts.inputs,
     },
-    "lagrangian.generalized_force": {"generic": lasts, "zero": vanishes},
-    "lagrangian.equation_of_motion": {"generic": _not_cyclic, "cyclic": _cyclic},
-    "oscillations.frequency_squared": _SIGNS,
-    "oscillations.frequency": {
+    "lagrange.generalized_force": {"generic": lasts, "zero": vanishes},
+    "lagrange.equation_of_motion": {"generic": _not_cyclic, "cyclic": _cyclic},
+    "vibrations.frequency_squared": _SIGNS,
+    "vibrations.frequency": {
         "stable": _rate_of_square(1, 1),
         "unstable": _rate_of_square(-1, -1),
         "neutral": _rate_of_square(0, 1),
         "conditional": _rate_of_square(None, 1),
         "growing": _rate_of_square(None, -1),
     },
-    "potentials.slope": {"slope": _order_of(1), "curvature": _order_of(2), "higher": _order_of(2, more=True)},
-    "potentials.extreme_value": {
+    "rest.slope": {"slope": _order_of(1), "curvature": _order_of(2), "higher": _order_of(2, more=True)},
+    "rest.extreme_value": {
         "minimum": _bent(1),
         "maximum": _bent(-1),
         "level": _bent(0),
         "conditional": _bent(None),
     },
-    "potentials.leading_order": {
+    "rest.leading_order": {
         **{
             shape: _shaped(shape, at_bound=False)
             for shape in ("minimum", "maximum", "inflection", "conditional", "flat")
@@ -146,4 +146,4 @@ _TABLE: dict[str, dict[str, Predicate]] = {
 for _rule, _predicates in _TABLE.items():
     outcomes_of(_rule, _predicates)
 
-told_by("lagrangian.generalized_force", _by_its_coordinate)
+told_by("lagrange.generalized_force", _by_its_coordinate)

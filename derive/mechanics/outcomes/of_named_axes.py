@@ -94,18 +94,18 @@ def _of_its_equation(facts: Judged, _: Any) -> bool:
 
 
 _TABLE: dict[str, dict[str, Naming]] = {
-    "wobble.linear_equation": {
+    "rotation.perturbed_rotation": {
         "letter": _about_that_axis,
         "along": _steady_component,
         "speed": _to_first_order,
         "small": _another_component,
     },
-    "wobble.wobble_squared": {"small_1": _small_one("first"), "small_2": _small_one("second")},
-    "wobble.body_cone_rate": dict.fromkeys(("along", "around", "beside"), _of_its_equation),
-    "cones.precession_rate": {"across": _moment_across},
-    "tensors.turned_tensor": {"angle": _turned_by},
-    "general.cell_of": {"cell": _size_of_a_cell, "place": _mapped_to, "u": _variable_of_the_map},
-    "general.normalised_density": {"profile": _proportional_to},
+    "rotation.perturbation_rate_squared": {"small_1": _small_one("first"), "small_2": _small_one("second")},
+    "rotation.body_cone_rate": dict.fromkeys(("along", "around", "beside"), _of_its_equation),
+    "rotation.precession_rate": {"across": _moment_across},
+    "rotation.turned_tensor": {"angle": _turned_by},
+    "bodies.cell_of": {"cell": _size_of_a_cell, "place": _mapped_to, "u": _variable_of_the_map},
+    "bodies.normalised_density": {"profile": _proportional_to},
 }
 
 for _rule, _named in _TABLE.items():

@@ -245,7 +245,7 @@ def _momentum_there(facts: Judged, relation: Any) -> bool:
     behind = list(facts.quantities["potential"].ancestors())
     if steady is None or relation.mark != "=":
         return False
-    kept = [dict(e.step.roles) for e in behind if e.step.rule == "effective.value_kept"]
+    kept = [dict(e.step.roles) for e in behind if e.step.rule == "lagrange.value_kept"]
     values = {roles["momentum"]: explicit(roles["value"]) for roles in kept}
     stated = {relation.left: explicit(relation.right)}
     for letter, value in {**values, relation.left: relation.left}.items():
@@ -389,60 +389,60 @@ def _at_its_place(facts: Judged, state: Any) -> bool:
 
 
 _TABLE: dict[str, dict[str, Naming]] = {
-    "lagrangian.equation_of_motion": {"coordinate": _equation_of},
-    "lagrangian.generalized_force": {"coordinate": _differentiated_by},
-    "forced.equation_of_motion": {"coordinate": _equation_of},
-    "impulses.momentum_jump": {"coordinate": _momentum_of},
-    "impulses.meeting_condition": {"impulse": _impulse_of_its_condition},
-    "equilibria.condition": {"steady": _only_coordinate},
-    "equilibria.rest": {"steady": _only_coordinate},
-    "minima.stability": {"steady": _only_coordinate, "place": _level_there("potential_here"), "state": _at_its_place},
-    "minima.stability_on_constraints": {
+    "lagrange.equation_of_motion": {"coordinate": _equation_of},
+    "lagrange.generalized_force": {"coordinate": _differentiated_by},
+    "lagrange.forced_equation": {"coordinate": _equation_of},
+    "impacts.momentum_jump": {"coordinate": _momentum_of},
+    "impacts.meeting_condition": {"impulse": _impulse_of_its_condition},
+    "rest.condition": {"steady": _only_coordinate},
+    "rest.equilibrium": {"steady": _only_coordinate},
+    "rest.stability": {"steady": _only_coordinate, "place": _level_there("potential_here"), "state": _at_its_place},
+    "rest.stability_on_constraints": {
         "state": _on_the_constraints,
         "moving": _on_the_constraints,
         "constraint": _on_the_constraints,
         "way": _along_the_constraints,
     },
-    "minima.stability_of_several": {"state": _at_its_place, "moving": _falls_along, "direction": _falls_along},
-    "potentials.extreme_value": {"place": _extreme_there},
-    "potentials.leading_order": {"case": _flat_in_that_case},
-    "solving.solved_for": {"unknown": _solved_for},
-    "linearised.equation": {
+    "rest.stability_of_several": {"state": _at_its_place, "moving": _falls_along, "direction": _falls_along},
+    "rest.extreme_value": {"place": _extreme_there},
+    "rest.leading_order": {"case": _flat_in_that_case},
+    "answers.solved_for": {"unknown": _solved_for},
+    "vibrations.linearised": {
         "alone": _alone_in_its_equation,
         "sine": _small_function(sin),
         "cosine": _small_function(cos),
     },
-    "energy_integral.energy_kept": {"place": _energy_there},
-    "energy_integral.period_by_energy": {"amplitude": _turns_back_there},
-    "conditions.leaves_contact": {"from": _pushes_there, "place": _force_vanishes_there},
-    "extrema.place": {"letter": _slope_vanishes_by},
-    "substitution.put_in": {"value": _put_in},
-    "steady.motion": {"stays": _stays_and_turns, "turns": _stays_and_turns},
-    "steady.frequency_squared": {
+    "motion.energy_kept": {"place": _energy_there},
+    "motion.period_by_energy": {"amplitude": _turns_back_there},
+    "motion.leaves_contact": {"from": _pushes_there, "place": _force_vanishes_there},
+    "answers.extremum_place": {"letter": _slope_vanishes_by},
+    "answers.put_in": {"value": _put_in},
+    "motion.steady_motion": {"stays": _stays_and_turns, "turns": _stays_and_turns},
+    "vibrations.frequency_squared_about": {
         "momentum": _momentum_there,
         "exists": _there_where_it_exists,
         "taken_out": _taken_out,
     },
-    "damped.characteristic": {"trial": _trial(1, "exponent")},
-    "gyroscopic.characteristic": {"trial": _trial(I, "omega")},
-    "gyroscopic.motion": {"displacements": _moves_so, "first": _moves_as(0), "second": _moves_as(1)},
-    "modes.shape": {"moving": _moves_alone, "drift": _nothing_is_left},
-    "modes.frequency": {"drift": _nothing_is_left, "root": _root_under_the_sign},
-    "oscillations.frequency_squared": {
+    "vibrations.damped_characteristic": {"trial": _trial(1, "exponent")},
+    "vibrations.gyroscopic_characteristic": {"trial": _trial(I, "omega")},
+    "vibrations.gyroscopic_motion": {"displacements": _moves_so, "first": _moves_as(0), "second": _moves_as(1)},
+    "vibrations.mode_shape": {"moving": _moves_alone, "drift": _nothing_is_left},
+    "vibrations.mode_frequency": {"drift": _nothing_is_left, "root": _root_under_the_sign},
+    "vibrations.frequency_squared": {
         "oscillator": _oscillator,
         "inertia": _divided_by,
         "acceleration": _its_acceleration,
     },
-    "linear_motion.solution": {"start": _as_told(starts_as_told), "start_rate": _as_told(starts_as_told)},
-    "conservation.sum": {"factor": _as_told(sum_of_the_equations_times_their_factors)},
-    "numbers.value": {"given": _as_told(given_as_the_condition_has_it)},
-    "approximate.equation_in_limit": {
+    "vibrations.solution": {"start": _as_told(starts_as_told), "start_rate": _as_told(starts_as_told)},
+    "motion.sum": {"factor": _as_told(sum_of_the_equations_times_their_factors)},
+    "numeric.value": {"given": _as_told(given_as_the_condition_has_it)},
+    "answers.equation_in_limit": {
         "small": _small_there,
         "place": _near_that,
         "power": _highest_power,
         "short": _for_short_times,
     },
-    "limits.limiting_case": {"place": _goes_to, "bound": _right_of_a_bound},
+    "answers.limiting_case": {"place": _goes_to, "bound": _right_of_a_bound},
 }
 
 for _rule, _named in _TABLE.items():

@@ -133,34 +133,34 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "generic": lambda facts: never_vanishes(facts.result),
         "in_general": lambda facts: lasts(facts) and not never_vanishes(facts.result),
     },
-    "free_rotation.rate_in_space": {
+    "rotation.rate_in_space": {
         "generic": _rate_is(None, None),
         "zero": _rate_is(True, False),
         "zero_in_both": _rate_is(True, True),
         "driven": _rate_is(False, None),
     },
-    "free_rotation.euler_equation": {
+    "rotation.euler_equation": {
         "coupled": _euler(False, "here"),
         "driven": _euler(True, ""),
         "isotropic": _euler(False, "nowhere"),
         "uncoupled": _euler(False, "elsewhere"),
     },
-    "free_rotation.rate_in_body": {
+    "rotation.rate_in_body": {
         "zero": vanishes,
         "in_general": lambda facts: not is_zero(facts.result) and is_zero(facts.inputs["torque"]),
         "driven": lambda facts: not is_zero(facts.inputs["torque"]),
     },
-    "conservation.product": {
+    "motion.product": {
         "alone": lambda facts: facts.inputs["of_many"] == 1 and _times_its_factor(facts),
         "one_of_several": lambda facts: facts.inputs["of_many"] > 1 and _times_its_factor(facts),
     },
-    "conservation.sum": {word: _sum_left(word) for word in ("plain", "cancel", "remain")},
-    "conservation.rate_under": {"conserved": vanishes, "changes": lasts},
-    "steady.constant_angular_velocity": {"generic": _given_as("constant"), "momentary": _given_as("momentary")},
-    "cones.tangent_between": {"generic": lasts, "parallel": vanishes},
-    "cones.vector_component": {"generic": lasts, "zero": vanishes},
-    "equations.squared_magnitude": {"generic": lasts, "zero": vanishes},
-    "equations.magnitude": {"generic": lasts, "zero": vanishes},
+    "motion.sum": {word: _sum_left(word) for word in ("plain", "cancel", "remain")},
+    "motion.rate_under": {"conserved": vanishes, "changes": lasts},
+    "rotation.constant_angular_velocity": {"generic": _given_as("constant"), "momentary": _given_as("momentary")},
+    "rotation.tangent_between": {"generic": lasts, "parallel": vanishes},
+    "rotation.vector_component": {"generic": lasts, "zero": vanishes},
+    "answers.squared_magnitude": {"generic": lasts, "zero": vanishes},
+    "answers.magnitude": {"generic": lasts, "zero": vanishes},
 }
 
 for _rule, _predicates in _TABLE.items():

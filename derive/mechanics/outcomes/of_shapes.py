@@ -75,31 +75,31 @@ def _part_of_sign(sign: int) -> Predicate:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "general.cell_of": {"curve": _with_variables(1), "surface": _with_variables(2), "solid": _with_variables(3)},
-    "general.size_by_integration": {word: _of_filling(word) for word in ("length", "area", "volume")},
-    "tensors.turned_tensor": TENSORS,
-    "assembly.inertia_tensor": TENSORS,
-    "assembly.share_of_mass": {
+    "bodies.cell_of": {"curve": _with_variables(1), "surface": _with_variables(2), "solid": _with_variables(3)},
+    "bodies.size_by_integration": {word: _of_filling(word) for word in ("length", "area", "volume")},
+    "rotation.turned_tensor": TENSORS,
+    "rotation.tensor_of_parts": TENSORS,
+    "rotation.share_of_mass": {
         "part": _part_of_sign(1),
         "hole": _part_of_sign(-1),
     },
-    "assembly.centre_of_mass": {"generic": _all_is_added, "cut_out": lambda facts: not _all_is_added(facts)},
-    "assembly.part_tensor": {
+    "rotation.centre_of_parts": {"generic": _all_is_added, "cut_out": lambda facts: not _all_is_added(facts)},
+    "rotation.tensor_of_part": {
         "turned_there": _moved(False, True),
         "moved": _moved(True, False),
         "turned_moved": _moved(True, True),
     },
-    "assembly.own_moment": {"none": _on_its_axis, "flat": _is_flat},
-    "assembly.moment_of_inertia": {
+    "rotation.own_moment": {"none": _on_its_axis, "flat": _is_flat},
+    "rotation.moment_of_parts": {
         "moved": _beside_the_axis,
         "on_axis": lambda facts: not _beside_the_axis(facts) and _with_moments(facts) != 1,
         "alone": lambda facts: not _beside_the_axis(facts) and _with_moments(facts) == 1,
     },
-    "tensors.tensor_entry": {
+    "rotation.tensor_entry": {
         "moment": lambda facts: len(set(facts.words["entry"])) == 1,
         "product": lambda facts: len(set(facts.words["entry"])) == 2,
     },
-    "tensors.principal_angle": {"generic": lasts, "zero": vanishes},
+    "rotation.principal_angle": {"generic": lasts, "zero": vanishes},
 }
 
 for _rule, _predicates in _TABLE.items():
@@ -127,10 +127,10 @@ def _inward(facts: Judged, outcome: str) -> bool:
 
 
 _TOLD: dict[str, Any] = {
-    "general.cell_of": _cell_is_positive,
-    "tensors.turned_tensor": _turned_as_told,
-    "inertia.inertia_tensor": _edges_along_the_axes,
-    "inertia.moved_to": _inward,
+    "bodies.cell_of": _cell_is_positive,
+    "rotation.turned_tensor": _turned_as_told,
+    "rotation.inertia_tensor": _edges_along_the_axes,
+    "rotation.moved_to": _inward,
 }
 
 for _rule, _told in _TOLD.items():

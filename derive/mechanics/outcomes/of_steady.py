@@ -16,12 +16,12 @@ def _nothing_else_moves(facts: Judged) -> bool:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "steady.motion": {
+    "motion.steady_motion": {
         "generic": lambda facts: not is_zero(facts.result.residual),
         "always": lambda facts: is_zero(facts.result.residual),
         "of_equation": _nothing_else_moves,
     },
-    "steady.frequency_squared": {
+    "vibrations.frequency_squared_about": {
         "stable": sign_where_it_exists(1),
         "unstable": sign_where_it_exists(-1),
         "neutral": lambda facts: is_zero(facts.result),

@@ -63,34 +63,34 @@ def _is_stretched(facts: Judged) -> bool:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "combination.combination": {
+    "answers.combination": {
         "generic": lambda facts: bool(facts.inputs),
         "named": lambda facts: not facts.inputs,
     },
-    "systems.distance": {
+    "model.distance": {
         "spring": lambda facts: _of_a_spring(facts, several=False),
         "springs": lambda facts: _of_a_spring(facts, several=True),
         "other": lambda facts: not any(_of_a_spring(facts, several) for several in (False, True)),
     },
-    "located.component": {"centre": _of_a_centre, "place": lambda facts: "centre" not in facts.inputs},
-    "kept.constraint_force": {"generic": lasts, "zero": vanishes},
-    "rigid.angular_velocity": {
+    "model.component": {"centre": _of_a_centre, "place": lambda facts: "centre" not in facts.inputs},
+    "lagrange.constraint_force": {"generic": lasts, "zero": vanishes},
+    "model.angular_velocity": {
         "space": _along_space,
         "body": lambda facts: _along_body(facts) and not _along_space(facts),
         "following": lambda facts: not _along_body(facts) and not _along_space(facts),
     },
-    "kept.constraint_rate": {
+    "lagrange.constraint_rate": {
         "in_rates": lambda facts: _has_rates(facts.inputs["condition"]),
         "in_coordinates": lambda facts: not _has_rates(facts.inputs["condition"]),
     },
-    "kept.multiplier": {
+    "lagrange.multiplier": {
         "generic": lambda facts: lasts(facts) and not _is_stretched(facts),
         "multiplier": lambda facts: lasts(facts) and _is_stretched(facts),
         "zero": vanishes,
     },
-    "kept.acceleration": {"generic": lasts, "zero": vanishes},
-    "forced.applied_force": {"generic": lasts, "zero": vanishes},
-    "forced.equation_of_motion": {
+    "lagrange.acceleration": {"generic": lasts, "zero": vanishes},
+    "lagrange.applied_force": {"generic": lasts, "zero": vanishes},
+    "lagrange.forced_equation": {
         "applied": lambda facts: _has_applied(facts) and not _has_kept(facts),
         "kept": lambda facts: _has_kept(facts) and not _has_applied(facts),
         "both": lambda facts: _has_kept(facts) and _has_applied(facts),

@@ -53,11 +53,11 @@ def _root_is(grows: bool, *squares: str) -> Predicate:
 
 
 outcomes_of(
-    "wobble.wobble_squared",
+    "rotation.perturbation_rate_squared",
     {word: _order_is(word) for word in ("greatest", "least", "unstable", "marginal", "symmetric", "conditional")},
 )
 outcomes_of(
-    "wobble.wobble_rate",
+    "rotation.perturbation_rate",
     {
         "stable": _root_is(False, "greatest", "least"),
         "symmetric": _root_is(False, "symmetric"),
@@ -65,4 +65,6 @@ outcomes_of(
         "unstable": _root_is(True, "unstable"),
     },
 )
-outcomes_of("wobble.body_cone_rate", {"oblate": _excess_is(1), "prolate": _excess_is(-1), "generic": _excess_is(None)})
+outcomes_of(
+    "rotation.body_cone_rate", {"oblate": _excess_is(1), "prolate": _excess_is(-1), "generic": _excess_is(None)}
+)

@@ -186,8 +186,10 @@ def _word_of_its_mark(facts: Judged, outcome: str) -> bool:
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
     if facts.inputs.get("for_real"):  # roots are real where their discriminant is positive, or not negative
-        right_word &= mark in (">", ">=") and facts.quantities["quantity"].step.rule == "roots.discriminant"
-    radicand = facts.words.get("seen") == "radicand" and facts.quantities["quantity"].step.rule != "roots.discriminant"
+        right_word &= mark in (">", ">=") and facts.quantities["quantity"].step.rule == "answers.discriminant"
+    radicand = (
+        facts.words.get("seen") == "radicand" and facts.quantities["quantity"].step.rule != "answers.discriminant"
+    )
     return right_word and not radicand and is_zero(difference - facts.inputs["difference"])
 
 
@@ -218,7 +220,7 @@ def _steady_as_its_potential(facts: Judged, outcome: str) -> bool:
     """Where momenta are kept a coordinate that stays is no rest: the sentence says that others move steadily."""
     of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
     reduced = [
-        e for e in of.ancestors() if (e.step.rule, e.step.outcome) == ("effective.effective_potential", "reduced")
+        e for e in of.ancestors() if (e.step.rule, e.step.outcome) == ("hamilton.effective_potential", "reduced")
     ]
     told = "steady" in facts.inputs
     return bool(reduced) if told else of not in reduced or isinstance(facts.result, MatrixBase)
@@ -321,42 +323,42 @@ def _both(one: Told, other: Told) -> Told:
 
 
 _TABLE: dict[str, Told] = {
-    "forced.equation_of_motion": _functions_of_its_constraints,
-    "roots.roots": _as_asked,
-    "roots.roots_absent": _as_asked_for,
-    "extrema.place": _there_where_told,
-    "solving.solved_for": _says_what_it_divides_by,
-    "kept.acceleration": _both(_a_second_rate, _says_what_it_divides_by),
-    "kept.multiplier": _says_what_it_divides_by,
-    "canonical.rate_by_momenta": _says_what_it_divides_by,
-    "limits.limiting_case": _goes_where_it_is_said,
-    "numbers.value": given_as_the_condition_has_it,
-    "minima.stability_of_several": _about_an_energy,
-    "minima.stability": _steady_as_its_potential,
-    "equilibria.condition": _steady_as_its_potential,
-    "equilibria.rest": _steady_as_its_potential,
+    "lagrange.forced_equation": _functions_of_its_constraints,
+    "answers.roots": _as_asked,
+    "answers.roots_absent": _as_asked_for,
+    "answers.extremum_place": _there_where_told,
+    "answers.solved_for": _says_what_it_divides_by,
+    "lagrange.acceleration": _both(_a_second_rate, _says_what_it_divides_by),
+    "lagrange.multiplier": _says_what_it_divides_by,
+    "hamilton.rate_by_momenta": _says_what_it_divides_by,
+    "answers.limiting_case": _goes_where_it_is_said,
+    "numeric.value": given_as_the_condition_has_it,
+    "rest.stability_of_several": _about_an_energy,
+    "rest.stability": _steady_as_its_potential,
+    "rest.condition": _steady_as_its_potential,
+    "rest.equilibrium": _steady_as_its_potential,
     "rotation.kinetic_energy": _of_their_kinds,
     "rotation.angular_momentum": _of_their_kinds,
     "rotation.torque": _of_their_kinds_by_euler,
-    "free_rotation.rate_in_body": _of_their_kinds,
+    "rotation.rate_in_body": _of_their_kinds,
     "bodies.volume": _volume_of_its_sections,
-    "roots.together": _equation_in_its_unknown,
-    "roots.one_of_two": _a_root_of_its_sign,
-    "conditions.where": _word_of_its_mark,
-    "cones.vector_component": _component_of_its_letter,
-    "effective.value_kept": _of_its_coordinate,
+    "answers.roots_together": _equation_in_its_unknown,
+    "answers.one_of_two": _a_root_of_its_sign,
+    "answers.where": _word_of_its_mark,
+    "rotation.vector_component": _component_of_its_letter,
+    "lagrange.value_kept": _of_its_coordinate,
     "bodies.axis_vector": _axis_as_named,
     "bodies.centre_component": _from_its_point_along_the_axis,
     "bodies.centre_of_mass": _counted_from_its_point,
     "bodies.section_radius": _section_as_told,
-    "equations.at": _for_a_vector,
-    "free_rotation.euler_equation": _rate_of_the_component,
-    "inertia.entry_moved": _inward_or_outward,
-    "inertia.moment_of_inertia": _names_the_axis_of_the_whole,
-    "assembly.own_moment": _names_the_axis_of_the_whole,
-    "principal.principal_moments": _vanish_again,
-    "lagrangian.lagrangian": _difference,
-    "conservation.sum": sum_of_the_equations_times_their_factors,
+    "answers.at": _for_a_vector,
+    "rotation.euler_equation": _rate_of_the_component,
+    "rotation.entry_moved": _inward_or_outward,
+    "rotation.moment_of_inertia": _names_the_axis_of_the_whole,
+    "rotation.own_moment": _names_the_axis_of_the_whole,
+    "rotation.principal_moments": _vanish_again,
+    "lagrange.lagrangian": _difference,
+    "motion.sum": sum_of_the_equations_times_their_factors,
 }
 
 for _rule, _told in _TABLE.items():

@@ -100,17 +100,17 @@ def _real_numbers(facts: Judged) -> Iterator[Expr]:
 
 
 _TABLE: dict[str, Told] = {
-    "superposition.motion": _starts_as_all_are_told,
-    "damped.frequency": _positive_where_real,
-    "modes.frequency": _positive_where_real,
-    "modes.period": _nowhere_negative,
-    "tensors.radius_of_gyration": _nowhere_negative,
-    "modes.beats": _somewhere_positive,
-    "linear_motion.solution": starts_as_told,
-    "steady.frequency_squared": _taken_out_by_its_condition,
-    "linear_motion.steady_amplitude": _swings_of_its_equation,
-    "linear_motion.lag": _lag_as_written,
-    "wobble.body_cone_rate": rates_of_its_equations,
+    "vibrations.superposition": _starts_as_all_are_told,
+    "vibrations.damped_frequency": _positive_where_real,
+    "vibrations.mode_frequency": _positive_where_real,
+    "vibrations.period": _nowhere_negative,
+    "rotation.radius_of_gyration": _nowhere_negative,
+    "vibrations.beats": _somewhere_positive,
+    "vibrations.solution": starts_as_told,
+    "vibrations.frequency_squared_about": _taken_out_by_its_condition,
+    "vibrations.steady_amplitude": _swings_of_its_equation,
+    "vibrations.lag": _lag_as_written,
+    "rotation.body_cone_rate": rates_of_its_equations,
 }
 
 for _rule, _told in _TABLE.items():

@@ -151,7 +151,7 @@ class OnConstraints:
             return found, curved[0] if alone else ImmutableDenseMatrix(curved)
 
         return establish(
-            "minima.stability_on_constraints",
+            "rest.stability_on_constraints",
             names[0] if alone else ImmutableDenseMatrix(names),
             lambda *_: minors[0] if alone else Amplitudes(*minors),
             {"potential": self.potential},

@@ -106,7 +106,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
         return Terms(-L, *(-push for push in pushes)) if pushes else Factors(Integer(-1), L)
 
     return establish(
-        "equilibria.potential_at_rest",
+        "rest.potential_at_rest",
         scalar(symbol),
         law,
         {"lagrangian": of},
@@ -302,7 +302,7 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
     """
     alone = {s for s in potential.coordinates if explicit(potential.value).has(s)} == {q}
     return establish(
-        "equilibria.condition",
+        "rest.condition",
         None,
         lambda U: Relation(Slope(U, q, Integer(1)) if alone else Partial(U, q), "=", 0),
         {"potential": potential},
@@ -425,7 +425,7 @@ def _rest(
     distances = tuple(Integer(i) for i, q in enumerate(held) if q.is_positive)
     outcome = "where" if state.exists is not None else "only" if len(states) == 1 else "always"
     return establish(
-        "equilibria.rest",
+        "rest.equilibrium",
         symbol,
         lambda *_: values[0] if single else Amplitudes(*values),
         {f"condition_{i}": condition for i, condition in enumerate(conditions)},

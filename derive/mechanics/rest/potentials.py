@@ -72,7 +72,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
     q = by or only_coordinate(potential)
     named = {1: "slope", 2: "curvature"}.get(order, f"derivative_{order}")
     return establish(
-        "potentials.slope",
+        "rest.slope",
         Slope(potential.symbol, q, Integer(order)),
         lambda energy: Slope(energy, q, Integer(order)),
         {"potential": potential},
@@ -131,7 +131,7 @@ def extreme_value(
     curvature = tidied(derivative(value, q, 2).xreplace({q: place}))
     sort = {1: "minimum", -1: "maximum", None: "conditional"}
     return establish(
-        "potentials.extreme_value",
+        "rest.extreme_value",
         At(potential.symbol, q, place),
         lambda energy: At(energy, q, place),
         {"potential": potential},
@@ -193,7 +193,7 @@ def leading_order(
         return Integer(order), Integer(next(orders, 0))
 
     return establish(
-        "potentials.leading_order",
+        "rest.leading_order",
         in_case(potential.symbol),
         lambda energy, *_: in_case(energy),
         {"potential": potential},

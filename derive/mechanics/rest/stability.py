@@ -189,7 +189,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
         there = tidied(derivative(energy, q, order).xreplace({q: place.values[q]}))
         told["higher"] = (there, _coefficient(energy, q, place.values[q], order))
     return establish(
-        "minima.stability",
+        "rest.stability",
         At(Slope(potential.symbol, q, Integer(2)), q, place.values[q] if place.rest is None else place.rest.symbol),
         lambda second, at: At(second if is_short else Slope(second, q, Integer(2)), q, at),
         {
@@ -313,7 +313,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         return found, ImmutableDenseMatrix([second[:n, :n].det(method="laplace") for n in range(1, len(moving) + 1)])
 
     return establish(
-        "minima.stability_of_several",
+        "rest.stability_of_several",
         letters,
         lambda *_: Amplitudes(*minors),
         {"potential": place.potential, "at": place.rest or Integer(0)},

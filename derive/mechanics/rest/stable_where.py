@@ -78,7 +78,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         return ImmutableDenseMatrix(says), ImmutableDenseMatrix(is_so)
 
     return establish(
-        "minima.stable_where",
+        "rest.stable_where",
         None,
         lambda _: squared,
         {"stability": of},

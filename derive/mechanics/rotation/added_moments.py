@@ -55,7 +55,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
         return Terms(*terms) if len(terms) > 1 else Add(*terms)
 
     return establish(
-        "assembly.moment_of_inertia",
+        "rotation.moment_of_parts",
         scalar(symbol, positive=True) if _from_particles(body, point, k).expand().is_positive else scalar(symbol),
         law,
         held,
@@ -112,7 +112,7 @@ def _by_shape(
     """
     k, centre = AXES.index(axis), body.middle
     return establish(
-        "assembly.own_moment",
+        "rotation.own_moment",
         scalar(symbol),
         law,
         inputs,

@@ -238,7 +238,7 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
         return found * sum((other.sign * size_of(other) for other in body.parts), Integer(0)), mass * size_of(part)
 
     return establish(
-        "assembly.share_of_mass",
+        "rotation.share_of_mass",
         Symbol(f"m_{_index(part)}", positive=True),
         lambda M: Factors(M, Ratio(part.body.size, sizes[0] if len(sizes) == 1 else Terms(*sizes))),
         {"mass": mass},
@@ -263,7 +263,7 @@ def _total_mass(body: Composite) -> Quantity:
     masses = [part.mass for part in body.parts]
     taken = {s.name for mass in masses for s in mass.free_symbols}
     return establish(
-        "assembly.total_mass",
+        "rotation.total_mass",
         Symbol(next(name for name in ("M", "M_0", "M_total", "M_whole") if name not in taken), positive=True),
         lambda *found: Terms(*found) if len(found) > 1 else found[0],
         {f"part_{i}": mass for i, mass in enumerate(masses)},
@@ -291,7 +291,7 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
         return body.mass * found, summed(body.particles(), lambda r: counted_from(start, r))
 
     return establish(
-        "assembly.centre_of_mass",
+        "rotation.centre_of_parts",
         vector(symbol),
         lambda M: MatMul(Pow(M, -1), whole, evaluate=False),
         {"mass": body.mass if body.shares else body.whole_mass},
@@ -330,7 +330,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
         return terms[0] if len(terms) == 1 else MatAdd(*terms)
 
     return establish(
-        "assembly.inertia_tensor",
+        "rotation.tensor_of_parts",
         tensor(symbol),
         law,
         {f"part_{i}": _for_the_whole(one) for i, one in enumerate(moved)},
@@ -387,7 +387,7 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
         return _about_any_axis(found, [(m, counted_from(point, r)) for m, r in here.particles])
 
     return establish(
-        "assembly.part_tensor",
+        "rotation.tensor_of_part",
         tensor("J" if symbol.startswith("J") else "I'"),
         law,
         {"own": own, **({"way": way} if way else {})},
@@ -422,7 +422,7 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
         return summed(replace(part, sign=1).particles, point.seen) / part.body.mass
 
     return establish(
-        "assembly.way_to_part",
+        "rotation.way_to_part",
         vector("d"),
         lambda: d,
         {},

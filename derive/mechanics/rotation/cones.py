@@ -60,7 +60,7 @@ def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_s
         return moments, along * dyad + across * (ImmutableDenseMatrix.eye(3) - dyad)
 
     return establish(
-        "cones.axis_of_symmetry",
+        "rotation.axis_of_symmetry",
         vector(symbol),
         lambda: column(*(int(k == which) for k in range(3))),
         {},
@@ -113,7 +113,7 @@ def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "
     letter = scalar(angle)
     value = tidied(Ratio(Norm(Cross(u, w)), along))
     return establish(
-        "cones.tangent_between",
+        "rotation.tangent_between",
         tan(letter),
         lambda u, v: Ratio(Norm(Cross(u, v)), Dot(u, v)),
         {"a": a, "b": b},
@@ -173,7 +173,7 @@ def precession_rate(
         return explicit(Cross(axis, moved)), column(0, 0, 0)
 
     return establish(
-        "cones.precession_rate",
+        "rotation.precession_rate",
         scalar(symbol),
         lambda momentum: Ratio(Norm(momentum), across),
         {"momentum": momentum},
@@ -202,7 +202,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
     turned = ImmutableDenseMatrix([[0, 1, 0], [0, 0, 1], [1, 0, 0]]) ** i
     letter: Symbol = component_names(symbol or of.symbol.name)[i]
     return establish(
-        "cones.vector_component",
+        "rotation.vector_component",
         letter,
         lambda v: Component(v, axis),
         {"vector": of},

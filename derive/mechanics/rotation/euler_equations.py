@@ -189,7 +189,7 @@ def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_ten
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     return establish(
-        "free_rotation.principal_tensor",
+        "rotation.principal_tensor",
         tensor(symbol),
         lambda: ImmutableDenseMatrix(diag(*body.moments)),
         {},
@@ -219,7 +219,7 @@ def changing_angular_velocity(
     """
     names = component_names(symbol)
     return establish(
-        "free_rotation.changing_angular_velocity",
+        "rotation.changing_angular_velocity",
         vector(symbol),
         lambda: column(*names),
         {},
@@ -264,7 +264,7 @@ def rate_in_space(
 
     inputs = {"momentum": momentum, "omega": omega, **({"in_body": in_body} if in_body else {})}
     return establish(
-        "free_rotation.rate_in_space",
+        "rotation.rate_in_space",
         CarriedRate(L.symbol, w.symbol, *moving),
         law,
         inputs,
@@ -332,7 +332,7 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
     moving = of.moving
     acting = torque[i]
     return establish(
-        "free_rotation.euler_equation",
+        "rotation.euler_equation",
         None,
         lambda rate, _: Relation(Component(rate, AXES[i]), "=", acting),
         {"rate": rate, "component": moving[i]},
@@ -388,7 +388,7 @@ def rate_in_body(
         return turning if is_zero(acting) else MatAdd(acting, turning)
 
     return establish(
-        "free_rotation.rate_in_body",
+        "rotation.rate_in_body",
         BodyRate(momentum.symbol, *moving),
         law,
         {"omega": omega, "momentum": momentum},

@@ -82,7 +82,7 @@ def inertia_tensor(
     n, place = column(*component_names("n")), point.seen(body.middle.position)
     (balanced,) = body.another_way(lambda r: r, point, of=lambda _: body.mass * place).values()
     return establish(
-        "inertia.inertia_tensor",
+        "rotation.inertia_tensor",
         tensor(name),
         lambda *found: _assembled(pairs, found),
         _by_pair(entries),
@@ -151,7 +151,7 @@ def moment_seen(
     weight = entry_weight(region, (i, i))
     integral = over_mass(body, region, weight)
     return establish(
-        "inertia.moment_of_inertia",
+        "rotation.moment_of_inertia",
         scalar(symbol),
         integral.law,
         integral.inputs,
@@ -182,7 +182,7 @@ def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
 def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
     """J = integral of (r.r 1 - r r) dm, r from the point: what the symbol means."""
     return establish(
-        "inertia.definition",
+        "rotation.inertia_definition",
         tensor(name),
         lambda _: _law(region, body.front),
         {"r": vector("r")},
@@ -238,7 +238,7 @@ def _entry_by_integration(
     weight, pairs = entry_weight(region, pair), pairs_left_by_symmetry(body, point)
     integral = over_mass(body, region, weight)
     return establish(
-        "inertia.entry",
+        "rotation.entry",
         entry_name(name, *pair),
         integral.law,
         integral.inputs,
@@ -342,7 +342,7 @@ def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: s
     entries = {pair: _entry_moved(there, centre, target, symbol, key, pair) for pair in pairs}
     inward = _round_shape if pairs == ROUND else shape_of
     return establish(
-        "inertia.moved_to",
+        "rotation.moved_to",
         tensor(symbol),
         lambda *found: _assembled(pairs, found),
         _by_pair(entries),
@@ -403,7 +403,7 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         return body.over_mass(lambda at: sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j], target)
 
     return establish(
-        "inertia.entry_moved",
+        "rotation.entry_moved",
         entry_name(name, i, j),
         law,
         {"mass": body.mass, "centre": centre, **({"entry": entry} if entry is not None else {})},
@@ -434,7 +434,7 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
         raise Rejected(Complaint("not-the-same", message))
     turn = points[0].axes.T * points[1].axes
     return establish(
-        "inertia.agreement",
+        "rotation.agreement",
         again.symbol,
         lambda first, _: first,
         {"found": found, "again": again},

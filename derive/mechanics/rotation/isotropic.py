@@ -38,7 +38,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
     sides = [expand(moments.value[k] / _letters_only(plain)) for k in (one, other)]
     squared = [Form(Relation(unknown**2, "=", tidied(bound**2)), "solved", Level.FULL)] if power == 2 else []
     return establish(
-        "principal.isotropic_where",
+        "rotation.isotropic_where",
         None,
         lambda found: Relation(found[one], "=", found[other]),
         {"moments": moments},
@@ -61,7 +61,7 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
     """The moments are equal as they are, or one is always the greater."""
     mark = "=" if is_zero(difference) else ">" if difference.is_positive else "<"
     return establish(
-        "principal.isotropic_where",
+        "rotation.isotropic_where",
         None,
         lambda found: Relation(found[one], mark, found[other]),
         {"moments": moments},

@@ -132,7 +132,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
         return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
 
     return establish(
-        "wobble.linear_equation",
+        "rotation.perturbed_rotation",
         None,
         lambda *_: Relation(whole, "=", 0),
         {},
@@ -188,7 +188,7 @@ def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str =
     (first, first_other), (second, second_other) = names[i], names[j]
 
     return establish(
-        "wobble.wobble_squared",
+        "rotation.perturbation_rate_squared",
         Pow(scalar(symbol), 2),
         lambda *_: Ratio(Factors(Integer(-1), first_other, second_other), Factors(first, second)),
         {},
@@ -310,7 +310,7 @@ def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble
         return Abs(found), Abs(found)
 
     return establish(
-        "wobble.wobble_rate",
+        "rotation.perturbation_rate",
         scalar(symbol or ("kappa" if grows else of.letter)),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
@@ -360,7 +360,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         return (x * solution[1] - y * solution[0]) / (x**2 + y**2)
 
     return establish(
-        "wobble.body_cone_rate",
+        "rotation.body_cone_rate",
         scalar(symbol),
         lambda: Factors(Ratio(coupling, across), z),
         {},

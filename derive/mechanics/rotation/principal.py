@@ -55,7 +55,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
         return inertia.value * units, ImmutableDenseMatrix.hstack(*(found[k] * units[:, k] for k in range(3)))
 
     return establish(
-        "principal.principal_moments",
+        "rotation.principal_moments",
         names,
         law,
         {"inertia": inertia},
@@ -75,7 +75,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
 
 def _was_diagonal(inertia: Quantity) -> bool:
     """Whether the tensor was found from one about another point that had no products of inertia either."""
-    return inertia.step.rule == "inertia.moved_to" and inertia.step.outcome in {"round", "round_isotropic"}
+    return inertia.step.rule == "rotation.moved_to" and inertia.step.outcome in {"round", "round_isotropic"}
 
 
 def principal_axes(
@@ -114,7 +114,7 @@ def _axis(
     tensor = moments.needed(PrincipalOf).tensor
     is_free = direction.has(angle)
     return establish(
-        "principal.axis",
+        "rotation.principal_axis",
         vector(f"{symbol}_{k + 1}"),
         lambda *_: direction,
         {"moments": moments, **({"angle": angle} if is_free else {})},

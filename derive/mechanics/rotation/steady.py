@@ -54,7 +54,7 @@ def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key
         require_constant(verb, "component", component)
     is_momentary = verb == "momentary_angular_velocity"
     return establish(
-        "steady.constant_angular_velocity",
+        "rotation.constant_angular_velocity",
         vector(symbol),
         lambda: omega,
         {},

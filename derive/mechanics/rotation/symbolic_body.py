@@ -100,7 +100,7 @@ def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantit
     taken = {letter.name for m, r in body.particles() for letter in (m * r[2]).free_symbols}
     letter = next((name for name in ("l", "d", "s") if name not in taken), "l_C")
     return establish(
-        "in_letters.centre_distance",
+        "rotation.centre_distance",
         scalar(letter, positive=True) if there.is_positive else scalar(letter),
         (lambda M: Ratio(whole, M)) if mass is not None else lambda _: there,
         {"mass": mass if mass is not None else body.mass},

@@ -88,7 +88,7 @@ def turned_tensor(
     there = replace(point, axes=ImmutableDenseMatrix(point.axes * turn))
     name = symbol or f"{inertia.symbol.name.partition('_')[0]}'"
     return establish(
-        "tensors.turned_tensor",
+        "rotation.turned_tensor",
         tensor(name),
         lambda I: MatMul(turn.T, I, turn, evaluate=False),
         {"inertia": inertia},
@@ -130,7 +130,7 @@ def moment_about(
 
     n = _unit_vector(direction, body, symbol.partition("_")[2] or "n", key)
     return establish(
-        "tensors.moment_about",
+        "rotation.moment_about",
         scalar(symbol),
         lambda I, n: Dot(n, applied(I, n)),
         {"inertia": inertia, "direction": n},
@@ -148,7 +148,7 @@ def _unit_vector(direction: Any, body: Any, letter: str, key: str) -> Quantity:
     along = value_behind(direction) if isinstance(direction, Quantity) else column(*direction)
     given = {"along": direction} if isinstance(direction, Quantity) else {"along": along}
     return establish(
-        "tensors.unit_vector",
+        "rotation.unit_vector",
         vector(letter),
         lambda d: MatMul(Pow(Norm(d), -1), d, evaluate=False),
         given,
@@ -177,7 +177,7 @@ def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: 
     i, j = ("xyz".index(letter) for letter in sorted(entry))
     name = symbol or entry_name(inertia.symbol.name, i, j).name
     return establish(
-        "tensors.tensor_entry",
+        "rotation.tensor_entry",
         scalar(name),
         lambda: inertia.value[i, j],
         {},
@@ -224,7 +224,7 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
         return sum(left, Integer(0)), Integer(0)
 
     return establish(
-        "tensors.principal_angle",
+        "rotation.principal_angle",
         tan(2 * angle),
         lambda xy, xx, yy: Ratio(Factors(2, xy), Terms(xx, -yy)),
         entries,
@@ -276,7 +276,7 @@ def perpendicular_axes(
     k = "xyz".index(across)
 
     return establish(
-        "tensors.perpendicular_axes",
+        "rotation.perpendicular_axes",
         scalar(symbol or f"I_{across}"),
         lambda a, b: Terms(a, b),
         {"first": first, "second": second},
@@ -305,7 +305,7 @@ def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_o
     i = "xyz".index(axis)
 
     return establish(
-        "tensors.radius_of_gyration",
+        "rotation.radius_of_gyration",
         scalar(symbol, nonnegative=True),
         lambda I, mass: Root(Ratio(I, mass)),
         {"moment": moment, "mass": body.mass_as_found},

@@ -62,7 +62,7 @@ def frequency_squared_about(
         **dict(zip(("taken_out",), about.letter.items(), strict=False)),
     }
     return establish(
-        "steady.frequency_squared",
+        "vibrations.frequency_squared_about",
         scalar(symbol) ** 2,
         lambda U, rest: Ratio(
             At(Slope(U, q, Integer(2)), q, about.place if isinstance(at.value, Relation) else rest), mass

@@ -121,7 +121,7 @@ def _characteristic(
 
     product = Mul(*(tidied(part.as_expr()).xreplace({S: letter}) ** times for part, times in factors))
     return establish(
-        "damped.characteristic",
+        "vibrations.damped_characteristic",
         None,
         lambda *_: Relation(whole, "=", 0),
         {"exponent": letter},
@@ -142,7 +142,7 @@ def _free(characteristic: Quantity, together: Linear, part: Poly, times: int, st
     """
     letter = characteristic.step.coordinates[-1][0]
     return establish(
-        "damped.free",
+        "vibrations.damped_free",
         None,
         lambda: Relation(letter, "=", 0),
         {},
@@ -176,7 +176,7 @@ def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, s
 
     outcome = "oscillator" if twice else "growth" if sign_by_factors(value) == -1 else "decay"
     return establish(
-        "damped.rate",
+        "vibrations.damped_rate",
         scalar(free_letter(f"beta{number}")),
         lambda *_: value,
         {},
@@ -225,7 +225,7 @@ def _frequency(
 
     told = {"condition": (condition, Relation(4 * a * c - b**2, ">", 0))} if condition is not None else {}
     return establish(
-        "damped.frequency",
+        "vibrations.damped_frequency",
         scalar(name),
         lambda *_: Root(turned * square),
         {},
@@ -292,7 +292,7 @@ def _shape(
 
     sign = sign_by_factors(tidied(column[0] * column[1])) if len(column) == 2 else None
     return establish(
-        "damped.shape",
+        "vibrations.damped_shape",
         MatrixSymbol(f"a_{number}", len(column), 1),
         lambda _: Amplitudes(*column),
         {"rate": own},

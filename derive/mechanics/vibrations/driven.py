@@ -68,7 +68,7 @@ def steady_amplitude(
         return cos(lag) * there, Abs(there)
 
     amplitude = establish(
-        "linear_motion.steady_amplitude",
+        "vibrations.steady_amplitude",
         size,
         lambda *_: Ratio(force, Root(Terms(Pow(stiff, 2), Pow(loss, 2)))),
         {"equation": equation, "q": q.symbol},
@@ -86,7 +86,7 @@ def steady_amplitude(
         ),
     )
     lags = establish(
-        "linear_motion.lag",
+        "vibrations.lag",
         scalar("delta") if damped == "undamped" else tan(lag),
         lambda *_: Ratio(loss, stiff) if damped == "damped" else pi if sign == -1 else Integer(0),
         {"equation": equation},

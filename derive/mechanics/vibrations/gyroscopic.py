@@ -116,7 +116,7 @@ def _characteristic(
     matrix = ImmutableDenseMatrix(together.rows_of(pencil.at(letter)).applyfunc(_tidy_entry))
 
     return establish(
-        "gyroscopic.characteristic",
+        "vibrations.gyroscopic_characteristic",
         None,
         lambda *_: Relation(Determinant(matrix), "=", 0),
         {"omega": letter},
@@ -184,7 +184,7 @@ def _frequency(
     pairs = enumerate(zip(conditions, needs, strict=True), 1)
     told = {f"condition_{i}": (condition, Relation(need, ">", 0)) for i, (condition, need) in pairs}
     return establish(
-        "gyroscopic.frequency",
+        "vibrations.gyroscopic_frequency",
         scalar(name),
         lambda *_: swing.value,
         {},
@@ -269,7 +269,7 @@ def _motion(
     displacements = Amplitudes(*(s.symbol for s in together.displacements))
     names = dict(zip(("first", "second"), own, strict=False))
     return establish(
-        "gyroscopic.motion",
+        "vibrations.gyroscopic_motion",
         MatrixSymbol(f"{_letter(together)}_{n}", len(column), 1),
         lambda w: Amplitudes(*moving(w)),
         {"frequency": frequency},

@@ -107,7 +107,7 @@ def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str)
     """
     letter = characteristic.step.coordinates[-1][0]
     return establish(
-        "gyroscopic.stability",
+        "vibrations.gyroscopic_stability",
         None,
         lambda equation: equation,
         {"characteristic": characteristic.value},
@@ -159,7 +159,7 @@ def _condition(
         return residual, ZERO
 
     return establish(
-        "gyroscopic.stability",
+        "vibrations.gyroscopic_stability",
         None,
         lambda *_: Relation(need, ">", 0),
         {},

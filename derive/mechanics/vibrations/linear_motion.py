@@ -126,7 +126,7 @@ def solution(
         return ImmutableDenseMatrix(at), ImmutableDenseMatrix([explicit(value_behind(each)) for each in asked])
 
     return establish(
-        "linear_motion.solution",
+        "vibrations.solution",
         q.symbol,
         lambda *_: Terms(Add(*(C * e for C, e in zip(values, basis, strict=True))), particular),
         {"equation": equation, "q": q.symbol},

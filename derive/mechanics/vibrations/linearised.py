@@ -162,7 +162,7 @@ def _one(
         alone = {"alone": moving[0].symbol, **_functions_of(equations[i], moving[0], small)}
         counted.update(_dropped(moving[0], small))
     return establish(
-        "linearised.equation",
+        "vibrations.linearised",
         None,
         lambda *_: whole,
         {},

@@ -139,7 +139,7 @@ def _characteristic(
         return found, Relation(expanded_by_rows(matrix), "=", 0)
 
     return establish(
-        "modes.characteristic",
+        "vibrations.characteristic",
         None,
         lambda *_: Relation(Determinant(matrix), "=", 0),
         {"omega": letter},
@@ -202,7 +202,7 @@ def _frequency(
     drift = _drift(linear, together, root)
     named = {} if root.has_formula else {"root": scalar(f"{pencil.name}_1")}  # the sentence introduces the first
     return establish(
-        "modes.frequency",
+        "vibrations.mode_frequency",
         scalar(name),
         lambda *_: root_of(turned * root.value),
         {},
@@ -275,7 +275,7 @@ def _shape(
     entries = zip(together.displacements, column, strict=True)
     moved = next(s.symbol for s, entry in entries if not is_zero(entry))
     return establish(
-        "modes.shape",
+        "vibrations.mode_shape",
         MatrixSymbol(f"{_letter_of_shapes(column)}_{n}", len(column), 1),
         lambda _: Amplitudes(*column),
         {"frequency": frequency},
@@ -336,7 +336,7 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
         return cos(turn) + u * sin(turn) + v * cos(turn / 2), 1 - v
 
     return establish(
-        "modes.period",
+        "vibrations.period",
         scalar(symbol or free_letter("tau")),
         lambda omega: Ratio(2 * pi, omega),
         {"frequency": of},
@@ -367,7 +367,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
         return cos(slow.value * T) + cos(fast.value * T), 2 * cos(found * T / 2) * cos(middle * T)
 
     return establish(
-        "modes.beats",
+        "vibrations.beats",
         scalar(symbol),
         lambda one, other: Terms(other, -one),
         {"slow": slow, "fast": fast},

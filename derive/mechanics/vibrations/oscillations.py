@@ -64,7 +64,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         return left_side.expand().subs(trial**2, found), Integer(0)
 
     return establish(
-        "oscillations.frequency_squared",
+        "vibrations.frequency_squared",
         Pow(scalar(symbol), 2),
         lambda _: _quotient(stiffness, mass),
         {"q": q},
@@ -209,7 +209,7 @@ def _rate(
         return value, Abs(value)
 
     return establish(
-        "oscillations.frequency",
+        "vibrations.frequency",
         scalar(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},

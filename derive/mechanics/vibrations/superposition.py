@@ -197,7 +197,7 @@ def _motion(
     product = _as_product(own, i)
     told = {**_told(together, started), "coordinate": (q.symbol, q.symbol)}
     return establish(
-        "superposition.motion",
+        "vibrations.superposition",
         q.symbol,
         law,
         named,

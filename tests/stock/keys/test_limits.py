@@ -132,6 +132,6 @@ def test_a_known_result_is_compared_by_a_step_of_its_own(tmp_path: Path) -> None
     derivation, *_ = derived(loaded(tmp_path, two))
     assert derivation.closing[0] == ("frequency_limit", "frequency_limit_known")
     step = derivation.step("frequency_limit_known")
-    assert (step.rule, step.inputs) == ("limits.known_case", ("frequency_limit", "alone"))
+    assert (step.rule, step.inputs) == ("answers.known_case", ("frequency_limit", "alone"))
     text = page(tmp_path, two)
     assert "in agreement with (" in text
