@@ -18,7 +18,7 @@ import derive.mechanics
 import derive.steps.numeric
 from derive.algebra.equality import Compared
 from derive.page.wording import AFTER, AND
-from derive.steps.outcomes import judged_facts
+from derive.steps.rule import judged_facts
 from derive.steps.second_ways import CHECKS, OTHERWISE, ROUTES, is_decided, sort_of
 from derive.steps.step import Fact, Quantity
 from tests.courses import ROOT

@@ -5,9 +5,6 @@ Each module says in its `__all__` what it offers.
 
 from inspect import isfunction
 
-import derive.mechanics.outcomes  # from here on it is known what each word of a step must fulfil
-import derive.mechanics.outcomes.told
-import derive.mechanics.outcomes.told_of_motion  # noqa: F401
 from derive.algebra.direction import Direction as Direction
 from derive.mechanics.answers.approximate import *
 from derive.mechanics.answers.combination import *

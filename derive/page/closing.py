@@ -15,7 +15,7 @@ from derive.page.numbering import Number
 from derive.page.signs import name_before, sign_before
 from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, around_chain, filled
 from derive.steps.derivation import Derivation
-from derive.steps.outcomes import ZERO
+from derive.steps.rule import ZERO
 from derive.steps.step import Step
 
 PUT_IN = "answers.put_in"  # of which the sentence names what is put into

@@ -4,7 +4,7 @@
     standard   what a good teacher writes; algebra that one does in the head is left out
     full       every line of every step
 
-The rules are those of the table below, by the kind of step, and hold for every problem. What a part asks for, what an
+Each rule says in its record how its steps are shown, for every problem. What a part asks for, what an
 instructor has words for or refers to by its number, stands on its own at every level; so does a step of which a line
 that is shown needs the letter or the number (`Needed`), so that a page never uses what it has not introduced.
 """
@@ -13,27 +13,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from typing import Any
 
 from sympy import MatrixBase, preorder_traversal
 
-from derive.algebra.expressions import Relation, rate
+from derive.algebra.expressions import Relation
 from derive.page.pointers import that_have_it
 from derive.steps.condensed import condensed
 from derive.steps.derivation import Derivation
-from derive.steps.step import Form, Level, Step
-
-
-class Manner(StrEnum):
-    """How a step stands on a page."""
-
-    OWN = "own"  # with its sentence and its lines
-    TOLD = "told"  # in a clause behind the first lines that have its letter: "where rho = M/V"
-    TAKEN_IN = "taken_in"  # by the step that uses it, which has its value in place of its letter
-    LEFT_OUT = "left_out"
-    POINTED_OUT = "pointed_out"  # with its sentence, which points to lines that have its result
-
+from derive.steps.level import Level, Manner
+from derive.steps.rule import RULES
+from derive.steps.step import Form, Step
 
 OWN, TOLD, TAKEN_IN, LEFT_OUT, POINTED_OUT = Manner
 LESS = {
@@ -44,56 +34,6 @@ LESS = {
     OWN: OWN,
 }  # what becomes of a step whose letter is needed after all
 
-# rule, or rule:outcome -> the manner at `brief` and at `standard`
-MANNERS: Mapping[str, tuple[Manner, Manner]] = {
-    # The density has the letter under the integrals; the volume only gives the density.
-    "bodies.density": (TOLD, TOLD),
-    "bodies.volume": (TAKEN_IN, TAKEN_IN),
-    "bodies.size_by_integration": (TAKEN_IN, OWN),
-    "bodies.section_radius": (TOLD, TOLD),
-    "rotation.total_mass": (TOLD, TOLD),
-    "rotation.centre_distance": (TOLD, OWN),
-    # Entries that were just listed are the tensor, and the one coordinate that was integrated is the centre.
-    "rotation.inertia_tensor": (LEFT_OUT, LEFT_OUT),
-    "rotation.moved_to": (LEFT_OUT, LEFT_OUT),
-    "bodies.centre_of_mass": (LEFT_OUT, LEFT_OUT),
-    # The moments of the parts of a body.
-    "rotation.moment_of_inertia": (TOLD, OWN),
-    "rotation.own_moment:flat": (TOLD, OWN),
-    "rotation.own_moment:none": (TOLD, TOLD),
-    # What is under the integrals of the entries; told in words there; what the sentence of a sum says that it
-    # multiplies.
-    "rotation.inertia_definition": (LEFT_OUT, LEFT_OUT),
-    "motion.product": (LEFT_OUT, LEFT_OUT),
-    # What stands under the root of both roots.
-    "answers.discriminant": (LEFT_OUT, LEFT_OUT),
-    "answers.discriminant:linear": (OWN, OWN),
-    # A direction, an angle, a number that the next line uses.
-    "bodies.axis_vector": (TAKEN_IN, TAKEN_IN),
-    "answers.let": (TOLD, TOLD),
-    "vibrations.frequency_squared": (TAKEN_IN, TAKEN_IN),
-    # Squares of speeds go into the kinetic energy.
-    "lagrange.squared_speed": (TAKEN_IN, OWN),
-    # What Lagrange's equation differentiates.
-    "lagrange.generalized_force": (LEFT_OUT, OWN),
-    "lagrange.generalized_momentum": (LEFT_OUT, LEFT_OUT),
-    "lagrange.momentum_rate": (LEFT_OUT, OWN),
-    "hamilton.rate_by_momenta": (LEFT_OUT, OWN),
-    "lagrange.constraint_rate": (LEFT_OUT, OWN),
-    # The slope and the curvature in general, where the curvature at a place is what counts.
-    "rest.slope": (LEFT_OUT, OWN),
-}
-TOLD_ALONG = {"generic", "curvature"}  # outcomes of which the sentence of the step before may tell
-# Steps of which a second one of the same form only repeats the law, so that its result is enough.
-LAW_ONCE = {"lagrange.equation_of_motion", "lagrange.forced_equation"}
-RESULTS_ONLY = {*LAW_ONCE, "rotation.entry", "rotation.entry_moved"}  # at `brief`
-# Steps of one form of which each has an argument of its own: what cancels in one sum does so by another identity than
-# what cancels in the next.
-EACH_WORKED_OUT = {"motion.sum"}
-# Of several coordinates the first is worked out, the others are alike.
-FIRST_ONLY = {"lagrange.generalized_force", "lagrange.momentum_rate"}
-# Left out at `standard` too, where they are long.
-LEFT_OUT_IF_LONG = {"lagrange.constraint_rate"}
 LONGEST_CLAUSE = 24  # nodes of a value that is still told within a sentence
 
 
@@ -188,15 +128,14 @@ class Selection:
             return POINTED_OUT
         if self.level is Level.FULL or step.key in self.asked or step.key in self.worded or step.key in self.shown:
             return OWN
-        manners = MANNERS.get(f"{step.rule}:{step.outcome}", MANNERS.get(step.rule))
-        if step.key in self.needed.numbers or manners is None:
+        shown = RULES[step.rule].shown
+        if step.key in self.needed.numbers:
             return OWN
-        brief, standard = manners
-        manner = brief if self.level is Level.BRIEF else standard
-        is_long = step.rule in LEFT_OUT_IF_LONG and _length(step.result) > LONGEST_CLAUSE
-        if is_long or repeats and step.rule in FIRST_ONLY:
+        manner = shown.manner(step.outcome, self.level)
+        is_long = shown.unless_long and _length(step.result) > LONGEST_CLAUSE
+        if is_long or repeats and shown.first_only:
             manner = LEFT_OUT
-        if step.rule == "lagrange.squared_speed" and _is_plain(step):
+        if shown.taken_in_if is not None and shown.taken_in_if(step):
             manner = TAKEN_IN
         for _ in range(self.needed.letters.get(step.key, 0)):
             manner = LESS[manner]
@@ -229,15 +168,16 @@ class Selection:
         """
         if self.level is Level.FULL or self.shown.get(step.key) == "full":
             return step.chain
-        if repeats and in_turn and step.rule in (RESULTS_ONLY if self.level is Level.BRIEF else LAW_ONCE):
+        shown = RULES[step.rule].shown
+        if repeats and in_turn and shown.result_again is not None and shown.result_again.shows(self.level):
             return step.chain[-1:]
-        level = Level.BRIEF if repeats and step.rule not in EACH_WORKED_OUT else self.level
+        level = Level.BRIEF if repeats and not shown.each_worked_out else self.level
         return tuple(form for form in step.chain[:-1] if level.shows(form.level)) + step.chain[-1:]
 
 
 def needs_no_words(step: Step) -> bool:
     """Whether the sentence before it may tell it along: it has no condition to tell."""
-    return step.outcome in TOLD_ALONG and dict(step.words).get("seen", "any") == "any"
+    return step.outcome in RULES[step.rule].shown.told_along and dict(step.words).get("seen", "any") == "any"
 
 
 def _is_short(step: Step) -> bool:
@@ -250,11 +190,6 @@ def _is_short(step: Step) -> bool:
 
 def _length(value: Any) -> int:
     return sum(1 for _ in preorder_traversal(value))
-
-
-def _is_plain(step: Step) -> bool:
-    """Whether the square of a speed is that of coordinates themselves, x_dot^2 + y_dot^2."""
-    return bool(step.result.free_symbols <= {rate(q) for q, _ in step.coordinates})
 
 
 def _is_row(value: Any) -> bool:

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from derive.mechanics.theorems import THEOREMS, Theorem
+from derive.mechanics.theorems import THEOREMS
 from derive.page.tree import Block, Document, Folded, Paragraph, PartPage
 from derive.page.wording import Inline, Math, Phrases, ToldIn, ToldOnce, filled
+from derive.steps.rule import RULES, Theorem
 from derive.steps.step import Level, Step
 
 
@@ -46,7 +47,7 @@ class Theorems:
 
     def __init__(self, words: Phrases, level: Level, steps: Iterable[Step] = ()):
         self._words, self._steps, self._drops_laws = words, tuple(steps), level is Level.STANDARD
-        self._left = [] if level is Level.BRIEF else [t for t in THEOREMS if self._drops_laws or not t.prepared_by]
+        self._left = [] if level is Level.BRIEF else [t for t in THEOREMS if self._drops_laws or not t.prepared]
         self._told: list[Theorem] = []
 
     def before(self, step: Step) -> tuple[Inline, ...]:
@@ -65,17 +66,18 @@ class Theorems:
 
     def without_law(self, step: Step) -> Step:
         """The step without the line that says what a theorem has said already."""
-        said = any((step.rule, step.outcome) in theorem.law_of for theorem in self._told)
+        said = any(quote.theorem in self._told and step.outcome in quote.law_in for quote in RULES[step.rule].quotes)
         if not (said and self._drops_laws and len(step.chain) > 1 and step.chain[0].because == "law"):
             return step
         return replace(step, chain=step.chain[1:])
 
     def _is_told_at(self, theorem: Theorem, step: Step) -> bool:
-        if theorem.prepared_by is None:
+        if not theorem.prepared:
             return _uses(step, theorem)
         resting = (other for other in self._steps if step.key in other.inputs)
-        return step.rule == theorem.prepared_by and any(_uses(other, theorem) for other in resting)
+        return RULES[step.rule].prepares is theorem and any(_uses(other, theorem) for other in resting)
 
 
 def _uses(step: Step, theorem: Theorem) -> bool:
-    return theorem.is_used_by(step.rule, step.outcome, dict(step.words).get("between", ""))
+    between = dict(step.words).get("between", "")
+    return any(quote.theorem is theorem and quote.fits(step.outcome, between) for quote in RULES[step.rule].quotes)

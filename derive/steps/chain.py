@@ -16,7 +16,7 @@ from derive.algebra.expansion import Expansion
 from derive.algebra.expressions import Relation, Truncated, bound, component_names, explicit
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Unverified
-from derive.steps.second_ways import sort_of
+from derive.steps.rule import Rule
 from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Level, Quantity, Route
 
 BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
@@ -80,8 +80,12 @@ def check_last_line(
         raise refused(key, "what it hands on is not its last line", shown, result, verdict)
 
 
-def evidence_of_routes(key: str, rule: str, result: Any, routes: Mapping[str, Route]) -> list[Evidence]:
-    return [route_evidence(key, claim, route(result), sort_of(rule, claim)) for claim, route in routes.items()]
+def evidence_of_routes(key: str, rule: Rule, result: Any, routes: Mapping[str, Route]) -> list[Evidence]:
+    unknown = sorted(routes.keys() - rule.evidence.keys())
+    if unknown:
+        message = f"`{key}`: the rule `{rule.name}` does not say what `{unknown[0]}` is evidence of"
+        raise Unverified(Complaint("unverified", message, help="add the claim to its `evidence`: a ROUTE or a CHECK"))
+    return [route_evidence(key, claim, route(result), rule.evidence[claim]) for claim, route in routes.items()]
 
 
 def names_in(exprs: Sequence[Any], bindings: Mapping[Any, Any]) -> tuple[tuple[Any, Any], ...]:

@@ -41,8 +41,8 @@ from derive.steps.chain import (
     without_repeats,
 )
 from derive.steps.known_numbers import undecided
-from derive.steps.outcomes import GENERIC, ZERO, Doubt, Judged, holds, told_rightly, wrongly_handed_on, wrongly_named
 from derive.steps.record import coordinates_in
+from derive.steps.rule import GENERIC, ZERO, Doubt, Judged, Rule, wrongly_handed_on
 from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, Witness, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
 from derive.steps.symbols import check_symbol
@@ -128,14 +128,13 @@ class Scope:
 
 
 def establish(
-    rule: str,
+    rule: Rule,
     symbol: Any,
     law: Law,
     inputs: Mapping[str, Any],
     *,
     key: str | None = None,
     kind: str | None = None,
-    definition: bool = False,
     routes: Mapping[str, Route] | None = None,
     outcome: Callable[[Any], str] | str = GENERIC,
     lines: Lines = Lines(),
@@ -146,19 +145,17 @@ def establish(
 ) -> Quantity:
     """Make a step, or refuse.
 
-    rule        which phrase and which source, `topic.verb`
+    rule        the law, its source, its outcomes and its evidence; a rule without evidence is a definition
     symbol      what the page calls the result
     law         a function of the inputs, in their order; it is called with names and with values
     inputs      role -> Quantity, or plain SymPy value
-    definition  that the law says what a name means, so that there is no second route
-    routes      claim -> function of the result, giving two values that must be equal; of each claim
-                `derive.steps.second_ways` says whether it is another route through the physics or a check
+    routes      claim of the rule -> function of the result, giving two values that must be equal
     outcome     a word, or a function of the result that gives one; it selects the phrase
     parents     what it rests on besides its inputs
     facts       what the quantity hands on besides its value
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
-    key = key or rule.rpartition(".")[2]
+    key = key or rule.key
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
     _check_names(key, list(quantities.values()))
     together = united(key, [(q.key, q.subject) for q in quantities.values()], scope.differ, same_value)
@@ -191,7 +188,7 @@ def establish(
     _check_told(key, phrase_data.formulas)
     _check_words(key, words)
     if not routes:
-        evidence.append(_unsupported(key, rule, definition))
+        evidence.append(_unsupported(key, rule))
     subject = scope.around(together, result)
     chosen = outcome(result) if callable(outcome) else outcome
     values = {**dict(zip(inputs, given, strict=True)), **phrase_data.told, **phrase_data.outcome_data}
@@ -202,7 +199,7 @@ def establish(
     _check_handed_on(key, judged, facts)
     step = Step(
         key=key,
-        rule=rule,
+        rule=rule.name,
         symbol=symbol,
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
@@ -289,7 +286,7 @@ def _called(value: Any) -> Any:
     return value
 
 
-def _check_outcome(key: str, rule: str, outcome: str, facts: Judged, may_be_zero: bool) -> None:
+def _check_outcome(key: str, rule: Rule, outcome: str, facts: Judged, may_be_zero: bool) -> None:
     """The word that chooses the sentence must be true of the result.
 
     Whatever the rule: "zero" needs a result that vanishes, and one that vanishes is not `generic` where that was asked.
@@ -299,10 +296,9 @@ def _check_outcome(key: str, rule: str, outcome: str, facts: Judged, may_be_zero
         raise _not_confirmed(key, Doubt("the result is not known to be zero"))
     if outcome == GENERIC and may_be_zero and vanishing:
         raise _not_confirmed(key, Doubt("the result is zero"))
-    for judge in (holds, told_rightly):
-        verdict = judge(rule, outcome, facts)
-        if not verdict:
-            raise _not_confirmed(key, verdict if isinstance(verdict, Doubt) else undecided(facts.result))
+    verdict = rule.verdict(outcome, facts)
+    if not verdict:
+        raise _not_confirmed(key, verdict if isinstance(verdict, Doubt) else undecided(facts.result))
 
 
 def _not_confirmed(key: str, doubt: Doubt) -> Unverified:
@@ -310,9 +306,9 @@ def _not_confirmed(key: str, doubt: Doubt) -> Unverified:
     return Unverified(Complaint("unverified", message, help=doubt.help))
 
 
-def _check_named(key: str, rule: str, facts: Judged, named: Mapping[str, Any]) -> None:
+def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) -> None:
     """What only the sentence names has a predicate, which must be true of it."""
-    role = wrongly_named(rule, facts, named)
+    role = rule.wrongly_named(facts, named)
     if role is not None:
         message = f"`{key}`: its sentence names {short(named[role])} as `{role}`, which does not fit the result"
         raise Unverified(Complaint("unverified", message))
@@ -363,8 +359,8 @@ def _check_has_value(key: str, result: Any) -> None:
         raise Rejected(Complaint("no-value", message, help="look for values that make a denominator vanish"))
 
 
-def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
-    """A verb has a second route or says that it only gives something a name."""
-    if not definition:
+def _unsupported(key: str, rule: Rule) -> Evidence:
+    """A step has a second route, or its rule is a definition."""
+    if not rule.is_definition:
         raise Unverified(Complaint("no-second-route", f"`{key}` has no second route and is not a definition"))
-    return Evidence("definition", Compared.NOTHING, Grade.DEFINITION, rule)
+    return Evidence("definition", Compared.NOTHING, Grade.DEFINITION, rule.name)

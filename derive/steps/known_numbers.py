@@ -19,8 +19,8 @@ from derive.algebra.lowest_terms import factored
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import strict_sign_within, take_as_positive, taken_as_positive
 from derive.algebra.tidy import tidied
-from derive.steps.outcomes import Doubt
 from derive.steps.record import assume, current_run, named_coordinates, question
+from derive.steps.rule import Doubt
 
 DIGITS, SHORT = 30, 20
 DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is not known

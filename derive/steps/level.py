@@ -1,8 +1,18 @@
-"""How much algebra a reader wants; without SymPy, for those who only read what is asked for."""
+"""How much algebra a reader wants, and how a step appears; without SymPy, which a reader of these may not need."""
 
 from __future__ import annotations
 
 from enum import StrEnum
+
+
+class Manner(StrEnum):
+    """How a step appears on a page."""
+
+    OWN = "own"  # with its sentence and its lines
+    TOLD = "told"  # in a clause behind the first lines that have its letter: "where rho = M/V"
+    TAKEN_IN = "taken_in"  # by the step that uses it, which has its value in place of its letter
+    LEFT_OUT = "left_out"
+    POINTED_OUT = "pointed_out"  # with its sentence, which points to lines that have its result
 
 
 class Level(StrEnum):

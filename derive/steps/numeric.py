@@ -44,7 +44,16 @@ from derive.algebra.samples import value_at
 from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
+from derive.steps.claims import (
+    as_told,
+    bends,
+    given_as_the_condition_has_it,
+    numbers_fulfil,
+    of_numbers,
+    value_integrated,
+)
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Form, Level, Quantity
 
 DIGITS = 20  # in which an exact value and the one taken anew agree
@@ -68,6 +77,22 @@ class WholeSwing(Fact):
     missing = "is not a series for a period"
     factor: Expr
     time: SwingTime
+
+
+VALUE = Rule(
+    "numeric.value",
+    source="Bureau International des Poids et Mesures, *The International System of Units*, section 5.4",
+    outcomes={
+        "exact": of_numbers("exact"),
+        "measured": of_numbers("measured"),
+        "integrated": value_integrated,
+        "minimum": bends(1),
+        "maximum": bends(-1),
+    },
+    evidence={"floats": CHECK},
+    statements=[given_as_the_condition_has_it],
+    named={"given": as_told(given_as_the_condition_has_it)},
+)
 
 
 def value_of(
@@ -126,7 +151,7 @@ def value_of(
     shown = [_with_unit(exact, *each, figures) for each in units]
     given = _given_beside(answer, amounts, units[-1], figures)
     return establish(
-        "numeric.value",
+        VALUE,
         answer.symbol,
         lambda: within(substituted),
         {},
@@ -175,7 +200,7 @@ def _period_of(
         return _error(found, result), Integer(0)
 
     return establish(
-        "numeric.value",
+        VALUE,
         series.step.approximates,
         lambda: Factors(whole.factor, time),
         {},
@@ -321,6 +346,14 @@ def _is_fourth_root(base: Expr, power: Expr) -> bool:
     return bool(base.is_Integer and power == HALF / 2)
 
 
+COMPARISON = Rule(
+    "numeric.comparison",
+    source="as `value_of`",
+    outcomes={"fulfilled": numbers_fulfil(True), "not_fulfilled": numbers_fulfil(False)},
+    evidence={"floats": CHECK},
+)
+
+
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
     """Whether a condition is so for the numbers, 20 cm > 2.5 cm; nothing if letters are left.
 
@@ -350,7 +383,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
         return ImmutableDenseMatrix([marked, *shown]), ImmutableDenseMatrix([apart, *taken])
 
     return establish(
-        "numeric.comparison",
+        COMPARISON,
         None,
         lambda _: Relation(left, mark, right),
         {"condition": relation},
@@ -383,7 +416,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
         return None
     rounded = rounded_form(number, figures)
     return establish(
-        "numeric.value",
+        VALUE,
         answer.symbol,
         lambda: value,
         {},

@@ -12,7 +12,7 @@ from sympy import Expr, Symbol
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import TIME, Relation, explicit, rate
-from derive.steps.outcomes import Judged
+from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness.dynamics import Blueprint, Response, Singular
 from derive.witness.geometry import Reals, State

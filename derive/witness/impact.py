@@ -15,7 +15,7 @@ from sympy import Expr, Integer, Symbol
 
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import rate
-from derive.steps.outcomes import Judged
+from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness.claim import CLOSE, TRIALS, Claim, seen
 from derive.witness.description import Force, Impact, Vector

@@ -9,7 +9,7 @@ from sympy import Symbol
 
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import Relation
-from derive.steps.outcomes import Judged
+from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness import along, runs, small
 from derive.witness.claim import Claim

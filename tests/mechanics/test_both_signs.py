@@ -11,7 +11,7 @@ import derive.mechanics.outcomes  # noqa: F401  which says what must hold
 from derive.algebra.ranges import POSITIVE, Range, within
 from derive.mechanics.answers.quadratics import Quadratic
 from derive.mechanics.outcomes.signs import turned
-from derive.steps.outcomes import Judged, holds
+from derive.steps.rule import Judged, holds
 from derive.steps.record import Run, recorded
 
 m, k = symbols("m k", positive=True)

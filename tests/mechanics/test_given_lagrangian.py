@@ -34,7 +34,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.lagrange import energy_function as energy_module
 from derive.mechanics.lagrange import lagrangian as lagrangian_module
-from derive.mechanics.lagrange.given_lagrangian import Varied
+from derive.mechanics.lagrange.facts import Varied
 from derive.mechanics.rest import equilibria as equilibria_module
 from derive.solving.zeros import Zero
 from derive.steps.record import Run, recorded

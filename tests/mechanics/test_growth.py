@@ -23,7 +23,7 @@ from derive.mechanics import (
     space,
     stability,
 )
-from derive.mechanics.outcomes.growth import grows_always, is_turned_aside
+from derive.mechanics.rest.growth import grows_always, is_turned_aside
 from derive.mechanics.rest import stability as minima
 from derive.steps.record import recorded
 

@@ -28,7 +28,7 @@ from derive.mechanics import (
     point,
     potential_energy_of,
 )
-from derive.mechanics.lagrange.lagrangian import Energies
+from derive.mechanics.lagrange.facts import Energies
 from derive.mechanics.model import dalembert, forces
 from derive.steps.record import Run, recorded
 

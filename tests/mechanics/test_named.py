@@ -29,11 +29,11 @@ from derive.mechanics import (
     point,
 )
 from derive.mechanics.arguments import checked
-from derive.mechanics.lagrange.kept_momentum import KeptMomentum
+from derive.mechanics.lagrange.facts import KeptMomentum
 from derive.mechanics.model.forces import Charge, GivenForce
-from derive.mechanics.rest.potentials import LowestOrder
-from derive.mechanics.vibrations.oscillations import SquareOf
-from derive.steps.outcomes import Judged, wrongly_handed_on, wrongly_named
+from derive.mechanics.rest.facts import LowestOrder
+from derive.mechanics.vibrations.facts import SquareOf
+from derive.steps.rule import Judged, wrongly_handed_on, wrongly_named
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 from tests.mutation.runs import RUNS

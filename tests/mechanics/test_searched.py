@@ -21,7 +21,7 @@ from derive.mechanics import (
     spring,
     weight,
 )
-from derive.mechanics.outcomes.searched import none_is_missing
+from derive.mechanics.rest.searched import none_is_missing
 from derive.mechanics.rest import equilibria as equilibria_module
 from derive.solving import zeros
 from derive.solving.zeros import Zero

@@ -12,7 +12,7 @@ from sympy.core.symbol import Str
 from derive.algebra.expressions import TIME, Relation, rate, scalar
 from derive.errors import Unverified
 from derive.steps.establish import establish
-from derive.steps.outcomes import Judged, told_rightly
+from derive.steps.rule import Judged, told_rightly
 from derive.steps.subject import Subject
 from tests.mechanics.block import known_block
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from derive.algebra.kinds import KINDS
-from derive.steps.outcomes import known_outcomes
+from derive.steps.rule import known_outcomes
 from tests.courses import ROOT
 
 MODULES = (

@@ -14,7 +14,7 @@ from derive.algebra.rounding import Rounded
 from derive.errors import Unverified
 from derive.mechanics import let
 from derive.steps.establish import Lines, establish
-from derive.steps.outcomes import _PREDICATES, outcomes_of
+from derive.steps.rule import _PREDICATES, outcomes_of
 from derive.steps.step import Form, Level, Quantity, compared_with
 
 a, b, x = symbols("a b x", positive=True)

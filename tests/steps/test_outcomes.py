@@ -8,7 +8,7 @@ import pytest
 from sympy import Symbol
 
 from derive.steps import outcomes
-from derive.steps.outcomes import (
+from derive.steps.rule import (
     Judged,
     handed_on_by,
     holds,

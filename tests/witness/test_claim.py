@@ -20,7 +20,7 @@ from derive.mechanics import (
     put_in,
     weight,
 )
-from derive.steps.outcomes import Judged
+from derive.steps.rule import Judged
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 from derive.witness.claim import Claim, agree, seen, substituted

@@ -6,7 +6,7 @@ import ast
 from pathlib import Path
 
 from derive.mechanics import Particle, System, coordinate, lagrangian, point, weight
-from derive.steps.outcomes import Judged
+from derive.steps.rule import Judged
 from derive.steps.record import recorded
 from derive.witness import judges
 from tests.courses import ROOT

@@ -30,7 +30,7 @@ from derive.mechanics import (
     t,
     weight,
 )
-from derive.steps.outcomes import Judged
+from derive.steps.rule import Judged
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 from derive.witness import small

@@ -14,14 +14,37 @@ from derive.algebra.expansion import small_of, tidied_terms
 from derive.algebra.expressions import TIME, Relation, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.mechanics.answers.substitution import arranged
 from derive.mechanics.kinematics.coordinates import OfCoordinate
 from derive.solving.leading import expansion_of, rest_vanishes
 from derive.solving.unknowns import coordinates_of, letter_of, residual_of, unknown_of
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Quantity, approximations_among, is_zero
 
 __all__ = ["equation_in_limit"]
+
+
+EQUATION_IN_LIMIT = Rule(
+    "answers.equation_in_limit",
+    source="Taylor, *Classical Mechanics*, sections 9.8 and 9.9 (to the first order in the rate of the Earth)",
+    outcomes={
+        "small": claims.leading(0),
+        "large": claims.leading(oo, -oo),
+        "near": claims.leading(),
+        "first_order": claims.to_order(1),
+        "to_order": claims.to_order(None),
+        "exact": claims.exact,
+    },
+    evidence={"numbers": CHECK},
+    named={
+        "small": claims.small_there,
+        "place": claims.near_that,
+        "power": claims.highest_power,
+        "short": claims.for_short_times,
+    },
+)
 
 
 def equation_in_limit(
@@ -62,7 +85,7 @@ def equation_in_limit(
     if kept.has(TIME) and place == 0 and any(f.has(x) and f.has(TIME) for f in left.atoms(Function)):
         told["short"] = 1 / x  # a sine of Omega t is small with Omega only as long as the time is short
     return establish(
-        "answers.equation_in_limit",
+        EQUATION_IN_LIMIT,
         None,
         lambda *_: found,
         {"equation": equation, "letter": x},

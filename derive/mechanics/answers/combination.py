@@ -10,9 +10,11 @@ from sympy import Expr, MatrixBase, Mul, Pow, Rational, Symbol, cancel, factor, 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, bound, explicit, scalar
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.solving.presentation import presented
 from derive.solving.unknowns import left_over, unknown_of
 from derive.steps.establish import Lines, Scope, establish
+from derive.steps.rule import Rule
 from derive.steps.step import Quantity
 from derive.steps.subject import EVERYTHING
 
@@ -20,6 +22,13 @@ __all__ = ["combination"]
 
 HALF = Rational(1, 2)
 LARGEST = 200  # operations of what is cancelled under roots
+
+
+COMBINATION = Rule(
+    "answers.combination",
+    source="none needed: a definition",
+    outcomes={"generic": claims.combination_generic, "named": claims.combination_named},
+)
 
 
 def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, symbol: str | None = None) -> Quantity:
@@ -39,12 +48,11 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
         return bound(expression, dict(zip(values, those, strict=True)))
 
     return establish(
-        "answers.combination",
+        COMBINATION,
         scalar(symbol or key),
         law,
         inputs,
         key=key,
-        definition=True,
         outcome="generic" if values else "named",
         lines=Lines(arranged=_cancelled),
         parents=[q for q in values.values() if q not in inputs.values()],

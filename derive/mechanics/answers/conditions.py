@@ -15,6 +15,7 @@ from derive.algebra.expressions import bound as with_those
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.solving.relations import (
     TURNED,
     conditions_told,
@@ -28,6 +29,7 @@ from derive.solving.signs import SIGNS_OF, sign_by_factors
 from derive.solving.unknowns import unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Form, Level, Quantity, value_behind
 
 __all__ = ["where"]
@@ -42,6 +44,21 @@ WORDS = {
 }
 REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # the quantities that decide whether roots are real
 POINTS = 40
+
+
+WHERE = Rule(
+    "answers.where",
+    source="none needed: algebra of inequalities",
+    outcomes={
+        "solved": claims.compared(False),
+        "squared": claims.compared(True),
+        "always": claims.always(True),
+        "never": claims.where_never,
+        "equal": claims.where_equal,
+    },
+    evidence={"beside": CHECK, "points": CHECK},
+    statements=[claims.word_of_its_mark],
+)
 
 
 def where(
@@ -89,7 +106,7 @@ def where(
         return _same_truth(found, difference, mark, unknown)
 
     return establish(
-        "answers.where",
+        WHERE,
         None,
         lambda v, b: Relation(v, mark, b),
         {"quantity": of, "bound": bound},
@@ -128,7 +145,7 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
     holds = sign in SIGNS_OF[mark]
     fact = mark if holds else {1: ">", -1: "<", 0: "="}[sign]
     return establish(
-        "answers.where",
+        WHERE,
         None,
         lambda v, b: Relation(v, fact, b),
         {"quantity": of, "bound": bound},

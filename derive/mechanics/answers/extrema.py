@@ -17,12 +17,14 @@ from derive.algebra.ranges import ends_within, range_of, strict_sign_within
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.solving.presentation import presented
 from derive.solving.unknowns import coordinates_of, kind_of_unknown, letter_of, unknown_of
 from derive.solving.zeros import Unsolved, positive, zeros_of
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assumed
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Level, Quantity
 
 __all__ = ["maximum", "minimum"]
@@ -58,6 +60,24 @@ def minimum(of: Quantity, letter: Any, within: Within | None = None, key: str = 
     return _extremum(of, letter, within, key, "minimum", 1)
 
 
+EXTREMUM_PLACE = Rule(
+    "answers.extremum_place",
+    source="Boas, *Mathematical Methods in the Physical Sciences*, section 4.8",
+    outcomes={"greatest": claims.bent(1), "least": claims.bent(-1)},
+    evidence={"slope": CHECK, "beside": CHECK},
+    statements=[claims.there_where_told],
+    named={"letter": claims.slope_vanishes_by},
+)
+
+
+EXTREMUM_VALUE = Rule(
+    "answers.extremum_value",
+    source="Boas, *Mathematical Methods in the Physical Sciences*, section 4.8",
+    outcomes={"greatest": claims.bent(1), "least": claims.bent(-1)},
+    evidence={"beside": CHECK},
+)
+
+
 def _extremum(
     of: Quantity, letter: Any, within: Within | None, key: str, verb: str, curved: int
 ) -> tuple[Quantity, Quantity]:
@@ -77,7 +97,7 @@ def _extremum(
     ((place, conditions),) = fitting
     name = scalar(f"{x.name}_{verb[:3]}", **({"positive": True} if x.is_positive else {}))
     at = establish(
-        "answers.extremum_place",
+        EXTREMUM_PLACE,
         name,
         lambda *_: place,
         {"quantity": of},
@@ -97,7 +117,7 @@ def _extremum(
         scope=Scope(coordinates={}),
     )
     top = establish(
-        "answers.extremum_value",
+        EXTREMUM_VALUE,
         scalar(f"{of.symbol.name}_{verb[:3]}") if isinstance(of.symbol, Symbol) else scalar(key),
         lambda f, p: At(f, x, p),
         {"quantity": of, "place": at},

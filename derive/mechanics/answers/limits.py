@@ -22,13 +22,16 @@ from derive.algebra.expressions import Relation, explicit
 from derive.algebra.samples import letters_of, points, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.mechanics.answers.approximate import equation_in_limit
-from derive.mechanics.motion.turning_points import ByEnergy, assume_reached
+from derive.mechanics.motion.facts import ByEnergy
+from derive.mechanics.motion.turning_points import assume_reached
 from derive.solving.leading import beginnings, entry_by_entry, rest_vanishes, terms_by_arithmetic, to_that_order
 from derive.solving.unknowns import letter_of, meaning, unknown_of
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed, changes, letter_of_limit, named_coordinates
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Form, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
@@ -36,6 +39,24 @@ __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
 MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # far beyond the samples of the other letters
 BORDERS = {"=": "", ">=": "min", "<=": "max"}  # what is to be said of the letter for its value on the border
+
+
+LIMITING_CASE = Rule(
+    "answers.limiting_case",
+    source="Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases)",
+    outcomes={
+        "finite": claims.limiting_case_finite,
+        "vanishes": claims.goes_as(1),
+        "diverges": claims.goes_as(-1),
+        "small": claims.near(Integer(0)),
+        "large": claims.near(oo, -oo),
+        "near": claims.near(),
+        "exact": claims.nothing_left_out,
+    },
+    evidence={"arithmetic": CHECK, "numbers": CHECK},
+    statements=[claims.goes_where_it_is_said],
+    named={"place": claims.goes_to, "bound": claims.right_of_a_bound},
+)
 
 
 def limiting_case(
@@ -86,7 +107,7 @@ def limiting_case(
     again = terms_by_arithmetic(value, series, x, place, power)
     own = _own_letter(name, symbol, x, aim) if not exact else name if symbol is None else Symbol(symbol, real=True)
     return establish(
-        "answers.limiting_case",
+        LIMITING_CASE,
         own,
         lambda *_: entry_by_entry(lambda f: Expansion(_as_written(f, x, place), x, place, power), value),
         {"quantity": of, "letter": goes, "approach": Approach(goes, aim)},
@@ -242,6 +263,13 @@ def _means(name: Any, found: Any) -> dict[Any, Any]:
     return {} if isinstance(name, Symbol | MatrixSymbol | MatrixBase) else dict(meaning(name, found))
 
 
+KNOWN_CASE = Rule(
+    "answers.known_case",
+    source="Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases)",
+    evidence={"known": ROUTE},
+)
+
+
 def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Quantity:
     """What a limiting case gives is what is known from elsewhere, f = g.
 
@@ -260,7 +288,7 @@ def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Qua
     if not equal(*values):
         raise Rejected(Complaint("wrong-limit", f"`{found.key}` is {values[0]}, but `{known.key}` is {values[1]}"))
     return establish(
-        "answers.known_case",
+        KNOWN_CASE,
         found.symbol,
         lambda *_: values[0],
         {},
@@ -271,6 +299,13 @@ def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Qua
         kind=found.step.kind,
         scope=Scope(case_of=found),
     )
+
+
+CASE_IN_LETTERS = Rule(
+    "answers.case_in_letters",
+    source="none needed: substitution",
+    evidence={"at_once": CHECK},
+)
 
 
 def case_in_letters(
@@ -288,7 +323,7 @@ def case_in_letters(
     """
     value = explicit(found.value.right if _solved_for(found) is not None else found.value)
     return establish(
-        "answers.case_in_letters",
+        CASE_IN_LETTERS,
         found.symbol,
         lambda *_: formula,
         {},

@@ -15,12 +15,16 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
 from derive.algebra.expressions import PLUS_MINUS, RATES, Factors, Ratio, Relation, Root, Terms, bound, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.mechanics.answers.conditions import where
 from derive.solving.presentation import presented
 from derive.solving.relations import solved_in_letters
 from derive.solving.unknowns import coordinates_of, kind_of_unknown
+from derive.steps.claims import sign_is
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.level import Manner
+from derive.steps.rule import CHECK, Rule, Shown
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
@@ -130,6 +134,22 @@ def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> 
     return Roots(general, here, x, tuple(values)), beside
 
 
+ROOTS_TOGETHER = Rule(
+    "answers.roots_together",
+    source="Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1",
+    outcomes={
+        "two": claims.roots(1),
+        "opposite": claims.roots(1, product=-1),
+        "none": claims.roots(-1),
+        "double": claims.roots(0),
+        "conditional": claims.roots(None),
+        "linear": claims.linear,
+    },
+    evidence={"put_back": CHECK, "sum": CHECK},
+    statements=[claims.equation_in_its_unknown],
+)
+
+
 def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequence[str]) -> Quantity:
     """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
 
@@ -151,7 +171,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
         return found + found.xreplace({PLUS_MINUS: -PLUS_MINUS}), -here.b / here.a
 
     return establish(
-        "answers.roots_together",
+        ROOTS_TOGETHER,
         x,
         lambda _, __, *those: of.with_those(formula, those),
         {"equation": equation, "unknown": x, **of.roles},
@@ -213,6 +233,24 @@ def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
     return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
 
 
+ONE_OF_TWO = Rule(
+    "answers.one_of_two",
+    source="Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1",
+    outcomes={
+        "smaller": claims.whether(True, claims.SMALLER),
+        "larger": claims.whether(True, claims.LARGER),
+        "smaller_where_real": claims.one_of_two_smaller_where_real,
+        "larger_where_real": claims.one_of_two_larger_where_real,
+        "nearer": claims.one_of_two_nearer,
+        "farther": claims.one_of_two_farther,
+        "coinciding": claims.one_of_two_coinciding,
+        "none": claims.one_of_two_none,
+    },
+    evidence={"put_back": CHECK, "other_form": CHECK, "resultant": CHECK},
+    statements=[claims.a_root_of_its_sign],
+)
+
+
 def _one_of_two(
     both: Quantity, sign: int, outcome: str, key: str, letter: str | None, stands_for: Sequence[str] = ()
 ) -> Quantity:
@@ -230,7 +268,7 @@ def _one_of_two(
         return 2 * quadratic.c / (-quadratic.b - sign * sqrt(quadratic.discriminant))
 
     return establish(
-        "answers.one_of_two",
+        ONE_OF_TWO,
         scalar(letter or _indexed(of.unknown.name, key)),
         lambda _: _of_sign(both.value, sign),
         {"roots": both},
@@ -275,7 +313,7 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
         return found, Relation(_by_resultant(of), "<" if sign_known(other) == -1 else ">=", 0)
 
     return establish(
-        "answers.one_of_two",
+        ONE_OF_TWO,
         None,
         lambda *those: Relation(of.with_those(of.general.of_terms, those[1:]), "<", 0),
         {"roots": both, **of.roles},
@@ -302,6 +340,21 @@ def _resultant(here: Quadratic) -> Expr:
     return ImmutableDenseMatrix([[second, first, at_none], [*slope, ZERO], [ZERO, *slope]]).det(method="laplace")
 
 
+DISCRIMINANT = Rule(
+    "answers.discriminant",
+    source="Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1",
+    outcomes={
+        "positive": sign_is(1),
+        "negative": sign_is(-1),
+        "vanishing": sign_is(0),
+        "conditional": sign_is(None),
+        "linear": claims.linear,
+    },
+    evidence={"resultant": CHECK},
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT, outcomes={"linear": (Manner.OWN, Manner.OWN)}),
+)
+
+
 def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
     """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
 
@@ -319,7 +372,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
         return -here.a * found, _resultant(here)
 
     return establish(
-        "answers.discriminant",
+        DISCRIMINANT,
         scalar(symbol),
         lambda *those: of.with_those(of.general.of_terms, those),
         of.roles,

@@ -29,6 +29,7 @@ from derive.algebra.expressions import RATES, Relation, Terms, explicit, scalar
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.mechanics.answers.quadratics import roots_together
 from derive.solving.attainable import is_out_of_range
 from derive.solving.presentation import presented
@@ -48,6 +49,7 @@ from derive.solving.unknowns import (
 from derive.solving.zeros import within_one
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Level, Quantity, is_zero
 
 __all__ = ["roots"]
@@ -119,6 +121,24 @@ def roots(
     )
 
 
+ROOTS = Rule(
+    "answers.roots",
+    source="Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2",
+    outcomes={
+        word: claims.where_the_coefficients_last(predicate)
+        for word, predicate in (
+            ("single", claims.single),
+            ("double", claims.double),
+            ("only", claims.only),
+            ("several", claims.of_several(True)),
+            ("following", claims.of_several(False)),
+        )
+    },
+    evidence={"put_back": CHECK, "vieta": CHECK},
+    statements=[claims.as_asked],
+)
+
+
 def _step(
     equation: Quantity,
     unknown: Expr,
@@ -155,7 +175,7 @@ def _step(
         if each is not None
     }
     return establish(
-        "answers.roots",
+        ROOTS,
         name,
         lambda *_: root.formula,
         {"equation": equation, "unknown": unknown},
@@ -216,6 +236,15 @@ def _outcome(root: RootOf, i: int, kept: Sequence[RootOf], every: Sequence[RootO
     return "double" if root.times > 1 else "single"
 
 
+ROOTS_ABSENT = Rule(
+    "answers.roots_absent",
+    source="Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2",
+    outcomes={"none": claims.absent, "none_positive": claims.absent, "none_reached": claims.beyond_one},
+    evidence={"otherwise": CHECK},
+    statements=[claims.as_asked_for],
+)
+
+
 def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, key: str) -> Quantity:
     """The discriminant is negative; or the root that could be positive is not."""
     last = _ascending(list(every))[-1] if real else every[0]
@@ -226,7 +255,7 @@ def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: b
         a, b, c = last.coefficients
         decides, otherwise = Terms(b**2, -FOUR * a * c), _by_resultant(last)
     return establish(
-        "answers.roots_absent",
+        ROOTS_ABSENT,
         None,
         lambda *_: Relation(decides, mark, ZERO),
         {"equation": equation, "unknown": unknown},
@@ -257,7 +286,7 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
     nearest = min(every, key=lambda root: abs(number) if (number := with_numbers(root.value)).is_number else 1)
     side = 1 if sign_known(nearest.value) == 1 else -1
     return establish(
-        "answers.roots_absent",
+        ROOTS_ABSENT,
         None,
         lambda *_: Relation(nearest.value, ">" if side > 0 else "<", Integer(side)),
         {"equation": equation, "unknown": unknown},

@@ -10,6 +10,7 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol
 from derive.algebra.expressions import Ratio, Relation
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.solving.presentation import presented
 from derive.solving.unknowns import (
     coordinates_of,
@@ -20,8 +21,10 @@ from derive.solving.unknowns import (
     polynomial_in,
     unknown_of,
 )
+from derive.steps.claims import says_what_it_divides_by
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import may_vanish
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import EVERYTHING
 
@@ -74,6 +77,20 @@ def solved_for(
     )
 
 
+SOLVED_FOR = Rule(
+    "answers.solved_for",
+    source="Boas, *Mathematical Methods in the Physical Sciences*, section 3.3",
+    outcomes={
+        "alone": claims.one_of(True, True),
+        "several": claims.one_of(False, True),
+        "following": claims.one_of(False, False),
+    },
+    evidence={"put_back": CHECK, "elimination": CHECK},
+    statements=[says_what_it_divides_by],
+    named={"unknown": claims.solved_for},
+)
+
+
 def _solution(
     given: tuple[Quantity, ...],
     wanted: Sequence[Expr],
@@ -99,7 +116,7 @@ def _solution(
 
     known = coordinates_of(*given)
     return establish(
-        "answers.solved_for",
+        SOLVED_FOR,
         unknown,
         lambda *_: Ratio(_written(above), _written(matrix)),
         {f"equation_{n + 1}": equation for n, equation in enumerate(given)},

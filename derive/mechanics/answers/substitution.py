@@ -12,16 +12,18 @@ from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
 from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, did_you_mean
-from derive.mechanics.hamilton.effective import Constant, SeenWith
+from derive.mechanics.answers import claims
+from derive.mechanics.hamilton.facts import Constant, SeenWith
 from derive.mechanics.kinematics.coordinates import AtOneMoment, Coordinate, OfCoordinate
-from derive.mechanics.lagrange.kept_momentum import KeptMomentum, WithMomenta
-from derive.mechanics.lagrange.lagrangian import FromLagrangian
-from derive.mechanics.motion.turning_points import ByEnergy, assume_reached, condition_to_reach
+from derive.mechanics.lagrange.facts import FromLagrangian, KeptMomentum, WithMomenta
+from derive.mechanics.motion.facts import ByEnergy
+from derive.mechanics.motion.turning_points import assume_reached, condition_to_reach
 from derive.solving.defined import check_defined
 from derive.solving.presentation import presented
 from derive.solving.unknowns import ValueOf, coordinates_of, left_over, letter_of, meaning, unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
@@ -29,6 +31,21 @@ __all__ = ["put_in"]
 
 Replacement = tuple[Expr, Expr]  # what stands there, and what is put there
 Rests = Quantity | Mapping[Any, Any] | Sequence[Quantity]
+
+
+PUT_IN = Rule(
+    "answers.put_in",
+    source="none needed: substitution",
+    outcomes={
+        "results": claims.put_in(False),
+        "values": claims.put_in(True),
+        "zero": claims.put_in_zero,
+        "identity": claims.identity,
+        "again": claims.put_in_again,
+    },
+    evidence={"at_once": CHECK, "found_before": CHECK},
+    named={"value": claims.names_put_in},
+)
 
 
 def put_in(
@@ -69,7 +86,7 @@ def put_in(
     _check_holds(of, result)
     name = _name(of, symbol)
     return establish(
-        "answers.put_in",
+        PUT_IN,
         name,
         lambda *_: value,
         {"original": of, **{f"other_{i + 1}": quantity for i, quantity in enumerate(rests)}},

@@ -26,14 +26,27 @@ from derive.algebra.expressions import (
 from derive.algebra.kinds import KINDS
 from derive.algebra.tidy import size_and_rest, tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.answers import claims
 from derive.mechanics.model.dalembert import Matter
-from derive.mechanics.rotation.vectors import RateByParticles, RateOfSquare, Through, length_by_turning
+from derive.mechanics.rotation.facts import RateByParticles
+from derive.mechanics.rotation.vectors import RateOfSquare, Through, length_by_turning
+from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
+from derive.steps.rule import CHECK, Rule, Shown
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 from derive.steps.subject import EVERYTHING, Subject
 
 __all__ = ["at", "let", "magnitude", "squared_magnitude", "with_values"]
+
+
+AT = Rule(
+    "answers.at",
+    source="none needed: substitution",
+    evidence={"law": CHECK},
+    statements=[claims.for_a_vector],
+)
 
 
 def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
@@ -63,7 +76,7 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
         return _put_in(general_value, {name: Group(v) for name, v in zip(names, vector, strict=True)})
 
     return establish(
-        "answers.at",
+        AT,
         general.symbol,
         lambda _, vector: value(general.value, vector),
         {"general": general, "vector": particular},
@@ -102,6 +115,13 @@ def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
     return kept or [Integer(0)]
 
 
+WITH_VALUES = Rule(
+    "answers.with_values",
+    source="none needed: substitution",
+    evidence={"law": CHECK},
+)
+
+
 def with_values(general: Quantity, *values: Quantity, key: str | None = None) -> Quantity:
     """The value of a general result once the letters in it have values.
 
@@ -129,7 +149,7 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
         return explicit(bound(bound(general.step.chain[0].expr, behind), known))
 
     return establish(
-        "answers.with_values",
+        WITH_VALUES,
         general.symbol,
         lambda _, *those: bound(general.value, dict(zip(known, those, strict=True))),
         {"general": general, **{q.key: q for q in values}},
@@ -140,6 +160,14 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
         facts=general.facts,
         scope=Scope(case_of=general),
     )
+
+
+MAGNITUDE = Rule(
+    "answers.magnitude",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"turned": CHECK},
+)
 
 
 def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
@@ -154,7 +182,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
     squares = [entry**2 for entry in rest if entry != 0]
     worked = [] if len(squares) < 2 else [Form(Factors(size, Root(Terms(*squares))), "squares", Level.STANDARD)]
     return establish(
-        "answers.magnitude",
+        MAGNITUDE,
         Norm(of.symbol),
         lambda v: Root(Dot(v, v)),
         {"vector": of},
@@ -164,6 +192,14 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
         key=key,
         kind=of.step.kind,
     )
+
+
+SQUARED_MAGNITUDE = Rule(
+    "answers.squared_magnitude",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"turned": CHECK},
+)
 
 
 def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
@@ -176,7 +212,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
     """
     v = of.value
     return establish(
-        "answers.squared_magnitude",
+        SQUARED_MAGNITUDE,
         Pow(Norm(of.symbol), 2),
         lambda v: Dot(v, v),
         {"vector": of},
@@ -192,6 +228,19 @@ def _rate_of_square(of: Quantity) -> list[RateOfSquare]:
     """d(v.v)/dt = 2 v.dv/dt, where the rate of the vector is known by particles."""
     known = of.fact(RateByParticles)
     return [] if known is None else [RateOfSquare(of.value, known)]
+
+
+LET = Rule(
+    "answers.let",
+    source="none needed: a definition",
+    outcomes={
+        "generic": claims.as_let(False, False),
+        "because": claims.as_let(False, True),
+        "equation": claims.as_let(True, False),
+        "equation_because": claims.as_let(True, True),
+    },
+    shown=Shown(brief=Manner.TOLD, standard=Manner.TOLD),
+)
 
 
 def let(
@@ -240,12 +289,11 @@ def let(
         raise Rejected(Complaint("wrong-argument", message))
     reason = {"because": because} if because else {}
     return establish(
-        "answers.let",
+        LET,
         None if is_equation else scalar(symbol or key),
         scalar_law,
         {q.key: q for q in quantities},
         key=key,
-        definition=True,
         kind=kind,
         outcome=_sort_of(is_equation, bool(because)),
         lines=Lines(arranged=explicit if is_equation else _by_rates if kind == "energy" else tidied),

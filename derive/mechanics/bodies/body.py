@@ -18,6 +18,7 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import AXES, Ratio, column, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.bodies import claims
 from derive.mechanics.bodies.components import centre_component, is_its_own_image, is_round_solid
 from derive.mechanics.bodies.equimomental import OfParticles, summed
 from derive.mechanics.bodies.facts import CountedFrom
@@ -27,9 +28,12 @@ from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.bodies.regions import Point, Region, no_such_coordinates
+from derive.steps.claims import lasts
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import sign_known
+from derive.steps.level import Manner
 from derive.steps.record import free_letter
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.step import Form, Level, Quantity, is_zero
 from derive.steps.subject import Subject
 
@@ -313,6 +317,15 @@ def _letters_of(size: Any) -> set[Symbol]:
     return size.letters if isinstance(size, Body) else set(getattr(size, "free_symbols", ()))
 
 
+AXIS_VECTOR = Rule(
+    "bodies.axis_vector",
+    source="none needed",
+    outcomes={"diagonal": claims.joins_corners, "edge": claims.along_the_edge, "components": lasts},
+    statements=[claims.axis_as_named],
+    shown=Shown(brief=Manner.TAKEN_IN, standard=Manner.TAKEN_IN),
+)
+
+
 def axis_vector(
     body: Body | None, along: ImmutableMatrix, name: str, symbol: str = "d", key: str = "axis_vector"
 ) -> Quantity:
@@ -322,16 +335,30 @@ def axis_vector(
     Source: none needed.
     """
     return establish(
-        "bodies.axis_vector",
+        AXIS_VECTOR,
         vector(symbol),
         lambda: along,
         {},
         outcome="edge" if name in {"x", "y", "z"} else name,
-        definition=True,
         phrase_data=PhraseData(words={"axis": name}),
         key=key,
         scope=Scope(about=Subject(body=body)),
     )
+
+
+DENSITY = Rule(
+    "bodies.density",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    outcomes={
+        "along_edges": claims.has_edges,
+        "volume": claims.density_volume,
+        "area": claims.dimensions_of_filling(2),
+        "length": claims.dimensions_of_filling(1),
+        "derived": claims.density_derived,
+    },
+    evidence={"mass_given_back": CHECK},
+    shown=Shown(brief=Manner.TOLD, standard=Manner.TOLD),
+)
 
 
 def density(body: Body, symbol: str | None = None, key: str = "density", part: str | None = None) -> Quantity:
@@ -349,7 +376,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
     letter = usual if body.called else free_letter(usual)
     region = body.region(body.point(body.reference)).with_section_put_in()
     return establish(
-        "bodies.density",
+        DENSITY,
         Symbol(symbol or letter, positive=True),
         lambda mass, extent: Ratio(mass, extent),
         {"mass": body.mass, "extent": extent},
@@ -369,6 +396,21 @@ def _density_outcome(body: Body, extent: Expr | Quantity) -> str:
     if isinstance(extent, Quantity):
         return "derived"
     return {"volume": "volume", "area": "area"}.get(body.filling, "length")
+
+
+CENTRE_OF_MASS = Rule(
+    "bodies.centre_of_mass",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2",
+    outcomes={
+        "generic": claims.is_symmetric_about_its_centre,
+        "by_components": claims.centre_of_mass_by_components,
+        "there": claims.centre_of_mass_there,
+        "round": claims.on_the_axis,
+    },
+    evidence={"particles": ROUTE, "quadrature": CHECK},
+    statements=[claims.counted_from_its_point],
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT),
+)
 
 
 def centre_of_mass(
@@ -404,7 +446,7 @@ def centre_of_mass(
     found = {k: centre_component(body, AXES[k], start.name, coordinates, symbol, name) for k, name in names.items()}
     left = column(*(found[k].symbol if k in found else Integer(0) for k in range(3)))
     return establish(
-        "bodies.centre_of_mass",
+        CENTRE_OF_MASS,
         vector(symbol),
         lambda mass: MatMul(Pow(mass, -1), whole, evaluate=False),
         {"mass": body.mass_as_found},

@@ -12,10 +12,12 @@ from sympy.core.symbol import Str
 from derive.algebra.expressions import AXES, Factors, Ratio, component_names
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies import claims
 from derive.mechanics.bodies.facts import Integrated
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import Region
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Form, Level, Quantity
 from derive.steps.subject import Subject
 
@@ -61,6 +63,15 @@ def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> Ov
     return OverMass(lambda: Factors(sign * front, whole), {}, Lines(between=between, put_in=None, after=after))
 
 
+CENTRE_COMPONENT = Rule(
+    "bodies.centre_component",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2",
+    outcomes={"on_axis": claims.is_round, "generic": claims.counted_along_one_axis},
+    evidence={"particles": ROUTE, "quadrature": CHECK},
+    statements=[claims.from_its_point_along_the_axis],
+)
+
+
 def centre_component(
     body: Any,
     axis: str,
@@ -87,7 +98,7 @@ def centre_component(
     region = body.within(start, coordinates)
     integral = over_mass(body, region, region.position[k], mean=True)
     return establish(
-        "bodies.centre_component",
+        CENTRE_COMPONENT,
         component_names(symbol)[k],
         integral.law,
         integral.inputs,

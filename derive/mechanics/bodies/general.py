@@ -29,6 +29,7 @@ from derive.algebra.integrals import definite
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies import claims
 from derive.mechanics.bodies.body import ORIGIN as ZERO
 from derive.mechanics.bodies.body import Body, density
 from derive.mechanics.bodies.equimomental import Particles, counted_from, from_moments
@@ -38,6 +39,8 @@ from derive.mechanics.bodies.possible import check_map, require_positive
 from derive.mechanics.bodies.quadrature import agrees, spanned
 from derive.mechanics.bodies.regions import Bounds, Point, Region
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Manner
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.step import Form, Quantity, Route
 from derive.steps.subject import Subject
 
@@ -239,6 +242,20 @@ def exact(body: GeneralBody, integrand: Expr, what: str) -> Expr:
     return tidied(found)
 
 
+CELL_OF = Rule(
+    "bodies.cell_of",
+    source="Apostol, *Calculus*, volume 2, sections 12.5 and 11.29",
+    outcomes={
+        "curve": claims.with_variables(1),
+        "surface": claims.with_variables(2),
+        "solid": claims.with_variables(3),
+    },
+    evidence={"chords": ROUTE, "edges": CHECK},
+    statements=[claims.cell_is_positive],
+    named={"cell": claims.size_of_a_cell, "place": claims.mapped_to, "u": claims.variable_of_the_map},
+)
+
+
 def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
     """What a cell of the variables is in size: |r_u|^2 of a curve, |r_u x r_v|^2 of a surface, r_u . (r_v x r_w).
 
@@ -261,7 +278,7 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
 
     size_now = cell(position, limits)
     return establish(
-        "bodies.cell_of",
+        CELL_OF,
         size(*letters),
         lambda: size(*tangents),
         {},
@@ -290,6 +307,15 @@ def _determinant_of_chords(position: ImmutableMatrix, names: Sequence[Symbol]) -
     return ImmutableDenseMatrix(entries).det(method="berkowitz")
 
 
+SIZE_BY_INTEGRATION = Rule(
+    "bodies.size_by_integration",
+    source="Apostol, *Calculus*, volume 2, sections 11.3 and 12.5",
+    outcomes={word: claims.of_filling(word) for word in ("length", "area", "volume")},
+    evidence={"quadrature": CHECK},
+    shown=Shown(brief=Manner.TAKEN_IN),
+)
+
+
 def size_by_integration(body: GeneralBody) -> Quantity:
     """Length, area or volume of a body, the integral of its cells.
 
@@ -302,7 +328,7 @@ def size_by_integration(body: GeneralBody) -> Quantity:
     kind, letter = SIZES[body.count]
     exact(body, region.element, kind)
     return establish(
-        "bodies.size_by_integration",
+        SIZE_BY_INTEGRATION,
         Symbol(_free(body, letter, f"{letter}_0"), positive=True),
         lambda: region.integral(Integer(1)),
         {},
@@ -316,6 +342,13 @@ def size_by_integration(body: GeneralBody) -> Quantity:
     )
 
 
+MASS_BY_INTEGRATION = Rule(
+    "bodies.mass_by_integration",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    evidence={"quadrature": CHECK},
+)
+
+
 def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
     """Mass of a body of a given density, M = integral of the density over it.
 
@@ -326,7 +359,7 @@ def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
     region = body.region(ORIGIN)
     front = body.front
     return establish(
-        "bodies.mass_by_integration",
+        MASS_BY_INTEGRATION,
         Symbol(_free(body, "M", "M_0"), positive=True),
         lambda: Factors(front, region.integral(Integer(1))),
         {},
@@ -344,6 +377,14 @@ def _without_last(forms: list[Form]) -> list[Form]:
     return [form for form in forms if form.because != "mass_collected"]
 
 
+NORMALISED_DENSITY = Rule(
+    "bodies.normalised_density",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    evidence={"mass_given_back": CHECK},
+    named={"profile": claims.proportional_to},
+)
+
+
 def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
     """Density of a body of given mass that is proportional to a function of the place, rho = M p/(integral of p dV).
 
@@ -353,7 +394,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
     """
     region, p = body.region(ORIGIN), body.profile
     return establish(
-        "bodies.normalised_density",
+        NORMALISED_DENSITY,
         scalar(body.density_letter),
         lambda mass: Factors(mass, Ratio(p, region.integral(Integer(1)))),
         {"mass": body.mass},

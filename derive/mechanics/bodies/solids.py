@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import Factors, Terms, column, explicit
+from derive.mechanics.bodies import claims
 from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody, require_order
 from derive.mechanics.bodies.equimomental import (
     HALF,
@@ -28,6 +29,8 @@ from derive.mechanics.bodies.mapping import Map, cylindrical, spherical
 from derive.mechanics.bodies.regions import Point, Region, coordinates, round_by_chords
 from derive.mechanics.bodies.thin_bodies import HalfDisc
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Manner
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import Subject, with_name
 
@@ -367,6 +370,16 @@ class Torus(Body):
         return found
 
 
+VOLUME = Rule(
+    "bodies.volume",
+    source="Apostol, *Calculus*, volume 2, section 11.18 (theorem of Pappus)",
+    outcomes={"cylindrical": claims.volume_cylindrical},
+    evidence={"pappus": ROUTE},
+    statements=[claims.volume_of_its_sections],
+    shown=Shown(brief=Manner.TAKEN_IN, standard=Manner.TAKEN_IN),
+)
+
+
 def volume(body: Cone) -> Quantity:
     """Volume of a cone, V = integral of dV.
 
@@ -378,7 +391,7 @@ def volume(body: Cone) -> Quantity:
     start = body.point(body.reference)
     region = body.region(start)
     return establish(
-        "bodies.volume",
+        VOLUME,
         Symbol("V" if Symbol("V", positive=True) not in body.mass.free_symbols else "V_0", positive=True),
         lambda *_: region.integral(Integer(1)),
         {},
@@ -406,13 +419,27 @@ def _is_of_a_ball(radius: Expr, along: Symbol) -> bool:
     return is_zero(diff(explicit(radius) ** 2, along, 2) + 2)
 
 
+SECTION_RADIUS = Rule(
+    "bodies.section_radius",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    outcomes={
+        "straight": claims.section_radius_straight,
+        "ball": claims.is_of_a_ball,
+        "curved": claims.section_radius_curved,
+    },
+    evidence={"edge": CHECK},
+    statements=[claims.section_as_told],
+    shown=Shown(brief=Manner.TOLD, standard=Manner.TOLD),
+)
+
+
 def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
     """The radius of the cross-section at z from a point of the axis: R (h - z)/h, or sqrt(R^2 - z^2)."""
     symbol, value = region.section or (None, None)
     z = region.names[0]
     polar = _polar_coordinates(region)
     return establish(
-        "bodies.section_radius",
+        SECTION_RADIUS,
         symbol,
         lambda _: value,
         {"along": z},

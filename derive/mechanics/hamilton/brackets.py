@@ -12,17 +12,29 @@ from derive.algebra.expressions import TIME, Factors, Partial, PoissonBracket, T
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.hamilton.phase_space import PhaseSpace
+from derive.mechanics.hamilton import claims
+from derive.mechanics.hamilton.facts import PhaseSpace
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.lagrange.momenta import kind_of_momentum, letter_of_momentum
 from derive.mechanics.model.dalembert import Matter
+from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Form, Level, Quantity, value_behind
 
 __all__ = ["poisson_bracket"]
 
 ZERO = Integer(0)
 Pairs = Sequence[tuple[Symbol, Symbol]]
+
+
+POISSON_BRACKET = Rule(
+    "hamilton.poisson_bracket",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 9.5",
+    outcomes={"generic": lasts, "zero": vanishes, "conserved": claims.poisson_bracket_conserved},
+    evidence={"rules": CHECK, "along_the_motion": ROUTE, "given_along_the_motion": ROUTE},
+    statements=[claims.bracket_as_told],
+)
 
 
 def poisson_bracket(
@@ -73,7 +85,7 @@ def poisson_bracket(
     worked = [sign * Factors(diff(values[0], u), diff(values[1], v)) for sign, u, v in derivatives]
     plain = isinstance(one, Symbol) or isinstance(other, Symbol)  # whose derivatives are not worth a line
     return establish(
-        "hamilton.poisson_bracket",
+        POISSON_BRACKET,
         PoissonBracket(*names, *flat),
         law,
         {"f": one, "g": other},

@@ -12,20 +12,33 @@ from derive.algebra.collect import by_terms, spread
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, bound, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.hamilton.phase_space import PhaseSpace, rates_by_momenta
+from derive.mechanics.hamilton import claims
+from derive.mechanics.hamilton.facts import PhaseSpace
+from derive.mechanics.hamilton.phase_space import rates_by_momenta
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time
 from derive.mechanics.lagrange.applied_forces import ActedOn, applied_force
+from derive.mechanics.lagrange.claims import ENERGIES
 from derive.mechanics.lagrange.energy_forms import beside_potential, kinetic_first, part_of_degree
 from derive.mechanics.lagrange.energy_function import outcome_of_energy, told_of_excess
-from derive.mechanics.lagrange.lagrangian import coordinates_of, energies_of
+from derive.mechanics.lagrange.facts import energies_of
+from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.lagrange.momenta import kind_of_momentum, letter_of_momentum, momenta
 from derive.mechanics.model.constraint import Kept
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Level, Quantity, is_zero, lettered
 
 __all__ = ["hamilton_equations", "hamiltonian", "in_momenta"]
+
+
+HAMILTONIAN = Rule(
+    "hamilton.hamiltonian",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1",
+    outcomes=ENERGIES,
+    evidence={"by_degree": ROUTE, "canonical": ROUTE, "there_and_back": CHECK, "given_canonical": CHECK},
+)
 
 
 def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian") -> Quantity:
@@ -74,7 +87,7 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     h = explicit(sum((p.value * v for p, v in zip(given, put_in, strict=True)), -explicit(of.value)))
     written = beside_potential(bound(h, put_in), of, list(letters))
     return establish(
-        "hamilton.hamiltonian",
+        HAMILTONIAN,
         scalar(symbol or free_letter("H")),
         law,
         {
@@ -124,6 +137,19 @@ def _with_mark(found: Relation, values: Sequence[Expr]) -> ImmutableDenseMatrix:
     return ImmutableDenseMatrix([*values, int(found.mark == "=")])
 
 
+HAMILTON_EQUATION = Rule(
+    "hamilton.hamilton_equation",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1",
+    outcomes={
+        "rate": claims.hamilton_equation_rate,
+        "force": claims.hamilton_equation_force,
+        "cyclic": claims.hamilton_equation_cyclic,
+        "applied": claims.hamilton_equation_applied,
+    },
+    evidence={"momenta": CHECK, "virtual_work": ROUTE, "given_virtual_work": ROUTE},
+)
+
+
 def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
     space, p = of.needed(PhaseSpace), letter_of_momentum(q)
     solved = next(parent for parent in of.parents if parent.symbol == q.rate)
@@ -133,7 +159,7 @@ def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
         return _with_mark(found, sides), ImmutableDenseMatrix([q.rate, q.rate, 1])
 
     return establish(
-        "hamilton.hamilton_equation",
+        HAMILTON_EQUATION,
         None,
         lambda H: Relation(q.rate, "=", Partial(H, p)),
         {"hamiltonian": of},
@@ -172,7 +198,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
         return Relation(rate(p), "=", Terms(*terms) if len(terms) > 1 else terms[0])
 
     return establish(
-        "hamilton.hamilton_equation",
+        HAMILTON_EQUATION,
         None,
         law,
         {"hamiltonian": of, **{push.key: push for push in pushes}},
@@ -192,6 +218,13 @@ def _by_terms(found: Relation, letters: Sequence[Symbol]) -> Relation:
     terms = Add.make_args(right)
     moving, rest = ([term for term in terms if term.has(*letters) == held] for held in (True, False))
     return Relation(found.left, found.mark, Add(by_terms(Add(*moving)), tidied(Add(*rest))))
+
+
+IN_MOMENTA = Rule(
+    "hamilton.in_momenta",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1",
+    evidence={"momenta": CHECK},
+)
 
 
 def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quantity:
@@ -215,7 +248,7 @@ def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quan
         return bound(explicit(found), space.in_rates), explicit(quantity.value)
 
     return establish(
-        "hamilton.in_momenta",
+        IN_MOMENTA,
         quantity.symbol,
         lambda _, *those: bound(explicit(quantity.value), dict(zip(values, those, strict=True))),
         {"quantity": quantity, **{v.key: v for v in present}},

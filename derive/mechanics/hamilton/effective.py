@@ -6,7 +6,7 @@ Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3; Landau, Lif
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
@@ -25,85 +25,41 @@ from derive.algebra.expressions import (
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton import claims
+from derive.mechanics.hamilton.facts import Constant, ReducedMatter, SeenWith
 from derive.mechanics.hamilton.phase_space import rates_by_momenta
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.lagrange.energy_forms import beside_potential, kinetic_first, part_of_degree
+from derive.mechanics.lagrange.facts import Energies, FromLagrangian, energies_of
 from derive.mechanics.lagrange.kept_momentum import value_kept
-from derive.mechanics.lagrange.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
+from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.lagrange.momenta import kind_of_momentum, letter_of_momentum, written_momentum
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.establish import Lines, establish
 from derive.steps.record import free_letter
-from derive.steps.step import Fact, Level, Quantity, Route, compared_with, lettered
+from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.step import Level, Quantity, compared_with, lettered
 
 __all__ = ["conserved", "effective_potential", "routhian"]
 
 ZERO = Integer(0)
 
 
-@dataclass(frozen=True)
-class Constant(Fact):
-    """That a momentum does not change, and the coordinate that it belongs to."""
-
-    missing = "is not the momentum of a cyclic coordinate, as `conserved` yields it"
-    coordinate: Coordinate
-
-
-@dataclass(frozen=True)
-class ReducedMatter(Matter):
-    """Matter whose cyclic coordinates move as their constant momenta tell: what it does along the others.
-
-    whole   the matter with all its coordinates
-    rates   those of the cyclic coordinates, by the others and by the constants
-    """
-
-    whole: Matter = field(default_factory=Matter)
-    rates: tuple[tuple[Symbol, Expr], ...] = ()
-
-    def kinetic_energy(self) -> Expr:
-        return self._put_in(self.whole.kinetic_energy())
-
-    def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
-        return self.whole.named(routes)
-
-    def momentum_along(self, q: Symbol) -> Expr:
-        return self._put_in(self.whole.momentum_along(q))
-
-    def inertia_along(self, q: Symbol) -> Expr:
-        return self._put_in(self.whole.inertia_along(q))
-
-    def turning_along(self, q: Symbol) -> Expr:
-        return self._put_in(self.whole.turning_along(q))
-
-    def force_along(self, q: Symbol) -> Expr:
-        return self._put_in(self.whole.force_along(q))
-
-    def other_force_along(self, q: Symbol) -> Expr:
-        return self._put_in(self.whole.other_force_along(q))
-
-    def stored_force_along(self, q: Symbol) -> Expr:
-        return self._put_in(self.whole.stored_force_along(q))
-
-    def _put_in(self, value: Expr) -> Expr:
-        accelerations = {rate(v): by_functions_of_time(found, self.coordinates) for v, found in self.rates}
-        return bound(bound(explicit(value), accelerations), dict(self.rates))
-
-
-@dataclass(frozen=True)
-class SeenWith(Fact):
-    """What sees an effective potential energy: the Lagrangian, the constant momenta, and the matter that has these."""
-
-    missing = "is not an effective potential energy"
-    lagrangian: Quantity
-    constants: tuple[Quantity, ...]
-    matter: Matter
-
-    def with_values(self, values: Mapping[Symbol, Expr]) -> SeenWith | None:
-        """The same where the letters of some momenta have values; nothing where other letters have."""
-        if not isinstance(self.matter, ReducedMatter) or not set(values) <= {p.symbol for p in self.constants}:
-            return None
-        rates = tuple((v, tidied(bound(found, values))) for v, found in self.matter.rates)
-        return replace(self, matter=replace(self.matter, rates=rates))
+CONSERVED = Rule(
+    "hamilton.conserved",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6",
+    outcomes={
+        "angular": claims.conserved("angle"),
+        "linear": claims.conserved("length"),
+        "other": claims.conserved(None),
+    },
+    evidence={
+        "along_the_motion": ROUTE,
+        "virtual_work": ROUTE,
+        "given_along_the_motion": CHECK,
+        "given_virtual_work": ROUTE,
+    },
+)
 
 
 def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key: str | None = None) -> Quantity:
@@ -139,7 +95,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
         return by_functions_of_time(found, moving), matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
 
     momentum = establish(
-        "hamilton.conserved",
+        CONSERVED,
         letter,
         lambda L, _: Partial(L, q.rate),
         {"lagrangian": of, "coordinate": q.symbol},
@@ -184,6 +140,14 @@ def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[C
         message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate is left"
         raise Rejected(Complaint("wrong-argument", message))
     return found
+
+
+ROUTHIAN = Rule(
+    "hamilton.routhian",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign",
+    outcomes={"one": claims.routhian_one, "several": claims.routhian_several},
+    evidence={"matter": ROUTE, "energies": ROUTE, "given_matter": CHECK},
+)
 
 
 def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "routhian") -> Quantity:
@@ -232,7 +196,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
 
     written = beside_potential(whole, of, letters, [q.symbol for q in left], sign=-1)
     return establish(
-        "hamilton.routhian",
+        ROUTHIAN,
         scalar(symbol or free_letter("R")),
         law,
         _inputs(of, constants, rates, put_in),
@@ -259,6 +223,19 @@ def _inputs(
         **{f"constant_{each.key}": lettered(each) for each in constants},
         **{v.key: v for v in rates},
     }
+
+
+EFFECTIVE_POTENTIAL = Rule(
+    "hamilton.effective_potential",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4",
+    outcomes={
+        "reduced": claims.seen_by_the_rest(True, None),
+        "driven": claims.seen_by_the_rest(False, True),
+        "unchanged": claims.seen_by_the_rest(False, False),
+        "given": claims.effective_potential_given,
+    },
+    evidence={"forces": ROUTE, "given_forces": ROUTE, "by_degree": ROUTE},
+)
 
 
 def effective_potential(
@@ -310,7 +287,7 @@ def effective_potential(
 
     written = beside_potential(whole, of, letters)
     return establish(
-        "hamilton.effective_potential",
+        EFFECTIVE_POTENTIAL,
         scalar(symbol or free_letter("U_eff")),
         law,
         _inputs(of, constants, rates, put_in),

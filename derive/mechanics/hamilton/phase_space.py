@@ -7,7 +7,6 @@ what depends on them; as functions of coordinates and rates momenta are values, 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from sympy import (
     Expr,
@@ -24,14 +23,17 @@ from derive.algebra.expressions import bound, explicit
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.hamilton import claims
 from derive.mechanics.hamilton.inverted_momenta import by_quadratic_form
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.lagrange.energy_forms import squared_below_roots
-from derive.mechanics.lagrange.momenta import letter_of_momentum
 from derive.solving.presentation import by_one_square
+from derive.steps.claims import says_what_it_divides_by
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import told_of_divisors
-from derive.steps.step import Fact, Quantity, lettered
+from derive.steps.level import Manner
+from derive.steps.rule import CHECK, Rule, Shown
+from derive.steps.step import Quantity, lettered
 
 __all__ = ["rates_by_momenta"]
 
@@ -40,26 +42,17 @@ LARGEST_WITH_ANGLES = 2  # where sines and cosines couple them: the Hamiltonian 
 ZERO = Integer(0)
 
 
-@dataclass(frozen=True)
-class PhaseSpace(Fact):
-    """What is a function of coordinates and momenta, and the Lagrangian whose momenta they are."""
-
-    missing = "is not a function of coordinates and their momenta"
-    coordinates: tuple[Coordinate, ...]
-    momenta: tuple[Quantity, ...]
-    lagrangian: Quantity
-
-    @property
-    def pairs(self) -> tuple[tuple[Symbol, Symbol], ...]:
-        return tuple((q.symbol, letter_of_momentum(q)) for q in self.coordinates)
-
-    @property
-    def in_rates(self) -> dict[Symbol, Expr]:
-        """Each momentum as it depends on the rates, which the mass points have confirmed."""
-        return {p.symbol: explicit(p.value) for p in self.momenta}
-
-
 # --- the rates that belong to momenta --------------------------------------------------------------------------------
+
+
+RATE_BY_MOMENTA = Rule(
+    "hamilton.rate_by_momenta",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1",
+    outcomes={"alone": claims.rate_by_momenta_alone, "together": claims.rate_by_momenta_together},
+    evidence={"put_back": CHECK},
+    statements=[says_what_it_divides_by],
+    shown=Shown(brief=Manner.LEFT_OUT),
+)
 
 
 def rates_by_momenta(
@@ -90,7 +83,7 @@ def rates_by_momenta(
 
     def of_one(q: Coordinate) -> Quantity:
         return establish(
-            "hamilton.rate_by_momenta",
+            RATE_BY_MOMENTA,
             q.rate,
             lambda *names: bound(solved[q.rate], dict(zip(letters, names, strict=False))),
             {f"momentum_{each.symbol.name}": lettered(p) for each, p in zip(own, given, strict=True)},

@@ -18,17 +18,29 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers.solved_for import solved_for
 from derive.mechanics.answers.substitution import put_in
+from derive.mechanics.impacts import claims
 from derive.mechanics.impacts.impact import Blow
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.model.dalembert import Matter
 from derive.solving.presentation import presented
+from derive.steps.claims import always_sign, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import EVERYTHING, Subject
 
 __all__ = ["energy_after", "meeting_condition", "momentum_jump", "rates_after", "work_of_impulses"]
 
 ZERO = Integer(0)
+
+
+MOMENTUM_JUMP = Rule(
+    "impacts.momentum_jump",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz, *Mechanics*, section 7",
+    outcomes={"struck": claims.is_struck(True), "free": claims.is_struck(False)},
+    evidence={"particles": ROUTE},
+    named={"coordinate": claims.momentum_of},
+)
 
 
 def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
@@ -62,7 +74,7 @@ def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None 
         return explicit(found.left) - explicit(found.right), changed - diff(blow.power(), q.rate)
 
     return establish(
-        "impacts.momentum_jump",
+        MOMENTUM_JUMP,
         None,
         law,
         {"kinetic": kinetic},
@@ -84,6 +96,20 @@ def _jump(found: Relation, blow: Blow) -> Relation:
     alone = Add(*(term for term in Add.make_args(left) if not term.has(*map(rate, blow.moving))))
     moved = by_rates(left - alone, blow.moving)
     return Relation(moved + by_terms(tidied(alone)) if alone != 0 else moved, "=", by_terms(tidied(right)))
+
+
+MEETING_CONDITION = Rule(
+    "impacts.meeting_condition",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.5 and 4.14",
+    outcomes={
+        "together": claims.restitution(0),
+        "kept": claims.restitution(0),
+        "elastic": claims.restitution(1),
+        "rebound": claims.restitution(None),
+    },
+    evidence={"functions_of_time": CHECK},
+    named={"impulse": claims.impulse_of_its_condition},
+)
 
 
 def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quantity:
@@ -110,7 +136,7 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
         return explicit(found.left) - explicit(found.right), blow.read_again(speed) + returned
 
     return establish(
-        "impacts.meeting_condition",
+        MEETING_CONDITION,
         None,
         law,
         {},
@@ -168,6 +194,14 @@ def energy_after(
     return put_in(kinetic, *rates, *([places] if places else []), key=key, symbol=f"{kinetic.symbol}_after")
 
 
+WORK_OF_IMPULSES = Rule(
+    "impacts.work_of_impulses",
+    source="Routh, *Dynamics of a System of Rigid Bodies*, elementary part, section 346",
+    outcomes={"zero": vanishes, "lost": always_sign(-1), "gained": always_sign(1), "generic": always_sign(None)},
+    evidence={"impulses": ROUTE},
+)
+
+
 def work_of_impulses(
     blow: Blow, energy: Quantity, after: Sequence[Quantity], symbol: str = "W", key: str = "work_of_impulses"
 ) -> Quantity:
@@ -190,7 +224,7 @@ def work_of_impulses(
         return work, mean.xreplace({each.letter: found[each.letter] for each in blow.meetings})
 
     return establish(
-        "impacts.work_of_impulses",
+        WORK_OF_IMPULSES,
         scalar(symbol),
         lambda T: Terms(T, -before) if before != 0 else T,
         {"energy": energy},

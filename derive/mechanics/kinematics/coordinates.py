@@ -27,8 +27,10 @@ from derive.algebra.expressions import RATES, TIME, TimeRate, explicit, rate, sc
 from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
 from derive.algebra.taylor import NoSeries, taylor
 from derive.errors import Complaint, Rejected
+from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, establish
 from derive.steps.record import coordinate_named
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Level, Quantity, compared_with
 
 __all__ = ["Coordinate", "coordinate", "euler_angles", "rate_of", "unknown"]
@@ -187,6 +189,14 @@ def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]
     return series
 
 
+RATE_OF = Rule(
+    "kinematics.rate_of",
+    source="Taylor, *Classical Mechanics*, section 7.1",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"functions_of_time": CHECK},
+)
+
+
 def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion, dx/dt, by the chain rule: the sum of dx/dq q_dot.
 
@@ -205,7 +215,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
         return by_functions_of_time(quantity.value, moving)
 
     return establish(
-        "kinematics.rate_of",
+        RATE_OF,
         rate(quantity.symbol),
         lambda x: TimeRate(x, *moving),
         {"quantity": quantity},

@@ -13,10 +13,15 @@ from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, 
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
+from derive.mechanics.lagrange import claims
 from derive.mechanics.model.constraint import Constraint, Kept
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.mechanics.model.forces import Damper, GivenForce
+from derive.mechanics.theorems import MULTIPLIERS, MULTIPLIERS_OF_RATES
+from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Level
+from derive.steps.rule import ROUTE, Quote, Rule, Shown
 from derive.steps.step import Fact, Quantity, compared_with
 from derive.steps.subject import Subject
 
@@ -72,6 +77,13 @@ def acting(*energies: Quantity) -> list[Fact]:
     return [fact for energy in energies for fact in energy.facts if isinstance(fact, ActedOn | Kept)]
 
 
+DISSIPATION_FUNCTION = Rule(
+    "lagrange.dissipation_function",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5",
+    evidence={"power": ROUTE},
+)
+
+
 def dissipation_function(system: WithForces, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
     """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over what damps a system, in W.
 
@@ -92,7 +104,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
         return 2 * found, -Add(*(power_of(load, moving) for load in loads))
 
     return establish(
-        "lagrange.dissipation_function",
+        DISSIPATION_FUNCTION,
         scalar(symbol),
         law,
         {},
@@ -126,6 +138,14 @@ def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
     return Add(*(f * v for f, v in zip(load.force, velocity, strict=True)))
 
 
+APPLIED_FORCE = Rule(
+    "lagrange.applied_force",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"power": ROUTE},
+)
+
+
 def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
     """Generalized force of what has no potential energy, Q = sum of F . dr/dq - dD/dq_dot.
 
@@ -157,7 +177,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
     name = f"Q_{q.symbol.name}"
     return establish(
-        "lagrange.applied_force",
+        APPLIED_FORCE,
         scalar(name),
         law,
         {"dissipation": acted.dissipation} if acted.dissipation is not None else {},
@@ -189,6 +209,26 @@ def _by_rates_or_terms(value: Expr, moving: Sequence[Symbol]) -> Expr:
     return by_rates(value, moving) if any(value.has(rate(q)) for q in moving) else by_terms(tidied(value))
 
 
+FORCED_EQUATION = Rule(
+    "lagrange.forced_equation",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.5 and 2.4",
+    outcomes={
+        "applied": claims.forced_equation_applied,
+        "kept": claims.forced_equation_kept,
+        "both": claims.forced_equation_both,
+        "free": claims.forced_equation_free,
+    },
+    evidence={"virtual_work": ROUTE, "given_virtual_work": ROUTE, "energy_identity": ROUTE},
+    statements=[claims.functions_of_its_constraints],
+    named={"coordinate": claims.equation_of},
+    shown=Shown(result_again=Level.STANDARD),
+    quotes=[
+        Quote(MULTIPLIERS, frozenset({"both", "kept"}), law_in=frozenset({"kept"})),
+        Quote(MULTIPLIERS_OF_RATES, frozenset({"both", "kept"}), law_in=frozenset({"kept"})),
+    ],
+)
+
+
 def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity], key: str) -> Quantity:
     """Lagrange's equation, d/dt dL/dq_dot - dL/dq = Q + sum of lambda df/dq.
 
@@ -218,7 +258,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
 
     return establish(
-        "lagrange.forced_equation",
+        FORCED_EQUATION,
         None,
         law,
         {"lagrangian": of, **({"applied": applied} if applied is not None else {})},

@@ -15,34 +15,29 @@ from derive.algebra.collect import by_accelerations
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, as_expr, explicit, rate, scalar, stand_in
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
-from derive.algebra.normal_form import vanishes
+from derive.algebra.normal_form import vanishes as vanishes_identically
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time
+from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
-from derive.mechanics.lagrange.lagrangian import FromLagrangian
+from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
 from derive.mechanics.model.constraint import Constraint, Kept
 from derive.mechanics.model.dalembert import Matter, Reaction
 from derive.mechanics.model.gradients import gradient_length
 from derive.mechanics.model.rigid import by_squares
+from derive.steps.claims import lasts, says_what_it_divides_by, vanishes
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import told_of_divisors
+from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
-from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
+from derive.steps.step import Level, Quantity, compared_with, is_zero
 
 __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
 
 ZERO = Integer(0)
 MOST = 8  # unknowns that are solved for together
-
-
-@dataclass(frozen=True)
-class ForceOf(Fact):
-    """The constraint that a force keeps, and the equations from which it was found."""
-
-    missing = "is not the force of a constraint"
-    constraint: Constraint
-    problem: Any
 
 
 @dataclass(frozen=True)
@@ -169,6 +164,15 @@ def _not_all_negative(left: Expr) -> Expr:
     return Add(*(-term for term in terms)) if all(term.could_extract_minus_sign() for term in terms) else left
 
 
+CONSTRAINT_RATE = Rule(
+    "lagrange.constraint_rate",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
+    outcomes={"in_rates": claims.constraint_rate_in_rates, "in_coordinates": claims.constraint_rate_in_coordinates},
+    evidence={"functions_of_time": CHECK},
+    shown=Shown(brief=Manner.LEFT_OUT, unless_long=True),
+)
+
+
 def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Quantity:
     """A constraint differentiated until accelerations stand in it, d^2 f/dt^2 = 0.
 
@@ -192,7 +196,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         return Relation(once if each.in_rates else TimeRate(explicit(once), *moving), "=", ZERO)
 
     return establish(
-        "lagrange.constraint_rate",
+        CONSTRAINT_RATE,
         None,
         law,
         {"condition": each.residual},
@@ -211,11 +215,20 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
     )
 
 
+ACCELERATION = Rule(
+    "lagrange.acceleration",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"virtual_work": ROUTE, "constraint": CHECK},
+    statements=[claims.a_second_rate, says_what_it_divides_by],
+)
+
+
 def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Quantity:
     found = _solution(problem)
     coordinate = Coordinate(q, problem.lagrangian.coordinates[q])
     return establish(
-        "lagrange.acceleration",
+        ACCELERATION,
         rate(q, 2),
         lambda: found[rate(q, 2)],
         {},
@@ -233,13 +246,22 @@ def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Qu
     )
 
 
+MULTIPLIER = Rule(
+    "lagrange.multiplier",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
+    outcomes={"generic": claims.multiplier_generic, "multiplier": claims.multiplier_multiplier, "zero": vanishes},
+    evidence={"virtual_work": ROUTE},
+    statements=[says_what_it_divides_by],
+)
+
+
 def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) -> Quantity:
     found = _solution(problem)
     length = gradient_length(each, problem.lagrangian)
     is_force = length is None or is_zero(length - 1)
     shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
     return establish(
-        "lagrange.multiplier",
+        MULTIPLIER,
         each.force,
         lambda: _gathered(problem, found[each.force]),
         {},
@@ -266,6 +288,14 @@ def _places(problem: _Problem) -> tuple[Expr, ...]:
 def _gathered(problem: _Problem, value: Expr) -> Expr:
     """By the accelerations that stay in a force, and by squares of rates."""
     return by_accelerations(value, problem.moving) if problem.keeping else value
+
+
+CONSTRAINT_FORCE = Rule(
+    "lagrange.constraint_force",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"newton": ROUTE},
+)
 
 
 def constraint_force(
@@ -305,7 +335,7 @@ def constraint_force(
         return Terms(*terms) if len(terms) > 1 else Add(*terms)
 
     return establish(
-        "lagrange.constraint_force",
+        CONSTRAINT_FORCE,
         scalar(symbol),
         law,
         acting,
@@ -394,7 +424,7 @@ def _is_singular(matrix: ImmutableDenseMatrix) -> bool:
     polynomial, names = _without_functions(matrix)
     value = DomainMatrix.from_Matrix(Matrix(polynomial)).to_field()
     det = value.domain.to_sympy(value.det())
-    return vanishes(det.xreplace({dummy: f for f, dummy in names.items()}))
+    return vanishes_identically(det.xreplace({dummy: f for f, dummy in names.items()}))
 
 
 def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:

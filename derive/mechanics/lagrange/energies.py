@@ -31,6 +31,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.coordinates import by_functions_of_time, rate_of
 from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import acting_on, squares_of_rates
 from derive.mechanics.model.dalembert import MassPoint, Matter
 from derive.mechanics.model.distances import long_distances
@@ -42,9 +43,12 @@ from derive.mechanics.model.rigid import (
     turning_rate_of,
 )
 from derive.mechanics.model.system import HALF, ZERO, Eliminated, System
+from derive.steps.claims import vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Manner
 from derive.steps.record import assumed, free_letter
-from derive.steps.step import Form, Level, Quantity, compared_with, lettered, value_behind
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
+from derive.steps.step import Form, Level, Quantity, Step, compared_with, lettered, value_behind
 from derive.steps.subject import EVERYTHING, Subject
 
 __all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
@@ -85,6 +89,24 @@ def movers(system: System, lagrangian: str = "") -> list[Mover]:
     return [replace(mover, letter=index(i, mover)) for i, mover in enumerate(found)]
 
 
+def _is_plain(step: Step) -> bool:
+    """Whether the square of a speed is that of coordinates themselves, x_dot^2 + y_dot^2."""
+    return bool(step.result.free_symbols <= {rate(q) for q, _ in step.coordinates})
+
+
+SQUARED_SPEED = Rule(
+    "lagrange.squared_speed",
+    source="Taylor, *Classical Mechanics*, section 7.1",
+    outcomes={
+        "alone": claims.squared_speed_alone,
+        "centre": claims.squared_speed_centre,
+        "of_several": claims.squared_speed_of_several,
+    },
+    evidence={"functions_of_time": CHECK},
+    shown=Shown(brief=Manner.TAKEN_IN, taken_in_if=_is_plain),
+)
+
+
 def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     """Square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
     moving = list(system.coordinates)
@@ -99,7 +121,7 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     velocity = _velocity(mover, moving)
     at = {f"place_{k}": c for k, c in enumerate(mover.place)}
     return establish(
-        "lagrange.squared_speed",
+        SQUARED_SPEED,
         Pow(letter, 2),
         (lambda *v: Terms(*(Pow(c, 2) for c in v))) if velocity else (lambda *at: squares_of_rates(at, moving)),
         {f"velocity_{k}": v for k, v in enumerate(velocity)} if velocity else at,
@@ -202,6 +224,13 @@ def _turnings(system: System) -> list[Turning]:
     return found
 
 
+KINETIC_ENERGY = Rule(
+    "lagrange.kinetic_energy",
+    source="Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    evidence={"mass_points": ROUTE},
+)
+
+
 def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kinetic_energy") -> Quantity:
     """Kinetic energy of a system, T = sum of (1/2) M v^2 + (1/2) omega . I omega over its particles and bodies.
 
@@ -240,7 +269,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
         return min((gathered, whole), key=length)
 
     return establish(
-        "lagrange.kinetic_energy",
+        KINETIC_ENERGY,
         scalar(symbol or free_letter("T")),
         law,
         inputs,
@@ -271,6 +300,14 @@ def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
     forms = [by_terms(value), by_terms(value.expand()), with_constants_together(value.expand(), moving)]
     shortest = min(forms, key=length)
     return Add(*(spread(term) for term in Add.make_args(shortest)))
+
+
+POTENTIAL_ENERGY = Rule(
+    "lagrange.potential_energy",
+    source="Taylor, *Classical Mechanics*, section 4.2",
+    outcomes={"generic": claims.on_the_sides_that_are_assumed, "zero": vanishes},
+    evidence={"work": ROUTE},
+)
 
 
 def potential_energy_of(system: System, symbol: str | None = None, key: str = "potential_energy") -> Quantity:
@@ -308,7 +345,7 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
         return Terms(*terms) if len(terms) > 1 else Add(*terms)
 
     return establish(
-        "lagrange.potential_energy",
+        POTENTIAL_ENERGY,
         scalar(symbol or free_letter("U")),
         law,
         named,
@@ -329,6 +366,14 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
         ),
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
+
+
+MAGNETIC_TERM = Rule(
+    "lagrange.magnetic_term",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5; the gauge is that of Landau, Lifshitz, *The Classical Theory of Fields*, section 19",
+    outcomes={"alone": claims.magnetic_term_alone, "several": claims.magnetic_term_several},
+    evidence={"deflection": ROUTE},
+)
 
 
 def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_term") -> Quantity:
@@ -361,7 +406,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         return Add(*(slope * mark for slope, mark in zip(slopes, marks, strict=True))), Add(*works)
 
     return establish(
-        "lagrange.magnetic_term",
+        MAGNETIC_TERM,
         scalar(symbol),
         law,
         {},

@@ -20,7 +20,7 @@ from derive.algebra.collect import by_rates, with_weights_in_front
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Terms, bound, explicit, rate
 from derive.algebra.tidy import tidied
-from derive.mechanics.lagrange.lagrangian import energies_of
+from derive.mechanics.lagrange.facts import energies_of
 from derive.mechanics.model.dalembert import Matter
 from derive.solving.presentation import _shortest, by_letters, by_one_square, roots_together
 from derive.steps.step import Form, Quantity

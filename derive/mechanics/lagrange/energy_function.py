@@ -16,14 +16,17 @@ from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, 
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
+from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ActedOn, applied_force
 from derive.mechanics.lagrange.energy_forms import beside_potential, kinetic_first, part_of_degree
-from derive.mechanics.lagrange.given_lagrangian import Varied, energy_of, rate_of_energy
-from derive.mechanics.lagrange.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
+from derive.mechanics.lagrange.facts import Energies, FromLagrangian, Varied, energies_of
+from derive.mechanics.lagrange.given_lagrangian import energy_of, rate_of_energy
+from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.model.constraint import Kept
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Form, Quantity, is_zero
 
 __all__ = ["energy_function", "energy_function_rate"]
@@ -78,6 +81,14 @@ def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[s
     return {"excess": min(pairs, key=lambda pair: length(pair[0]))}
 
 
+ENERGY_FUNCTION = Rule(
+    "lagrange.energy_function",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7",
+    outcomes=claims.ENERGIES,
+    evidence={"by_degree": ROUTE, "energy_identity": ROUTE, "stretched": CHECK},
+)
+
+
 def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_function") -> Quantity:
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
@@ -113,7 +124,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     carried = Add(*(explicit(Partial(of.value, v)) * v for v in rates))
     plain = beside_potential(explicit(carried - of.value), of, [], [q.symbol for q in moving])
     return establish(
-        "lagrange.energy_function",
+        ENERGY_FUNCTION,
         scalar(symbol or free_letter("h")),
         law,
         {"lagrangian": of},
@@ -127,6 +138,20 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
         kind=of.step.kind,
         facts=[FromLagrangian(of)],
     )
+
+
+ENERGY_FUNCTION_RATE = Rule(
+    "lagrange.energy_function_rate",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4, 2.5 and 2.7",
+    outcomes={
+        "conserved": claims.rate_by(in_time=None, worked=False),
+        "changes": claims.rate_by(in_time=True, worked=False),
+        "work": claims.rate_by(in_time=False, worked=True),
+        "lost": claims.rate_by(in_time=False, worked=True, lost=True),
+        "work_and_time": claims.rate_by(in_time=True, worked=True),
+    },
+    evidence={"along_the_motion": ROUTE, "given_along_the_motion": ROUTE},
+)
 
 
 def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
@@ -165,7 +190,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])
 
     return establish(
-        "lagrange.energy_function_rate",
+        ENERGY_FUNCTION_RATE,
         None,
         law,
         {"energy": of, "lagrangian": L, **{force.key: force for _, force in applied}},

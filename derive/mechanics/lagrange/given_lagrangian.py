@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, together
 
@@ -20,79 +19,20 @@ from derive.algebra.expressions import TIME, Relation, bound, explicit, rate, sc
 from derive.algebra.ranges import sign_within, take_as_positive
 from derive.algebra.taylor import slope
 from derive.errors import Complaint, Rejected
-from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.mechanics.lagrange.applied_forces import acting_on
+from derive.mechanics.lagrange.facts import Varied
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.described import Described, described
 from derive.mechanics.model.forces import Damper, GivenForce
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, coordinates_in, free_letter
-from derive.steps.step import Quantity, Route
+from derive.steps.rule import Rule
+from derive.steps.step import Quantity
 from derive.steps.subject import Subject
 
 __all__ = ["given_lagrangian"]
 
 ZERO = Integer(0)
-
-
-@dataclass(frozen=True)
-class Varied(Matter):
-    """What a given Lagrangian does where it is varied, in the place of mass points and forces.
-
-    function   the Lagrangian
-    """
-
-    function: Expr = ZERO
-
-    def __add__(self, other: Matter) -> Matter:
-        if other != self:
-            raise Rejected(Complaint("different-subjects", "these belong to different Lagrangians"))
-        return self
-
-    @property
-    def is_known(self) -> bool:
-        return True
-
-    def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
-        return {f"given_{name}": route for name, route in routes.items()}
-
-    def kinetic_energy(self) -> Expr:
-        raise Rejected(Complaint("given-lagrangian", "of a Lagrangian that is given no kinetic energy is known"))
-
-    def momentum_along(self, q: Symbol) -> Expr:
-        """What L gains where the rate of q alone is varied."""
-        return slope(self.function, rate(q))
-
-    def turning_along(self, q: Symbol) -> Expr:
-        """What L gains where q alone is varied."""
-        return slope(self.function, q)
-
-    def inertia_along(self, q: Symbol) -> Expr:
-        """What the action loses where q is varied, per unit of time: dp/dt less the slope of L."""
-        return by_functions_of_time(self.momentum_along(q), self.coordinates) - self.turning_along(q)
-
-    def further_routes(self, q: Symbol) -> dict[str, Route]:
-        """The rate of the energy of q alone, the others being what they are as functions of time, less what these do,
-        is the power of what acts along q: no derivative of L by q is taken."""
-
-        def power(found: Any) -> tuple[Any, Any]:
-            others = [s for s in self.coordinates if s != q]
-            own = rate(q) * self.momentum_along(q) - self.function
-            changed = by_functions_of_time(own, self.coordinates)
-            given = by_functions_of_time(self.function, others)
-            along = (changed + given) / rate(q) - self.other_force_along(q)
-            return found, Relation(along, "=", 0)
-
-        return {"energy_identity": power}
-
-    def change_along(self, shift: Mapping[Symbol, Expr]) -> Expr:
-        """The first order of L where every coordinate is shifted by a formula."""
-        small = Dummy("epsilon", real=True)
-        moved: dict[Symbol, Expr] = {}
-        for q, x in shift.items():
-            moved.update({q: q + small * x, rate(q): rate(q) + small * by_functions_of_time(x, self.coordinates)})
-        return slope(bound(self.function, moved), small).xreplace({small: ZERO})
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,6 +61,12 @@ class WithoutBodies:
         return Described(
             described((*self.given_forces, *self.dampers), (), (), {}, None, self.coordinates, self.function)
         )
+
+
+GIVEN_LAGRANGIAN = Rule(
+    "lagrange.given_lagrangian",
+    source="Landau, Lifshitz, *Mechanics*, section 2",
+)
 
 
 def given_lagrangian(
@@ -161,13 +107,12 @@ def given_lagrangian(
     for base in sorted(_radicands(whole), key=str):
         _take_as_real(base)
     return establish(
-        "lagrange.given_lagrangian",
+        GIVEN_LAGRANGIAN,
         scalar(symbol or free_letter("L")),
         lambda: function,
         {},
         key=key,
         kind=kind,
-        definition=True,
         lines=Lines(put_in=None, arranged=lambda value: value),
         facts=[system.matter, *acting_on(system), system.described],
         scope=Scope(coordinates=moving, about=Subject(body=system)),

@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, diff
 
 from derive.algebra.expressions import Relation, bound, explicit, rate
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import OfCoordinate, by_functions_of_time
+from derive.mechanics.lagrange import claims
+from derive.mechanics.lagrange.facts import KeptMomentum
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Form, Level, Quantity
+from derive.steps.rule import ROUTE, Rule
+from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["value_kept"]
 
 
-@dataclass(frozen=True)
-class KeptMomentum(Fact):
-    """The letter of a momentum, the value that it keeps, and the rate of its coordinate that follows from that."""
-
-    missing = "is not the value of a conserved momentum"
-    momentum: Symbol
-    value: Expr
-    coordinate: Symbol
-    turning: Expr
+VALUE_KEPT = Rule(
+    "lagrange.value_kept",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6",
+    evidence={"along_the_motion": ROUTE, "given_along_the_motion": ROUTE},
+    statements=[claims.of_its_coordinate],
+)
 
 
 def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Quantity:
@@ -63,7 +61,7 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
         return ImmutableDenseMatrix(ours), ImmutableDenseMatrix([matter.momentum_along(q.symbol) - value, at_work, 0])
 
     return establish(
-        "lagrange.value_kept",
+        VALUE_KEPT,
         None,
         lambda p, v: Relation(p, "=", v),
         {"momentum": momentum, "value": value},
@@ -79,12 +77,3 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
         key=key,
         facts=[OfCoordinate(q), KeptMomentum(momentum.symbol, explicit(value), q.symbol, turning)],
     )
-
-
-@dataclass(frozen=True)
-class WithMomenta(Fact):
-    """An equation of motion in which momenta have the values that they keep: the Lagrangian, and these values."""
-
-    missing = "is not an equation of motion with the values of conserved momenta put in"
-    lagrangian: Quantity
-    kept: tuple[KeptMomentum, ...]

@@ -7,7 +7,6 @@ along the motion of one coordinate, equations of motion by d'Alembert's principl
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
 
@@ -18,15 +17,20 @@ from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
+from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ActedOn, acting, forced_equation
 from derive.mechanics.lagrange.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
-from derive.mechanics.lagrange.given_lagrangian import Varied
+from derive.mechanics.lagrange.facts import Energies, FromLagrangian, Varied
 from derive.mechanics.model.constraint import Kept
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.system import System
+from derive.mechanics.theorems import LAGRANGE
+from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.level import Level, Manner
 from derive.steps.record import changes, free_letter
-from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
+from derive.steps.rule import CHECK, ROUTE, Quote, Rule, Shown
+from derive.steps.step import Form, Quantity, compared_with, is_zero
 
 __all__ = [
     "equation_of_motion",
@@ -40,31 +44,13 @@ __all__ = [
 ZERO = Integer(0)
 
 
-@dataclass(frozen=True)
-class FromLagrangian(Fact):
-    """The Lagrangian that an equation of motion or a momentum comes from."""
-
-    missing = "does not come from a Lagrangian"
-    lagrangian: Quantity
-
-
-@dataclass(frozen=True)
-class Energies(Fact):
-    """The energies that a Lagrangian is the difference of."""
-
-    missing = "is not the Lagrangian that `lagrangian` yields"
-    kinetic: Quantity
-    potential: Quantity
-    magnetic: Quantity | None = None
-
-    @property
-    def whole(self) -> Expr:
-        return explicit(self.kinetic.value + self.potential.value)
-
-
-def energies_of(lagrangian: Quantity) -> Energies | None:
-    """The energies that it is the difference of; nothing where it is given."""
-    return None if lagrangian.fact(Varied) is not None else lagrangian.needed(Energies)
+LAGRANGIAN = Rule(
+    "lagrange.lagrangian",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7",
+    outcomes={"generic": claims.lagrangian_generic, "in_field": claims.lagrangian_in_field},
+    evidence={"energy": CHECK, "mass_points": ROUTE},
+    statements=[claims.difference],
+)
 
 
 def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian") -> Quantity:
@@ -103,7 +89,7 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
     driven = matter.is_driven or bool(beside) or changes(potential.value) is not None
 
     return establish(
-        "lagrange.lagrangian",
+        LAGRANGIAN,
         scalar(symbol),
         lambda t, u, *b: _side_by_side(*Add.make_args(t), *(-term for term in Add.make_args(u)), *b),
         {"kinetic": kinetic, "potential": potential, **beside},
@@ -126,6 +112,17 @@ def coordinates_of(of: Quantity) -> list[Coordinate]:
     """The coordinates whose motion a Lagrangian governs."""
     matter = of.needed(Matter)
     return [Coordinate(q, kind) for q, kind in of.coordinates.items() if q in matter.coordinates]
+
+
+EQUATION_OF_MOTION = Rule(
+    "lagrange.equation_of_motion",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
+    outcomes={"generic": claims.not_cyclic, "cyclic": claims.cyclic},
+    evidence={"virtual_work": ROUTE, "given_virtual_work": ROUTE, "energy_identity": ROUTE},
+    named={"coordinate": claims.equation_of},
+    shown=Shown(result_again=Level.STANDARD),
+    quotes=[Quote(LAGRANGE, law_in=frozenset({"cyclic", "generic"}))],
+)
 
 
 def equation_of_motion(
@@ -170,7 +167,7 @@ def equation_of_motion(
     left = _without_common_factor(gathered, moving) if alone else gathered
 
     return establish(
-        "lagrange.equation_of_motion",
+        EQUATION_OF_MOTION,
         None,
         lambda L: Relation(Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol)), "=", 0),
         {"lagrangian": of},
@@ -270,6 +267,18 @@ def _key_of(lagrangian: Quantity, name: str) -> str:
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"
 
 
+GENERALIZED_FORCE = Rule(
+    "lagrange.generalized_force",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"virtual_work": ROUTE, "given_virtual_work": CHECK},
+    statements=[claims.by_its_coordinate],
+    named={"coordinate": claims.differentiated_by},
+    shown=Shown(brief=Manner.LEFT_OUT, first_only=True),
+    prepares=LAGRANGE,
+)
+
+
 def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
     """Generalized force of the Lagrangian, dL/dq.
 
@@ -281,7 +290,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
     """
     matter = of.needed(Matter)
     return establish(
-        "lagrange.generalized_force",
+        GENERALIZED_FORCE,
         Partial(of.symbol, q.symbol),
         lambda L: Partial(L, q.symbol),
         {"lagrangian": of},
@@ -303,6 +312,14 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
     )
 
 
+GENERALIZED_MOMENTUM = Rule(
+    "lagrange.generalized_momentum",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6",
+    evidence={"along_the_motion": ROUTE, "given_along_the_motion": CHECK},
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT),
+)
+
+
 def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
     """Generalized momentum, p = dL/dq_dot.
 
@@ -313,7 +330,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
     """
     matter = of.needed(Matter)
     return establish(
-        "lagrange.generalized_momentum",
+        GENERALIZED_MOMENTUM,
         Partial(of.symbol, q.rate),
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},
@@ -322,6 +339,14 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
         key=key or _key_of(of, f"momentum_{q.symbol.name}"),
         facts=[FromLagrangian(of), OfCoordinate(q)],
     )
+
+
+MOMENTUM_RATE = Rule(
+    "lagrange.momentum_rate",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
+    evidence={"functions_of_time": CHECK},
+    shown=Shown(brief=Manner.LEFT_OUT, first_only=True),
+)
 
 
 def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
@@ -334,7 +359,7 @@ def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> 
     """
     moving = list(momentum.coordinates)
     return establish(
-        "lagrange.momentum_rate",
+        MOMENTUM_RATE,
         TimeRate(momentum.symbol, *moving),
         lambda p: TimeRate(p, *moving),
         {"momentum": momentum},

@@ -14,10 +14,13 @@ from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, coordinate, required
-from derive.mechanics.lagrange.lagrangian import FromLagrangian, coordinates_of, energies_of
+from derive.mechanics.lagrange.facts import FromLagrangian, energies_of
+from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.model.dalembert import Matter
 from derive.solving.presentation import _shortest
+from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, establish
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Quantity, compared_with
 
 __all__ = ["conjugate", "conjugate_momentum", "momenta"]
@@ -49,6 +52,14 @@ def conjugate(of: Coordinate) -> Coordinate:
     return coordinate(letter_of_momentum(of).name, kind)
 
 
+CONJUGATE_MOMENTUM = Rule(
+    "lagrange.conjugate_momentum",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.6 and 8.1",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"along_the_motion": ROUTE, "given_along_the_motion": CHECK},
+)
+
+
 def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, key: str | None = None) -> Quantity:
     """Momentum that belongs to a coordinate, p_q = dL/dq_dot.
 
@@ -63,7 +74,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
     matter = of.needed(Matter)
     letter = scalar(symbol) if symbol else letter_of_momentum(q)
     return establish(
-        "lagrange.conjugate_momentum",
+        CONJUGATE_MOMENTUM,
         letter,
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},

@@ -16,16 +16,26 @@ from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, required
-from derive.mechanics.lagrange.given_lagrangian import Varied
-from derive.mechanics.lagrange.lagrangian import FromLagrangian, coordinates_of
+from derive.mechanics.lagrange import claims
+from derive.mechanics.lagrange.facts import FromLagrangian, Varied
+from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.lagrange.momenta import conjugate_momentum, written_momentum
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["noether"]
 
 ZERO = Integer(0)
+
+
+NOETHER = Rule(
+    "lagrange.noether",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7",
+    outcomes={"symmetry": claims.noether_symmetry, "with_gain": claims.noether_with_gain},
+    evidence={"along_the_shift": ROUTE, "carried": ROUTE, "given_along_the_shift": ROUTE, "given_carried": CHECK},
+)
 
 
 def noether(
@@ -69,7 +79,7 @@ def noether(
         return found, Add(*(m * way * v for m, way, v in _ways(matter, xi)), *in_fields) - gain
 
     return establish(
-        "lagrange.noether",
+        NOETHER,
         scalar(symbol),
         law,
         {f"momentum_{q.symbol.name}": p for q, p in momenta.items()},
@@ -103,6 +113,15 @@ def _plain(value: Any, role: str, of: Quantity) -> Expr:
         message = f"`noether`: the {role} is a formula in the coordinates and the time, without rates"
         raise Rejected(Complaint("wrong-argument", message))
     return found
+
+
+CHANGE_UNDER_SHIFT = Rule(
+    "lagrange.change_under_shift",
+    source="Landau, Lifshitz, *Mechanics*, sections 7 and 9; Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7",
+    outcomes={"none": claims.change_under_shift_none, "gain": claims.change_under_shift_gain},
+    evidence={"places": ROUTE, "given_places": ROUTE},
+    statements=[claims.shifted_as_told],
+)
 
 
 def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Quantity:
@@ -143,7 +162,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([Add(*done), changed_by(gain)])
 
     return establish(
-        "lagrange.change_under_shift",
+        CHANGE_UNDER_SHIFT,
         None,
         law,
         {"lagrangian": of, **told},

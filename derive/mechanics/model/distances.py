@@ -8,9 +8,11 @@ from sympy import Add, Expr, Pow, Rational, sqrt
 
 from derive.algebra.expressions import Terms, explicit, scalar
 from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model import claims
 from derive.mechanics.model.system import Central, System
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import given_letters
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Quantity, compared_with
 from derive.steps.subject import Subject
 
@@ -40,6 +42,14 @@ def _is_taken(letter: str, system: System) -> bool:
     return any(name.partition("_")[0] == letter for name in (*given_letters(), *(q.name for q in system.coordinates)))
 
 
+DISTANCE = Rule(
+    "model.distance",
+    source="Taylor, *Classical Mechanics*, section 1.2",
+    outcomes={"spring": claims.distance_spring, "springs": claims.distance_springs, "other": claims.distance_other},
+    evidence={"law_of_cosines": CHECK},
+)
+
+
 def _distance(system: System, each: Central, name: str) -> Quantity:
     """Distance of two places, s = sqrt((x_2 - x_1)^2 + (y_2 - y_1)^2 + ...), in m.
 
@@ -49,7 +59,7 @@ def _distance(system: System, each: Central, name: str) -> Quantity:
     """
     way = [c for c in (each.end - each.start).components if c != 0]
     return establish(
-        "model.distance",
+        DISTANCE,
         scalar(name),
         lambda: sqrt(Terms(*(Pow(c, 2) for c in way))) if len(way) > 1 else each.length,
         {},

@@ -11,14 +11,23 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model import claims
 from derive.mechanics.model.system import KnownCoordinate
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Level, Quantity
 
 __all__ = ["components", "integrated"]
 
 NAMES = {2: ("x", "y"), 3: ("x", "y", "z")}
+
+
+INTEGRATED = Rule(
+    "model.integrated",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3",
+    evidence={"differentiated": CHECK, "start": CHECK},
+)
 
 
 def integrated(condition: Quantity, key: str | None = None) -> Quantity:
@@ -41,7 +50,7 @@ def integrated(condition: Quantity, key: str | None = None) -> Quantity:
         return by_functions_of_time(found, list(moving)), condition.value.residual.subs(rate(q), 0) * -1
 
     return establish(
-        "model.integrated",
+        INTEGRATED,
         q,
         lambda *_: function,
         {},
@@ -78,6 +87,14 @@ def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence
     return tuple(_component(body, c, i, known, called[i]) for i, c in enumerate(place.components))
 
 
+COMPONENT = Rule(
+    "model.component",
+    source="Taylor, *Classical Mechanics*, section 7.3",
+    outcomes={"centre": claims.of_a_centre, "place": claims.component_place},
+    evidence={"velocity": CHECK, "start": CHECK},
+)
+
+
 def _component(
     body: PlacedBody | None, component: Expr, i: int, conditions: Mapping[str, Quantity], name: str
 ) -> Quantity:
@@ -102,7 +119,7 @@ def _component(
 
     centre = {"centre": body.moved(values).centre.components[i]} if body is not None else {}
     return establish(
-        "model.component",
+        COMPONENT,
         scalar(name),
         lambda *known: component.xreplace(dict(zip(letters, known, strict=True))),
         used,

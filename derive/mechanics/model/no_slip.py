@@ -24,6 +24,7 @@ from derive.mechanics.model.material import MaterialPoint, at_rest_in, particle_
 from derive.mechanics.model.system import KnownCoordinate
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, changes, coordinates_in
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero
 
 __all__ = ["no_slip", "rolling_constraint"]
@@ -250,6 +251,13 @@ def _rates_alone(component: Expr) -> Expr:
     return Mul(*kept) if kept else component
 
 
+NO_SLIP = Rule(
+    "model.no_slip",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32",
+    evidence={"at_rest": ROUTE, "no_more": CHECK},
+)
+
+
 def _solved(
     body: PlacedBody, at: Location, ground: Ground | None, condition: _Condition, key: str, fixes: Coordinate | None
 ) -> Quantity:
@@ -281,7 +289,7 @@ def _solved(
         assume(Relation(each, "!=", ZERO))
     solved = Relation(rate(q), "=", found)
     return establish(
-        "model.no_slip",
+        NO_SLIP,
         None,
         lambda: Relation(by_rates(condition.left, moving), "=", ZERO),
         {},

@@ -15,9 +15,11 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import XYZ, PlacedBody, after
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.mechanics.kinematics.places import Axes, space
+from derive.mechanics.model import claims
 from derive.mechanics.rotation.inertia import inertia_tensor, moment_seen
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in, established
+from derive.steps.rule import ROUTE, Rule
 from derive.steps.step import Quantity, compared_with, is_zero
 from derive.steps.subject import NOTHING, Subject
 
@@ -25,6 +27,18 @@ __all__ = ["angular_velocity"]
 
 Inertia: TypeAlias = Quantity | Expr  # a step, or the letter of a moment across the plane
 _SQUARES = (lambda value: value, TR5, TR6)  # as it is, by cosines, by sines
+
+
+ANGULAR_VELOCITY = Rule(
+    "model.angular_velocity",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9",
+    outcomes={
+        "space": claims.along_space,
+        "body": claims.angular_velocity_body,
+        "following": claims.angular_velocity_following,
+    },
+    evidence={"rotation_matrix": ROUTE},
+)
 
 
 def angular_velocity(
@@ -66,7 +80,7 @@ def angular_velocity(
         return column(*((rows[i, :] * columns[:, j])[0].expand() for i, j in ((2, 1), (0, 2), (1, 0))))
 
     return establish(
-        "model.angular_velocity",
+        ANGULAR_VELOCITY,
         vector(symbol),
         lambda *_: MatAdd(*whole) if len(whole) > 1 else whole[0],
         {f"turn_{n}": angle for n, (_, angle) in enumerate(axes.turns, 1)},

@@ -17,13 +17,26 @@ from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, bound
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import by_functions_of_time, kind_of_rate, require_all_times
+from derive.mechanics.motion import claims
 from derive.mechanics.motion.trajectory import followed
-from derive.mechanics.rotation.vectors import Acting, RateByParticles
+from derive.mechanics.rotation.facts import RateByParticles
+from derive.mechanics.rotation.vectors import Acting
 from derive.solving.highest_rates import _equation, highest_rates
+from derive.steps.claims import as_told, lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.level import Manner
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.step import Form, Level, Quantity, compared_with
 
 __all__ = ["rate_under"]
+
+
+RATE_UNDER = Rule(
+    "motion.rate_under",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7",
+    outcomes={"conserved": vanishes, "changes": lasts},
+    evidence={"any_axes": ROUTE, "followed": CHECK, "functions_of_time": ROUTE, "sum": CHECK, "matter": ROUTE},
+)
 
 
 def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | None = None) -> Quantity:
@@ -54,7 +67,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     taken_off = common * Add(*(_equation(equation).residual for equation in known))  # zero along the motion
 
     return establish(
-        "motion.rate_under",
+        RATE_UNDER,
         TimeRate(quantity.symbol, *moving),
         lambda q: TimeRate(q, *moving),
         {"quantity": quantity},
@@ -93,6 +106,15 @@ def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequenc
     return common, [factor / common for factor in factors]
 
 
+PRODUCT = Rule(
+    "motion.product",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7",
+    outcomes={"alone": claims.product_alone, "one_of_several": claims.product_one_of_several},
+    evidence={"motion": CHECK, "divided": CHECK},
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT),
+)
+
+
 def _product(
     quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr], of_many: int
 ) -> Quantity:
@@ -102,7 +124,7 @@ def _product(
     """
     written = equation.value
     return establish(
-        "motion.product",
+        PRODUCT,
         None,
         lambda f, _: Relation(Factors(f, written.left), "=", _times(f, written.right)),
         {"factor": factor, "quantity": quantity},
@@ -145,6 +167,17 @@ def _times(factor: Expr, side: Expr) -> Expr:
     return Integer(0) if side == 0 else Factors(factor, side)
 
 
+SUM = Rule(
+    "motion.sum",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7",
+    outcomes={word: claims.sum_left(word) for word in ("plain", "cancel", "remain")},
+    evidence={"motion": CHECK, "one_by_one": CHECK},
+    statements=[claims.sum_of_the_equations_times_their_factors],
+    named={"factor": as_told(claims.sum_of_the_equations_times_their_factors)},
+    shown=Shown(each_worked_out=True),
+)
+
+
 def _sum(
     quantity: Quantity,
     products: Sequence[Quantity],
@@ -158,7 +191,7 @@ def _sum(
     sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
     moving = _moving([quantity, *products])
     return establish(
-        "motion.sum",
+        SUM,
         None,
         lambda: Relation(Terms(*_added(sides[0])), "=", Terms(*_added(sides[1]))),
         {},

@@ -17,12 +17,14 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.model.dalembert import Matter
-from derive.mechanics.motion.turning_points import ByEnergy
+from derive.mechanics.motion import claims
+from derive.mechanics.motion.facts import ByEnergy
 from derive.solving.presentation import presented
 from derive.solving.unknowns import residual_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.numeric import WholeSwing
 from derive.steps.record import free_letter, letter_of_limit
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Form, Level, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["period_by_energy", "speed_from_energy"]
@@ -30,6 +32,13 @@ __all__ = ["period_by_energy", "speed_from_energy"]
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
 NOISE = 1e-9  # what the numbers may differ by near the turning points, where most figures cancel
+
+
+SPEED_FROM_ENERGY = Rule(
+    "motion.speed_from_energy",
+    source="Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems)",
+    evidence={"motion": ROUTE},
+)
 
 
 def speed_from_energy(
@@ -80,7 +89,7 @@ def speed_from_energy(
         return ImmutableDenseMatrix([diff(found, letter) / 2, there]), ImmutableDenseMatrix([expected, initial**2])
 
     return establish(
-        "motion.speed_from_energy",
+        SPEED_FROM_ENERGY,
         speed**2,
         lambda *_: Ratio(Factors(TWO, Terms(at_start, -rest)), mass),
         {"kept": conserved},
@@ -95,6 +104,15 @@ def speed_from_energy(
         key=key or f"{letter.name}_dot_squared",
         facts=[ByEnergy(letter, first, initial, acceleration)],
     )
+
+
+ENERGY_KEPT = Rule(
+    "motion.energy_kept",
+    source="Taylor, *Classical Mechanics*, section 4.6",
+    outcomes={"from_rest": claims.released(True), "moving": claims.released(False)},
+    evidence={"motion": ROUTE},
+    named={"place": claims.energy_there},
+)
 
 
 def _energy_kept(
@@ -118,7 +136,7 @@ def _energy_kept(
         return ImmutableDenseMatrix([there, changing, found.left, is_equation]), ImmutableDenseMatrix([0, 0, value, 1])
 
     return establish(
-        "motion.energy_kept",
+        ENERGY_KEPT,
         None,
         lambda e: Relation(e, "=", at_start),
         {"energy": energy},
@@ -165,6 +183,15 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
         raise Rejected(Complaint("wrong-argument", message))
 
 
+PERIOD_BY_ENERGY = Rule(
+    "motion.period_by_energy",
+    source="Landau, Lifshitz, *Mechanics*, section 11",
+    outcomes={"exact": claims.isochronous(True), "expanded": claims.isochronous(False)},
+    evidence={"linearised": ROUTE, "quadrature": CHECK},
+    named={"amplitude": claims.turns_back_there},
+)
+
+
 def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = None, key: str = "period") -> Quantity:
     """Period of a swing to and fro, 4 times the integral of dq/q_dot from 0 to the amplitude A, in powers of A.
 
@@ -202,7 +229,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
 
     period, integral = scalar(symbol or free_letter("tau")), SwingTime(value, q, amplitude, Integer(order))
     return establish(
-        "motion.period_by_energy",
+        PERIOD_BY_ENERGY,
         period if exact else letter_of_limit(period, amplitude, ZERO),
         lambda *_: Factors(Integer(4), integral),
         {"squared": squared, "approach": Approach(amplitude, ZERO)},

@@ -11,7 +11,9 @@ from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.motion.turning_points import ByEnergy, condition_to_reach, part_of_the_way, squared_by_energy
+from derive.mechanics.motion import claims
+from derive.mechanics.motion.facts import ByEnergy
+from derive.mechanics.motion.turning_points import condition_to_reach, part_of_the_way, squared_by_energy
 from derive.solving.relations import conditions_told, divided_out, existence, number_of, solved_for_unknown, unsolvable
 from derive.solving.signs import of_the_size
 from derive.solving.unknowns import (
@@ -26,12 +28,28 @@ from derive.solving.unknowns import (
 from derive.solving.zeros import positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["leaves_contact"]
 
 POINTS = 40
 ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))  # and beyond
+
+
+LEAVES_CONTACT = Rule(
+    "motion.leaves_contact",
+    source="Morin, *Introduction to Classical Mechanics*, section 5.3",
+    outcomes={
+        "lost": claims.lost(later=False),
+        "lost_later": claims.lost(later=True),
+        "never": claims.leaves_contact_never,
+        "turns_back": claims.turned_back,
+        "turns_there": claims.turned_back,
+    },
+    evidence={"on_the_way": CHECK, "in_numbers": CHECK, "size": CHECK},
+    named={"from": claims.pushes_there, "place": claims.force_vanishes_there},
+)
 
 
 def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "leaves_contact") -> Quantity:
@@ -56,7 +74,7 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
     if sign_known(value) == 1:
         return establish(
-            "motion.leaves_contact",
+            LEAVES_CONTACT,
             None,
             lambda v: Relation(v, ">", 0),
             {"force": force},
@@ -96,7 +114,7 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
         return Relation(found.left, found.mark, on_the_way + 7 * at_place), Relation(unknown, "=", u * at_start)
 
     return establish(
-        "motion.leaves_contact",
+        LEAVES_CONTACT,
         None,
         lambda v: Relation(v, "=", 0),
         {"force": force},
@@ -166,7 +184,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
         return found.residual * 0 + sure, Integer(1)
 
     return establish(
-        "motion.leaves_contact",
+        LEAVES_CONTACT,
         None,
         lambda v: Relation(v, mark, 0),
         {"force": force},

@@ -7,7 +7,6 @@ Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Cla
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from sympy import Add, Dummy, Expr, Integer, Mul, Symbol
@@ -19,28 +18,20 @@ from derive.algebra.taylor import slope
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.lagrange.applied_forces import ActedOn
-from derive.mechanics.lagrange.kept_momentum import WithMomenta
+from derive.mechanics.lagrange.facts import WithMomenta
 from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.model.dalembert import Load, Matter
+from derive.mechanics.motion import claims
+from derive.mechanics.motion.facts import Steady
 from derive.solving.presentation import presented
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Level, Quantity, compared_with, require_kind
+from derive.steps.rule import ROUTE, Rule
+from derive.steps.step import Level, Quantity, compared_with, require_kind
 
 __all__ = ["steady_motion"]
 
 ZERO = Integer(0)
-
-
-@dataclass(frozen=True)
-class Steady(Fact):
-    """A steady motion: the values of what does not move, the rates of what turns, and what they must fulfil."""
-
-    missing = "is not the condition of a steady motion, as `steady_motion` yields it"
-    lagrangian: Quantity
-    values: Mapping[Symbol, Expr]
-    rates: Mapping[Symbol, Expr]
-    conditions: tuple[Expr, ...]
 
 
 def steady_motion(
@@ -92,6 +83,19 @@ def steady_motion(
     return found[0] if single else found
 
 
+STEADY_MOTION = Rule(
+    "motion.steady_motion",
+    source="Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7",
+    outcomes={
+        "generic": claims.steady_motion_generic,
+        "always": claims.steady_motion_always,
+        "of_equation": claims.nothing_else_moves,
+    },
+    evidence={"carried_along": ROUTE, "given_carried_along": ROUTE},
+    named={"stays": claims.stays_and_turns, "turns": claims.stays_and_turns},
+)
+
+
 def _of_equation(
     equation: Quantity, steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key: str
 ) -> Quantity:
@@ -110,7 +114,7 @@ def _of_equation(
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
     kept = {s: v for s, v in steady.rates.items() if rate(s) != v}
     return establish(
-        "motion.steady_motion",
+        STEADY_MOTION,
         None,
         lambda *_: Relation(bound(equation.value.left, still), "=", 0),
         {"equation": equation, "coordinate": q.symbol},
@@ -163,7 +167,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
     told |= {f"turns_{n}": (rate(s), v) for n, (s, v) in enumerate(steady.rates.items(), 1) if rate(s) != v}
     return establish(
-        "motion.steady_motion",
+        STEADY_MOTION,
         None,
         lambda L: Relation(Partial(L, q.symbol), "=", 0),
         {"lagrangian": of},

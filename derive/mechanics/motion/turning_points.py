@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import islice
 
-from sympy import Dummy, Expr, Integer, Rational, Symbol, oo
+from sympy import Dummy, Expr, Integer, Rational, oo
 
 from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.motion.facts import ByEnergy
 from derive.solving.unknowns import left_over, letter_of, mark_for, meaning, with_unknown
 from derive.solving.zeros import positive
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assume, assumed
-from derive.steps.step import Fact, Quantity
+from derive.steps.step import Quantity
 
 TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # of the way to a place
-
-
-@dataclass(frozen=True)
-class ByEnergy(Fact):
-    """Where a motion of one coordinate started, and its acceleration by the equation of motion."""
-
-    missing = "is not the square of a rate by conservation of energy"
-    coordinate: Symbol
-    start: Expr
-    start_rate: Expr
-    acceleration: Expr
 
 
 def squared_by_energy(speed: Quantity) -> Expr:

@@ -23,8 +23,10 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.model.constraint import Constraint, Kept
 from derive.mechanics.model.system import System
+from derive.mechanics.rest import claims
 from derive.solving.signs import sign_by_factors
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.rule import ROUTE, Rule
 from derive.steps.step import Quantity, is_zero
 
 __all__: list[str] = []
@@ -112,6 +114,20 @@ class Allowed:
         return tidied(straight + aside)
 
 
+STABILITY_ON_CONSTRAINTS = Rule(
+    "rest.stability_on_constraints",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear Programming*, section 11.5",
+    outcomes=claims.STABILITY_ON_CONSTRAINTS,
+    evidence={"along_curves": ROUTE},
+    named={
+        "state": claims.on_the_constraints,
+        "moving": claims.on_the_constraints,
+        "constraint": claims.on_the_constraints,
+        "way": claims.along_the_constraints,
+    },
+)
+
+
 @dataclass(frozen=True)
 class OnConstraints:
     """A state of rest on constraints.
@@ -151,7 +167,7 @@ class OnConstraints:
             return found, curved[0] if alone else ImmutableDenseMatrix(curved)
 
         return establish(
-            "rest.stability_on_constraints",
+            STABILITY_ON_CONSTRAINTS,
             names[0] if alone else ImmutableDenseMatrix(names),
             lambda *_: minors[0] if alone else Amplitudes(*minors),
             {"potential": self.potential},

@@ -8,7 +8,6 @@ are linear.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, sin
@@ -36,13 +35,15 @@ from derive.algebra.ranges import range_of
 from derive.algebra.taylor import coefficient_along, slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.hamilton.effective import SeenWith
+from derive.mechanics.hamilton.facts import SeenWith
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.lagrange.applied_forces import ActedOn
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.system import System
+from derive.mechanics.rest import claims
 from derive.mechanics.rest.constrained_stability import constraints_of
 from derive.mechanics.rest.counting import is_countable, signs_counted
+from derive.mechanics.rest.facts import RestOf, matter_behind
 from derive.mechanics.rest.mass_matrix import check_regular
 from derive.mechanics.rest.sides import (
     SidesOpen,
@@ -59,7 +60,8 @@ from derive.solving.zeros import Unsolved, Zero, factors_of, zeros_of
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import may_vanish
 from derive.steps.record import changes, given_letters
-from derive.steps.step import Fact, Quantity, Route, compared_with, is_zero, require_kind
+from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.step import Quantity, Route, compared_with, is_zero, require_kind
 from derive.witness.facts import Rest
 
 __all__ = ["equilibria", "potential_at_rest"]
@@ -68,13 +70,15 @@ ZERO = Integer(0)
 MOST = 32  # states of rest
 
 
-@dataclass(frozen=True)
-class RestOf(Fact):
-    """The potential energy that a state of rest belongs to, and the coordinates that it was sought in."""
-
-    missing = "is not a state of rest that was found"
-    potential: Quantity
-    coordinates: tuple[Symbol, ...]
+POTENTIAL_AT_REST = Rule(
+    "rest.potential_at_rest",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39",
+    outcomes={
+        "generic": claims.both(claims.is_at_rest, claims.is_what_the_lagrangian_has),
+        "pushed": claims.potential_at_rest_pushed,
+    },
+    evidence={"work": ROUTE, "given_work": ROUTE},
+)
 
 
 def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_rest") -> Quantity:
@@ -106,7 +110,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
         return Terms(-L, *(-push for push in pushes)) if pushes else Factors(Integer(-1), L)
 
     return establish(
-        "rest.potential_at_rest",
+        POTENTIAL_AT_REST,
         scalar(symbol),
         law,
         {"lagrangian": of},
@@ -294,6 +298,16 @@ def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 
+CONDITION = Rule(
+    "rest.condition",
+    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6",
+    outcomes={"generic": claims.condition_generic, "zero": claims.condition_zero},
+    evidence={"virtual_work": ROUTE, "given_virtual_work": ROUTE},
+    statements=[claims.steady_as_its_potential],
+    named={"steady": claims.only_coordinate},
+)
+
+
 def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
     """dU/dq = 0, in factors.
 
@@ -302,7 +316,7 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
     """
     alone = {s for s in potential.coordinates if explicit(potential.value).has(s)} == {q}
     return establish(
-        "rest.condition",
+        CONDITION,
         None,
         lambda U: Relation(Slope(U, q, Integer(1)) if alone else Partial(U, q), "=", 0),
         {"potential": potential},
@@ -330,12 +344,6 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol
     if seen is None or not seen.constants or len(sought) != 1:
         return {}
     return {"steady": sought[0]}
-
-
-def matter_behind(potential: Quantity) -> Matter | None:
-    """What made a potential energy: mass points and forces, or of an effective one those with momenta held constant."""
-    seen, own = potential.fact(SeenWith), potential.fact(Matter)
-    return seen.matter if seen is not None else own if own is not None and own.is_known else None
 
 
 def all_matter(potential: Quantity) -> Matter | None:
@@ -389,6 +397,24 @@ def _by_terms_if_shorter(value: Expr) -> Expr:
     return min((value, by_terms(value.expand())), key=length)
 
 
+EQUILIBRIUM = Rule(
+    "rest.equilibrium",
+    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6",
+    outcomes={
+        "only": claims.equilibrium_only,
+        "always": claims.both(
+            claims.anywhere, claims.several, claims.all_are_told, claims.sides_as_told, claims.level_as_told
+        ),
+        "where": claims.both(
+            claims.under_its_condition, claims.all_are_told, claims.sides_as_told, claims.level_as_told
+        ),
+    },
+    evidence={"no_force": CHECK, "counted": CHECK},
+    statements=[claims.steady_as_its_potential],
+    named={"steady": claims.only_coordinate},
+)
+
+
 def _rest(
     potential: Quantity,
     conditions: Sequence[Quantity],
@@ -425,7 +451,7 @@ def _rest(
     distances = tuple(Integer(i) for i, q in enumerate(held) if q.is_positive)
     outcome = "where" if state.exists is not None else "only" if len(states) == 1 else "always"
     return establish(
-        "rest.equilibrium",
+        EQUILIBRIUM,
         symbol,
         lambda *_: values[0] if single else Amplitudes(*values),
         {f"condition_{i}": condition for i, condition in enumerate(conditions)},

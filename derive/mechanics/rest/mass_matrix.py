@@ -19,7 +19,7 @@ from derive.algebra.ranges import rational_in_range
 from derive.algebra.singular import has_no_value
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.lagrange.given_lagrangian import Varied
+from derive.mechanics.lagrange.facts import Varied
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.known_numbers import taken_positive
 from derive.steps.step import is_zero

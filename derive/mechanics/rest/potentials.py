@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, factorial
 
 from derive.algebra.collect import spread_or_by_terms
@@ -14,48 +12,28 @@ from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, only_coordinate
+from derive.mechanics.rest import claims
+from derive.mechanics.rest.facts import DerivativeOf, LowestOrder, Shape
 from derive.solving.presentation import presented
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Manner
 from derive.steps.numeric import Extreme
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
+from derive.steps.rule import CHECK, Rule, Shown
+from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
 
 __all__ = ["extreme_value", "leading_order", "slope"]
 
 HIGHEST = 8  # where a potential is level to this order, nothing is decided
 
 
-@dataclass(frozen=True)
-class DerivativeOf(Fact):
-    """The potential energy that a slope or curvature is one of, and the coordinate that it was differentiated by."""
-
-    missing = "is not the derivative of a potential energy"
-    potential: Quantity
-    coordinate: Symbol
-
-
-@dataclass(frozen=True)
-class LowestOrder(Fact):
-    """The first order of a potential energy that does not vanish, and its coefficient; (0, 0) if none was found."""
-
-    missing = "is not a potential energy to its lowest order"
-    order: int
-    coefficient: Expr
-
-    @property
-    def is_minimum(self) -> bool:
-        return self.order % 2 == 0 and strict_sign_within(self.coefficient) == 1
-
-
-@dataclass(frozen=True)
-class Shape(Fact):
-    """The potential energy of which this is the curvature, the place, and a letter with its value on the border."""
-
-    missing = "is not the curvature at a state of rest"
-    potential: Quantity
-    coordinate: Symbol
-    place: Expr
-    border: Relation | None
+SLOPE = Rule(
+    "rest.slope",
+    source="Taylor, *Classical Mechanics*, section 4.6",
+    outcomes={"slope": claims.order_of(1), "curvature": claims.order_of(2), "higher": claims.order_of(2, more=True)},
+    evidence={"expanded": CHECK},
+    shown=Shown(brief=Manner.LEFT_OUT, told_along=frozenset({"generic", "curvature"})),
+)
 
 
 def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbol | None = None) -> Quantity:
@@ -72,7 +50,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
     q = by or only_coordinate(potential)
     named = {1: "slope", 2: "curvature"}.get(order, f"derivative_{order}")
     return establish(
-        "rest.slope",
+        SLOPE,
         Slope(potential.symbol, q, Integer(order)),
         lambda energy: Slope(energy, q, Integer(order)),
         {"potential": potential},
@@ -110,6 +88,20 @@ def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> No
         raise Rejected(Complaint("no-equilibrium", message))
 
 
+EXTREME_VALUE = Rule(
+    "rest.extreme_value",
+    source="Taylor, *Classical Mechanics*, section 4.6",
+    outcomes={
+        "minimum": claims.bent(1),
+        "maximum": claims.bent(-1),
+        "level": claims.bent(0),
+        "conditional": claims.bent(None),
+    },
+    evidence={"expanded": CHECK},
+    named={"place": claims.extreme_there},
+)
+
+
 def extreme_value(
     potential: Quantity, by: Coordinate | Symbol | None = None, at: Expr | None = None, key: str = "extreme_value"
 ) -> Quantity:
@@ -131,7 +123,7 @@ def extreme_value(
     curvature = tidied(derivative(value, q, 2).xreplace({q: place}))
     sort = {1: "minimum", -1: "maximum", None: "conditional"}
     return establish(
-        "rest.extreme_value",
+        EXTREME_VALUE,
         At(potential.symbol, q, place),
         lambda energy: At(energy, q, place),
         {"potential": potential},
@@ -147,6 +139,24 @@ def extreme_value(
         facts=[Extreme(curvature)],
         scope=Scope(case_of=potential),
     )
+
+
+LEADING_ORDER = Rule(
+    "rest.leading_order",
+    source="Arnold, *Mathematical Methods of Classical Mechanics*, section 22",
+    outcomes={
+        **{
+            shape: claims.shaped(shape, at_bound=False)
+            for shape in ("minimum", "maximum", "inflection", "conditional", "flat")
+        },
+        **{
+            f"{shape}_at_bound": claims.shaped(shape, at_bound=True)
+            for shape in ("minimum", "maximum", "inflection", "conditional", "flat")
+        },
+    },
+    evidence={"derivatives": CHECK, "lowest": CHECK},
+    named={"case": claims.flat_in_that_case},
+)
 
 
 def leading_order(
@@ -193,7 +203,7 @@ def leading_order(
         return Integer(order), Integer(next(orders, 0))
 
     return establish(
-        "rest.leading_order",
+        LEADING_ORDER,
         in_case(potential.symbol),
         lambda energy, *_: in_case(energy),
         {"potential": potential},

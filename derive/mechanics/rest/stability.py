@@ -23,24 +23,19 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.hamilton.effective import SeenWith
+from derive.mechanics.hamilton.facts import SeenWith
+from derive.mechanics.rest import claims
 from derive.mechanics.rest.constrained_stability import OnConstraints, constraints_of
-from derive.mechanics.rest.equilibria import (
-    all_matter,
-    matter_behind,
-    place_given,
-    potential_at_rest,
-    slope_otherwise,
-    steady_in,
-)
+from derive.mechanics.rest.equilibria import all_matter, place_given, potential_at_rest, slope_otherwise, steady_in
+from derive.mechanics.rest.facts import Shape, StableWhere, matter_behind
 from derive.mechanics.rest.mass_matrix import check_regular, has_positive_inertia
-from derive.mechanics.rest.potentials import Shape, slope
+from derive.mechanics.rest.potentials import slope
 from derive.mechanics.rest.sides import on_known_sides
-from derive.mechanics.rest.stable_where import StableWhere
 from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import border_of, positive, sign_where
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
 from derive.witness.facts import Rest
 
@@ -156,6 +151,31 @@ def _check_level(place: Place) -> None:
 # --- one coordinate --------------------------------------------------------------------------------------------------
 
 
+STABILITY = Rule(
+    "rest.stability",
+    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1",
+    outcomes={
+        "stable": claims.both(claims.always(1), claims.kinetic_energy_is_positive),
+        "unstable": claims.both(claims.always(-1), claims.runs_away),
+        "stable_by_higher_order": claims.both(claims.higher("stable"), claims.higher_lasts),
+        "unstable_by_higher_order": claims.both(
+            claims.higher("unstable"), claims.nothing_turns_it, claims.higher_lasts
+        ),
+        "flat": claims.both(claims.undecided, claims.nothing_turns_it),
+        "depends": claims.both(claims.depends(None), claims.runs_away),
+        "depends_stable_on_border": claims.both(claims.depends("stable"), claims.runs_away, claims.higher_lasts),
+        "depends_unstable_on_border": claims.both(claims.depends("unstable"), claims.runs_away, claims.higher_lasts),
+    },
+    evidence={"small_force": ROUTE},
+    statements=[claims.steady_as_its_potential],
+    named={
+        "steady": claims.only_coordinate,
+        "place": claims.level_there("potential_here"),
+        "state": claims.at_its_place,
+    },
+)
+
+
 def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     """The curvature of the potential energy.
 
@@ -189,7 +209,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
         there = tidied(derivative(energy, q, order).xreplace({q: place.values[q]}))
         told["higher"] = (there, _coefficient(energy, q, place.values[q], order))
     return establish(
-        "rest.stability",
+        STABILITY,
         At(Slope(potential.symbol, q, Integer(2)), q, place.values[q] if place.rest is None else place.rest.symbol),
         lambda second, at: At(second if is_short else Slope(second, q, Integer(2)), q, at),
         {
@@ -280,6 +300,22 @@ def _small_force(place: Place, q: Symbol) -> Expr:
 # --- several ---------------------------------------------------------------------------------------------------------
 
 
+STABILITY_OF_SEVERAL = Rule(
+    "rest.stability_of_several",
+    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1",
+    outcomes={
+        "stable": claims.both(claims.always(1), claims.kinetic_energy_is_positive),
+        "unstable": claims.both(claims.always(-1), claims.runs_away),
+        "unstable_along": claims.both(claims.always(-1), claims.runs_away, claims.falls_as_told),
+        "level": claims.both(claims.always(0), claims.nothing_turns_it),
+        "depends": claims.stability_of_several_depends,
+    },
+    evidence={"any_direction": CHECK},
+    statements=[claims.about_an_energy],
+    named={"state": claims.at_its_place, "moving": claims.falls_along, "direction": claims.falls_along},
+)
+
+
 def _of_several(place: Place, key: str) -> Quantity:
     """The leading minors of the second derivatives, all positive at a minimum.
 
@@ -313,7 +349,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         return found, ImmutableDenseMatrix([second[:n, :n].det(method="laplace") for n in range(1, len(moving) + 1)])
 
     return establish(
-        "rest.stability_of_several",
+        STABILITY_OF_SEVERAL,
         letters,
         lambda *_: Amplitudes(*minors),
         {"potential": place.potential, "at": place.rest or Integer(0)},

@@ -2,47 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, sqrt
+from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.rest import claims
+from derive.mechanics.rest.facts import StableWhere
 from derive.solving.signs import SIGNS_OF, sign_by_factors
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.step import Fact, Form, Level, Quantity
+from derive.steps.rule import CHECK, Rule
+from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["stable_where"]
 
-NEAR, TRIALS = Rational(1, 1000), 3
+TRIALS = 3
 TURNED = {">": "<", "<": ">"}
 
 
-@dataclass(frozen=True)
-class StableWhere(Fact):
-    """Of one coordinate: the potential energy, the place, the condition, and the letter at its border where a higher
-    order decides, with what it decides."""
-
-    missing = "does not depend on a condition, as `stability` may"
-    energy: Expr
-    coordinate: Symbol
-    place: Expr
-    condition: Relation
-    border: Relation | None
-    stable_there: bool | None
-
-    def lifted(self, values: Mapping[Any, Any]) -> Expr:
-        """By how much the energy a little beside the place is greater, on the side where that is less."""
-        q, energy = self.coordinate, self.energy.xreplace(values)
-        place = self.place.xreplace(values)
-        at = {s: value_at(energy, {q: place + s * NEAR}) for s in (1, -1)}
-        return min(each - value_at(energy, {q: place + NEAR**8}) for each in at.values())
+STABLE_WHERE = Rule(
+    "rest.stable_where",
+    source="Taylor, *Classical Mechanics*, section 4.6",
+    outcomes={
+        "with_border": claims.bordered("stable"),
+        "without_border": claims.bordered("unstable"),
+        "open": claims.bordered(None),
+    },
+    evidence={"beside": CHECK, "energies": CHECK},
+)
 
 
 def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
@@ -78,7 +70,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         return ImmutableDenseMatrix(says), ImmutableDenseMatrix(is_so)
 
     return establish(
-        "rest.stable_where",
+        STABLE_WHERE,
         None,
         lambda _: squared,
         {"stability": of},

@@ -12,14 +12,30 @@ from derive.algebra.expressions import AXES, Factors, Terms, scalar
 from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.bodies.parts import PlacedPart
 from derive.mechanics.bodies.regions import Point
+from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.inertia import moment_of_inertia, moment_seen
+from derive.mechanics.theorems import PERPENDICULAR_AXES
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Manner
+from derive.steps.rule import ROUTE, Quote, Rule, Shown
 from derive.steps.step import Level, Quantity, compared_with, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["moment_of_parts"]
 
 OF_PARTS = ("body", "point", "mass", "axis")
+
+
+MOMENT_OF_PARTS = Rule(
+    "rotation.moment_of_parts",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes)",
+    outcomes={
+        "moved": claims.beside_the_axis,
+        "on_axis": claims.moment_of_parts_on_axis,
+        "alone": claims.moment_of_parts_alone,
+    },
+    evidence={"particles": ROUTE, "integration": ROUTE},
+)
 
 
 def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
@@ -55,7 +71,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
         return Terms(*terms) if len(terms) > 1 else Add(*terms)
 
     return establish(
-        "rotation.moment_of_parts",
+        MOMENT_OF_PARTS,
         scalar(symbol, positive=True) if _from_particles(body, point, k).expand().is_positive else scalar(symbol),
         law,
         held,
@@ -95,6 +111,17 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
     return _by_shape(body, axis, symbol, key, "flat", lambda I: Factors(Rational(1, 2), I), {"axial": axial}, turn)
 
 
+OWN_MOMENT = Rule(
+    "rotation.own_moment",
+    source="that of `own_moment`",
+    outcomes={"none": claims.on_its_axis, "flat": claims.is_flat},
+    evidence={"particles": ROUTE, "integration": ROUTE},
+    statements=[claims.names_the_axis_of_the_whole],
+    shown=Shown(outcomes={"flat": (Manner.TOLD, Manner.OWN), "none": (Manner.TOLD, Manner.TOLD)}),
+    quotes=[Quote(PERPENDICULAR_AXES, frozenset({"flat"}))],
+)
+
+
 def _by_shape(
     body: Any,
     axis: str,
@@ -112,7 +139,7 @@ def _by_shape(
     """
     k, centre = AXES.index(axis), body.middle
     return establish(
-        "rotation.own_moment",
+        OWN_MOMENT,
         scalar(symbol),
         law,
         inputs,

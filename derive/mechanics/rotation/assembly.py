@@ -39,10 +39,14 @@ from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, place_of
 from derive.mechanics.bodies.possible import check_parts, require_positive
 from derive.mechanics.bodies.regions import Point, Region
+from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.added_moments import moment_of_parts
 from derive.mechanics.rotation.inertia import inertia_tensor
 from derive.mechanics.rotation.tensors import seen_particles, shape_of, tensor_entry
+from derive.mechanics.theorems import PARALLEL_AXES
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Manner
+from derive.steps.rule import ROUTE, Quote, Rule, Shown
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import NOTHING, Subject
 
@@ -218,6 +222,14 @@ def _shared(body: Composite, mass: Expr) -> tuple[tuple[Quantity, ...], tuple[Pl
     return shares, tuple(parts)
 
 
+SHARE_OF_MASS = Rule(
+    "rotation.share_of_mass",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    outcomes={"part": claims.part_of_sign(1), "hole": claims.part_of_sign(-1)},
+    evidence={"integration": ROUTE},
+)
+
+
 def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
     """Mass of a part of a uniform body, M times its size over that of the whole.
 
@@ -238,7 +250,7 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
         return found * sum((other.sign * size_of(other) for other in body.parts), Integer(0)), mass * size_of(part)
 
     return establish(
-        "rotation.share_of_mass",
+        SHARE_OF_MASS,
         Symbol(f"m_{_index(part)}", positive=True),
         lambda M: Factors(M, Ratio(part.body.size, sizes[0] if len(sizes) == 1 else Terms(*sizes))),
         {"mass": mass},
@@ -253,6 +265,14 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
     )
 
 
+TOTAL_MASS = Rule(
+    "rotation.total_mass",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    evidence={"integration": ROUTE},
+    shown=Shown(brief=Manner.TOLD, standard=Manner.TOLD),
+)
+
+
 def _total_mass(body: Composite) -> Quantity:
     """Mass of the whole, the sum of the masses of the parts.
 
@@ -263,7 +283,7 @@ def _total_mass(body: Composite) -> Quantity:
     masses = [part.mass for part in body.parts]
     taken = {s.name for mass in masses for s in mass.free_symbols}
     return establish(
-        "rotation.total_mass",
+        TOTAL_MASS,
         Symbol(next(name for name in ("M", "M_0", "M_total", "M_whole") if name not in taken), positive=True),
         lambda *found: Terms(*found) if len(found) > 1 else found[0],
         {f"part_{i}": mass for i, mass in enumerate(masses)},
@@ -273,6 +293,14 @@ def _total_mass(body: Composite) -> Quantity:
         lines=Lines(put_in=None, result=len(Add.make_args(body.mass)) < len(masses)),
         scope=Scope(about=Subject(body=body)),
     )
+
+
+CENTRE_OF_PARTS = Rule(
+    "rotation.centre_of_parts",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    outcomes={"generic": claims.all_is_added, "cut_out": claims.centre_of_parts_cut_out},
+    evidence={"integration": ROUTE, "particles": ROUTE},
+)
 
 
 def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Quantity:
@@ -291,7 +319,7 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
         return body.mass * found, summed(body.particles(), lambda r: counted_from(start, r))
 
     return establish(
-        "rotation.centre_of_parts",
+        CENTRE_OF_PARTS,
         vector(symbol),
         lambda M: MatMul(Pow(M, -1), whole, evaluate=False),
         {"mass": body.mass if body.shares else body.whole_mass},
@@ -308,6 +336,14 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
         phrase_data=PhraseData(words={"start": start.name}),
         scope=Scope(about=Subject(body=body, point=start), differ=EVERYTHING_BUT_ROTATION),
     )
+
+
+TENSOR_OF_PARTS = Rule(
+    "rotation.tensor_of_parts",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    outcomes=claims.TENSORS,
+    evidence={"particles": ROUTE},
+)
 
 
 def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Quantity:
@@ -330,7 +366,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
         return terms[0] if len(terms) == 1 else MatAdd(*terms)
 
     return establish(
-        "rotation.tensor_of_parts",
+        TENSOR_OF_PARTS,
         tensor(symbol),
         law,
         {f"part_{i}": _for_the_whole(one) for i, one in enumerate(moved)},
@@ -361,6 +397,19 @@ def _steiner(mass: Expr, d: Any) -> Any:
     return scaled(mass, MatAdd(scaled(Dot(d, d), Identity(3)), scaled(Integer(-1), Outer(d, d))))
 
 
+TENSOR_OF_PART = Rule(
+    "rotation.tensor_of_part",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes)",
+    outcomes={
+        "turned_there": claims.moved(False, True),
+        "moved": claims.moved(True, False),
+        "turned_moved": claims.moved(True, True),
+    },
+    evidence={"particles": ROUTE},
+    quotes=[Quote(PARALLEL_AXES, frozenset({"moved", "turned_moved"}))],
+)
+
+
 def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str, key: str) -> Quantity:
     """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d).
 
@@ -387,7 +436,7 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
         return _about_any_axis(found, [(m, counted_from(point, r)) for m, r in here.particles])
 
     return establish(
-        "rotation.tensor_of_part",
+        TENSOR_OF_PART,
         tensor("J" if symbol.startswith("J") else "I'"),
         law,
         {"own": own, **({"way": way} if way else {})},
@@ -408,6 +457,13 @@ _PLACED = {
 }
 
 
+WAY_TO_PART = Rule(
+    "rotation.way_to_part",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2",
+    evidence={"particles": ROUTE},
+)
+
+
 def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
     """Where the centre of mass of a part is, from a point of the whole.
 
@@ -422,7 +478,7 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
         return summed(replace(part, sign=1).particles, point.seen) / part.body.mass
 
     return establish(
-        "rotation.way_to_part",
+        WAY_TO_PART,
         vector("d"),
         lambda: d,
         {},

@@ -26,9 +26,12 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
+from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.vectors import Through, length_by_turning
+from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Quantity, compared_with, is_zero, require_kind
 
 __all__ = [
@@ -37,6 +40,13 @@ __all__ = [
     "tangent_between",
     "vector_component",
 ]
+
+
+AXIS_OF_SYMMETRY = Rule(
+    "rotation.axis_of_symmetry",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6",
+    evidence={"second_moments": ROUTE},
+)
 
 
 def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_symmetry") -> Quantity:
@@ -60,7 +70,7 @@ def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_s
         return moments, along * dyad + across * (ImmutableDenseMatrix.eye(3) - dyad)
 
     return establish(
-        "rotation.axis_of_symmetry",
+        AXIS_OF_SYMMETRY,
         vector(symbol),
         lambda: column(*(int(k == which) for k in range(3))),
         {},
@@ -84,6 +94,14 @@ def axis_number(inertia: Quantity) -> int:
         message = f"one axis of symmetry needs two equal principal moments, but {how}"
         raise Rejected(Complaint("no-symmetry", message))
     return found[0]
+
+
+TANGENT_BETWEEN = Rule(
+    "rotation.tangent_between",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 1.2 and 1.4",
+    outcomes={"generic": lasts, "parallel": vanishes},
+    evidence={"parts": ROUTE},
+)
 
 
 def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "tangent") -> Quantity:
@@ -113,7 +131,7 @@ def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "
     letter = scalar(angle)
     value = tidied(Ratio(Norm(Cross(u, w)), along))
     return establish(
-        "rotation.tangent_between",
+        TANGENT_BETWEEN,
         tan(letter),
         lambda u, v: Ratio(Norm(Cross(u, v)), Dot(u, v)),
         {"a": a, "b": b},
@@ -134,6 +152,14 @@ def _with_tangents(value: Expr) -> Expr:
         if below in factors:
             return Mul(*(f for f in factors if f not in (s, below)), tan(s.args[0]))
     return value
+
+
+PRECESSION_RATE = Rule(
+    "rotation.precession_rate",
+    source="Landau, Lifshitz, *Mechanics*, section 33",
+    evidence={"axis": ROUTE, "particles": ROUTE},
+    named={"across": claims.moment_across},
+)
 
 
 def precession_rate(
@@ -173,7 +199,7 @@ def precession_rate(
         return explicit(Cross(axis, moved)), column(0, 0, 0)
 
     return establish(
-        "rotation.precession_rate",
+        PRECESSION_RATE,
         scalar(symbol),
         lambda momentum: Ratio(Norm(momentum), across),
         {"momentum": momentum},
@@ -184,6 +210,15 @@ def precession_rate(
         parents=[inertia],
         phrase_data=PhraseData(named={"across": across}),
     )
+
+
+VECTOR_COMPONENT = Rule(
+    "rotation.vector_component",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"turned": CHECK},
+    statements=[claims.component_of_its_letter],
+)
 
 
 def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: str | None = None) -> Quantity:
@@ -202,7 +237,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
     turned = ImmutableDenseMatrix([[0, 1, 0], [0, 0, 1], [1, 0, 0]]) ** i
     letter: Symbol = component_names(symbol or of.symbol.name)[i]
     return establish(
-        "rotation.vector_component",
+        VECTOR_COMPONENT,
         letter,
         lambda v: Component(v, axis),
         {"vector": of},

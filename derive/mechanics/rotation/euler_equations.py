@@ -39,12 +39,17 @@ from derive.mechanics.bodies.equimomental import OfParticles
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point
+from derive.mechanics.rotation import claims
+from derive.mechanics.rotation.facts import RateByParticles, RateOfMomentum
 from derive.mechanics.rotation.given_moments import check_given_moment
-from derive.mechanics.rotation.vectors import Acting, RateByParticles, Through
+from derive.mechanics.rotation.vectors import Acting, Through
+from derive.mechanics.theorems import ROTATING_AXES
 from derive.solving.highest_rates import highest_rates
+from derive.steps.claims import vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import require_constant
+from derive.steps.rule import CHECK, ROUTE, Quote, Rule
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject
 
@@ -161,24 +166,18 @@ class RigidBody(Placeable, OfParticles):
 
 
 @dataclass(frozen=True)
-class RateOfMomentum(Fact):
-    """The rate of an angular momentum: by the particles of the body, and the components of omega that change."""
-
-    missing = "is not the rate of an angular momentum"
-    of: RateByParticles
-    moving: tuple[Symbol, ...]
-
-    def by_particles(self) -> Any:
-        """The sum of m r x a."""
-        return self.of.rate()
-
-
-@dataclass(frozen=True)
 class MotionOfBody(Fact):
     """What the equations of motion make of the angular accelerations."""
 
     missing = "does not come from equations of motion"
     motion: Mapping[Symbol, Expr]
+
+
+PRINCIPAL_TENSOR = Rule(
+    "rotation.principal_tensor",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4",
+    outcomes={"generic": claims.tensor(3), "two_equal": claims.tensor(2), "isotropic": claims.tensor(1)},
+)
 
 
 def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_tensor") -> Quantity:
@@ -189,12 +188,11 @@ def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_ten
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     return establish(
-        "rotation.principal_tensor",
+        PRINCIPAL_TENSOR,
         tensor(symbol),
         lambda: ImmutableDenseMatrix(diag(*body.moments)),
         {},
         outcome=_symmetry(body),
-        definition=True,
         kind="moment of inertia",
         facts=[OfBody(body), AboutPoint(body.point)],
         phrase_data=PhraseData(words={"about": body.about}),
@@ -208,6 +206,12 @@ def _symmetry(body: RigidBody) -> str:
     return "isotropic" if different == 1 else "two_equal" if different == 2 else "generic"
 
 
+CHANGING_ANGULAR_VELOCITY = Rule(
+    "rotation.changing_angular_velocity",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8",
+)
+
+
 def changing_angular_velocity(
     through: str = "centre_of_mass", symbol: str = "omega", key: str = "angular_velocity"
 ) -> Quantity:
@@ -219,16 +223,29 @@ def changing_angular_velocity(
     """
     names = component_names(symbol)
     return establish(
-        "rotation.changing_angular_velocity",
+        CHANGING_ANGULAR_VELOCITY,
         vector(symbol),
         lambda: column(*names),
         {},
-        definition=True,
         kind="angular speed",
         scope=Scope(coordinates=dict.fromkeys(names, "angular speed"), about=Subject(rotation=column(*names))),
         facts=[Through(through)],
         key=key,
     )
+
+
+RATE_IN_SPACE = Rule(
+    "rotation.rate_in_space",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9",
+    outcomes={
+        "generic": claims.rate_is(None, None),
+        "zero": claims.rate_is(True, False),
+        "zero_in_both": claims.rate_is(True, True),
+        "driven": claims.rate_is(False, None),
+    },
+    evidence={"carried_round": ROUTE, "matter": ROUTE, "fixed_direction": ROUTE},
+    quotes=[Quote(ROTATING_AXES)],
+)
 
 
 def rate_in_space(
@@ -264,7 +281,7 @@ def rate_in_space(
 
     inputs = {"momentum": momentum, "omega": omega, **({"in_body": in_body} if in_body else {})}
     return establish(
-        "rotation.rate_in_space",
+        RATE_IN_SPACE,
         CarriedRate(L.symbol, w.symbol, *moving),
         law,
         inputs,
@@ -326,13 +343,27 @@ def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE)
     return x, y, z
 
 
+EULER_EQUATION = Rule(
+    "rotation.euler_equation",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.5",
+    outcomes={
+        "coupled": claims.euler(False, "here"),
+        "driven": claims.euler(True, ""),
+        "isotropic": claims.euler(False, "nowhere"),
+        "uncoupled": claims.euler(False, "elsewhere"),
+    },
+    evidence={"matter": ROUTE},
+    statements=[claims.rate_of_the_component],
+)
+
+
 def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> Quantity:
     """One component of dL/dt = N."""
     of = rate.needed(RateOfMomentum)
     moving = of.moving
     acting = torque[i]
     return establish(
-        "rotation.euler_equation",
+        EULER_EQUATION,
         None,
         lambda rate, _: Relation(Component(rate, AXES[i]), "=", acting),
         {"rate": rate, "component": moving[i]},
@@ -363,6 +394,15 @@ def _coupling(rates: Any, moving: Sequence[Expr], i: int, torque: Sequence[Expr]
     return "uncoupled" if uncoupled[i] else "coupled"
 
 
+RATE_IN_BODY = Rule(
+    "rotation.rate_in_body",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6",
+    outcomes={"zero": vanishes, "in_general": claims.rate_in_body_in_general, "driven": claims.rate_in_body_driven},
+    evidence={"motion": CHECK},
+    statements=[claims.of_their_kinds],
+)
+
+
 def rate_in_body(
     momentum: Quantity, omega: Quantity, equations: Sequence[Quantity], key: str = "momentum_rate_in_body"
 ) -> Quantity:
@@ -388,7 +428,7 @@ def rate_in_body(
         return turning if is_zero(acting) else MatAdd(acting, turning)
 
     return establish(
-        "rotation.rate_in_body",
+        RATE_IN_BODY,
         BodyRate(momentum.symbol, *moving),
         law,
         {"omega": omega, "momentum": momentum},

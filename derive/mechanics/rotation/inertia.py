@@ -33,9 +33,13 @@ from derive.mechanics.bodies.components import over_mass
 from derive.mechanics.bodies.equimomental import squared_distance
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, Integrated, OfBody
 from derive.mechanics.bodies.regions import Point, Region
+from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.tensors import shape_of
+from derive.mechanics.theorems import PARALLEL_AXES
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.step import Level, Quantity, compared_with, entry_name, is_zero
+from derive.steps.level import Level, Manner
+from derive.steps.rule import CHECK, ROUTE, Quote, Rule, Shown
+from derive.steps.step import Quantity, compared_with, entry_name, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["agreement", "inertia_tensor", "moment_of_inertia", "moved_from_centre", "moved_to"]
@@ -46,6 +50,16 @@ Pair = tuple[int, int]
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
 MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # what mirror planes across the axes leave
 ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # what symmetry about the z axis leaves: across it and along it
+
+
+INERTIA_TENSOR = Rule(
+    "rotation.inertia_tensor",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    outcomes={**claims.TENSORS, **claims.ROUND_TENSORS},
+    evidence={"definition": CHECK, "balanced": CHECK, "particles": ROUTE, "quadrature": CHECK},
+    statements=[claims.edges_along_the_axes],
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT),
+)
 
 
 def inertia_tensor(
@@ -82,7 +96,7 @@ def inertia_tensor(
     n, place = column(*component_names("n")), point.seen(body.middle.position)
     (balanced,) = body.another_way(lambda r: r, point, of=lambda _: body.mass * place).values()
     return establish(
-        "rotation.inertia_tensor",
+        INERTIA_TENSOR,
         tensor(name),
         lambda *found: _assembled(pairs, found),
         _by_pair(entries),
@@ -127,6 +141,15 @@ def moment_of_inertia(
     return moment_seen(body, axis, about, symbol, key, {"seen": "own" if body.is_of_particles else "mapped"})
 
 
+MOMENT_OF_INERTIA = Rule(
+    "rotation.moment_of_inertia",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3",
+    evidence={"particles": ROUTE, "quadrature": CHECK},
+    statements=[claims.names_the_axis_of_the_whole],
+    shown=Shown(brief=Manner.TOLD),
+)
+
+
 def moment_seen(
     body: Body,
     axis: str,
@@ -151,7 +174,7 @@ def moment_seen(
     weight = entry_weight(region, (i, i))
     integral = over_mass(body, region, weight)
     return establish(
-        "rotation.moment_of_inertia",
+        MOMENT_OF_INERTIA,
         scalar(symbol),
         integral.law,
         integral.inputs,
@@ -179,14 +202,20 @@ def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
     return MIRRORED if is_one_region and body.region(point).has_mirrors else PAIRS
 
 
+INERTIA_DEFINITION = Rule(
+    "rotation.inertia_definition",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT),
+)
+
+
 def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
     """J = integral of (r.r 1 - r r) dm, r from the point: what the symbol means."""
     return establish(
-        "rotation.inertia_definition",
+        INERTIA_DEFINITION,
         tensor(name),
         lambda _: _law(region, body.front),
         {"r": vector("r")},
-        definition=True,
         kind="moment of inertia",
         parents=[body.density, *body.radii(point, region)],
         facts=[Integrated.over(region)],
@@ -230,6 +259,21 @@ def _entry_outcome(pair: Pair, pairs: tuple[Pair, ...]) -> str:
     return "moment" if pair[0] == pair[1] else "product"
 
 
+ENTRY = Rule(
+    "rotation.entry",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    outcomes={
+        "moment": claims.entry("xx", "yy", "zz"),
+        "product": claims.entry("xy", "xz", "yz"),
+        "mirrored": claims.is_mirrored,
+        "across": claims.entry("xx", round_body=True),
+        "along": claims.entry("zz", round_body=True),
+    },
+    evidence={"particles": ROUTE, "quadrature": CHECK},
+    shown=Shown(result_again=Level.BRIEF),
+)
+
+
 def _entry_by_integration(
     body: Body, point: Point, region: Region, name: str, key: str, pair: Pair, definition: Quantity
 ) -> Quantity:
@@ -238,7 +282,7 @@ def _entry_by_integration(
     weight, pairs = entry_weight(region, pair), pairs_left_by_symmetry(body, point)
     integral = over_mass(body, region, weight)
     return establish(
-        "rotation.entry",
+        ENTRY,
         entry_name(name, *pair),
         integral.law,
         integral.inputs,
@@ -330,6 +374,16 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     return _moved(inertia, centre, target, symbol, key)
 
 
+MOVED_TO = Rule(
+    "rotation.moved_to",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes)",
+    outcomes={**claims.TENSORS, **claims.ROUND_TENSORS, "outward": claims.is_away_from_the_centre},
+    evidence={"integration": ROUTE, "trace": CHECK},
+    statements=[claims.inward],
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT),
+)
+
+
 def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: str) -> Quantity:
     """The tensor about another point by parallel axes, of two points of which one is the centre of mass.
 
@@ -342,7 +396,7 @@ def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: s
     entries = {pair: _entry_moved(there, centre, target, symbol, key, pair) for pair in pairs}
     inward = _round_shape if pairs == ROUND else shape_of
     return establish(
-        "rotation.moved_to",
+        MOVED_TO,
         tensor(symbol),
         lambda *found: _assembled(pairs, found),
         _by_pair(entries),
@@ -375,6 +429,23 @@ def _components(v: Any) -> tuple[Any, ...]:
     return component_names(v.name) if isinstance(v, MatrixSymbol) else tuple(v)
 
 
+ENTRY_MOVED = Rule(
+    "rotation.entry_moved",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes)",
+    outcomes={
+        "moment": claims.entry("xx", "yy", "zz"),
+        "product": claims.entry("xy", "xz", "yz"),
+        "across": claims.entry("xx", round_body=True),
+        "along": claims.entry("zz", round_body=True),
+        "outward": claims.entry("xx", "yy", "zz", "xy", "xz", "yz"),
+    },
+    evidence={"integration": ROUTE},
+    statements=[claims.inward_or_outward],
+    shown=Shown(result_again=Level.BRIEF),
+    quotes=[Quote(PARALLEL_AXES, frozenset({"moment", "outward", "product"}))],
+)
+
+
 def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, key: str, pair: Pair) -> Quantity:
     """One entry by parallel axes, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z); away from the
     centre with the opposite signs."""
@@ -403,7 +474,7 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         return body.over_mass(lambda at: sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j], target)
 
     return establish(
-        "rotation.entry_moved",
+        ENTRY_MOVED,
         entry_name(name, i, j),
         law,
         {"mass": body.mass, "centre": centre, **({"entry": entry} if entry is not None else {})},
@@ -416,6 +487,14 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
         scope=Scope(about=Subject(body=body, point=target), differ={"point"}),
     )
+
+
+AGREEMENT = Rule(
+    "rotation.agreement",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    outcomes={"generic": claims.agreement_generic, "turned": claims.agreement_turned},
+    evidence={"other_way": CHECK},
+)
 
 
 def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quantity:
@@ -434,7 +513,7 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
         raise Rejected(Complaint("not-the-same", message))
     turn = points[0].axes.T * points[1].axes
     return establish(
-        "rotation.agreement",
+        AGREEMENT,
         again.symbol,
         lambda first, _: first,
         {"found": found, "again": again},

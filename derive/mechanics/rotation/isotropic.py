@@ -9,12 +9,22 @@ from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Mul, Rational, Sy
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.principal import PrincipalOf, lone_moment
 from derive.solving.signs import of_the_size
 from derive.steps.establish import Lines, establish
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["isotropic_where"]
+
+
+ISOTROPIC_WHERE = Rule(
+    "rotation.isotropic_where",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4",
+    outcomes={word: claims.moments_compared(word) for word in ("special", "always", "never")},
+    evidence={"put_back": CHECK, "beside": CHECK, "sign": CHECK},
+)
 
 
 def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") -> Quantity:
@@ -38,7 +48,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
     sides = [expand(moments.value[k] / _letters_only(plain)) for k in (one, other)]
     squared = [Form(Relation(unknown**2, "=", tidied(bound**2)), "solved", Level.FULL)] if power == 2 else []
     return establish(
-        "rotation.isotropic_where",
+        ISOTROPIC_WHERE,
         None,
         lambda found: Relation(found[one], "=", found[other]),
         {"moments": moments},
@@ -61,7 +71,7 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
     """The moments are equal as they are, or one is always the greater."""
     mark = "=" if is_zero(difference) else ">" if difference.is_positive else "<"
     return establish(
-        "rotation.isotropic_where",
+        ISOTROPIC_WHERE,
         None,
         lambda found: Relation(found[one], mark, found[other]),
         {"moments": moments},

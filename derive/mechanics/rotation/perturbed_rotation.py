@@ -8,61 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, diff, linsolve, prime, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, diff, linsolve, prime, sqrt
 
 from derive.algebra.expressions import AXES, Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.rotation.euler_equations import RateOfMomentum
+from derive.mechanics.rotation import claims
+from derive.mechanics.rotation.facts import Disturbed, RateOfMomentum
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Quantity, is_zero
 
 __all__ = ["body_cone_rate", "linearised_rotation", "wobble_rate", "wobble_squared"]
 
 ZERO = Integer(0)
-
-
-@dataclass(frozen=True)
-class Disturbed(Fact):
-    """A steady rotation about a principal axis that is disturbed.
-
-    axis    "x", "y" or "z"
-    speed   its rate
-    of      the rate of its angular momentum, of which each component vanishes
-    """
-
-    missing = "is not an equation of a disturbed rotation"
-    axis: int
-    speed: Expr
-    of: RateOfMomentum
-
-    @property
-    def moving(self) -> tuple[Symbol, ...]:
-        """The components of the angular velocity."""
-        return self.of.moving
-
-    def by_particles(self) -> Any:
-        """The sum of m r x a."""
-        return self.of.by_particles()
-
-    @property
-    def across(self) -> tuple[int, int]:
-        """The two other axes, in right-handed order."""
-        return (self.axis + 1) % 3, (self.axis + 2) % 3
-
-    @property
-    def steadily(self) -> dict[Symbol, Expr]:
-        return {w: self.speed if k == self.axis else ZERO for k, w in enumerate(self.moving)}
-
-    @cached_property
-    def moments(self) -> tuple[Expr, ...]:
-        """What the particles have before the angular acceleration about each axis."""
-        torque = explicit(self.by_particles())
-        return tuple(tidied(diff(torque[k], rate(w))) for k, w in enumerate(self.moving))
 
 
 def linearised_rotation(
@@ -106,6 +67,19 @@ def _left(equation: Quantity) -> Expr:
     return residual
 
 
+PERTURBED_ROTATION = Rule(
+    "rotation.perturbed_rotation",
+    source="Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8",
+    evidence={"opposite": ROUTE},
+    named={
+        "letter": claims.about_that_axis,
+        "along": claims.steady_component,
+        "speed": claims.to_first_order,
+        "small": claims.another_component,
+    },
+)
+
+
 def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int, key: str) -> Quantity:
     """One of the two linear equations: what stands at the steady rotation before each component and each rate.
 
@@ -132,7 +106,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
         return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
 
     return establish(
-        "rotation.perturbed_rotation",
+        PERTURBED_ROTATION,
         None,
         lambda *_: Relation(whole, "=", 0),
         {},
@@ -164,6 +138,18 @@ class WobbleOf(Fact):
     letter: str
 
 
+PERTURBATION_RATE_SQUARED = Rule(
+    "rotation.perturbation_rate_squared",
+    source="Landau, Lifshitz, *Mechanics*, section 37; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6",
+    outcomes={
+        word: claims.order_is(word)
+        for word in ("greatest", "least", "unstable", "marginal", "symmetric", "conditional")
+    },
+    evidence={"conserved": ROUTE, "particles": ROUTE},
+    named={"small_1": claims.small_one("first"), "small_2": claims.small_one("second")},
+)
+
+
 def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str = "wobble_squared") -> Quantity:
     """Square of the rate at which a disturbed axis wobbles, Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y) about z.
 
@@ -188,7 +174,7 @@ def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str =
     (first, first_other), (second, second_other) = names[i], names[j]
 
     return establish(
-        "rotation.perturbation_rate_squared",
+        PERTURBATION_RATE_SQUARED,
         Pow(scalar(symbol), 2),
         lambda *_: Ratio(Factors(Integer(-1), first_other, second_other), Factors(first, second)),
         {},
@@ -267,6 +253,19 @@ def _stability(value: Expr, disturbed: Disturbed) -> str:
     return "greatest" if tidied(about - disturbed.moments[i]).is_positive else "least"
 
 
+PERTURBATION_RATE = Rule(
+    "rotation.perturbation_rate",
+    source="Landau, Lifshitz, *Mechanics*, section 37",
+    outcomes={
+        "stable": claims.root_is(False, "greatest", "least"),
+        "symmetric": claims.root_is(False, "symmetric"),
+        "conditional": claims.root_is(False, "conditional"),
+        "unstable": claims.root_is(True, "unstable"),
+    },
+    evidence={"determinant": CHECK, "not_negative": CHECK},
+)
+
+
 def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble_rate") -> Quantity:
     """Rate Omega at which a disturbed axis goes round, the root of its square; where that is negative, that of growth.
 
@@ -310,7 +309,7 @@ def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble
         return Abs(found), Abs(found)
 
     return establish(
-        "rotation.perturbation_rate",
+        PERTURBATION_RATE,
         scalar(symbol or ("kappa" if grows else of.letter)),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
@@ -326,6 +325,16 @@ def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble
 def _root_of(square: Expr) -> Expr:
     """What can be taken out of the root stands before it."""
     return tidied(sqrt(tidied(square)))
+
+
+BODY_CONE_RATE = Rule(
+    "rotation.body_cone_rate",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6; Taylor, *Classical Mechanics*, section 10.8",
+    outcomes={"oblate": claims.excess_is(1), "prolate": claims.excess_is(-1), "generic": claims.excess_is(None)},
+    evidence={"angle": ROUTE},
+    statements=[claims.rates_of_its_equations],
+    named=dict.fromkeys(("along", "around", "beside"), claims.of_its_equation),
+)
 
 
 def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: str = "body_cone_rate") -> Quantity:
@@ -360,7 +369,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         return (x * solution[1] - y * solution[0]) / (x**2 + y**2)
 
     return establish(
-        "rotation.body_cone_rate",
+        BODY_CONE_RATE,
         scalar(symbol),
         lambda: Factors(Ratio(coupling, across), z),
         {},

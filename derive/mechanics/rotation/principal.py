@@ -15,7 +15,9 @@ from derive.algebra.expressions import Dot, column, explicit, scalar, vector
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import OfBody
+from derive.mechanics.rotation import claims
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Quantity, is_zero, require_kind
 
 __all__ = ["principal_axes", "principal_moments"]
@@ -27,6 +29,21 @@ class PrincipalOf(Fact):
 
     missing = "is not the principal moments of a tensor"
     tensor: Quantity
+
+
+PRINCIPAL_MOMENTS = Rule(
+    "rotation.principal_moments",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4",
+    outcomes={
+        "isotropic": claims.moments(1, diagonal=True),
+        "two_equal": claims.moments(2, diagonal=True),
+        "distinct": claims.moments(3, diagonal=True),
+        "two_equal_roots": claims.moments(2, diagonal=False),
+        "roots": claims.moments(3, diagonal=False),
+    },
+    evidence={"invariants": CHECK, "axis_by_axis": CHECK},
+    statements=[claims.vanish_again],
+)
 
 
 def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principal_moments") -> Quantity:
@@ -55,7 +72,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
         return inertia.value * units, ImmutableDenseMatrix.hstack(*(found[k] * units[:, k] for k in range(3)))
 
     return establish(
-        "rotation.principal_moments",
+        PRINCIPAL_MOMENTS,
         names,
         law,
         {"inertia": inertia},
@@ -100,6 +117,20 @@ def principal_axes(
     return axes[0], axes[1], axes[2]
 
 
+PRINCIPAL_AXIS = Rule(
+    "rotation.principal_axis",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4",
+    outcomes={
+        "single": claims.axis_of(2, alone=True),
+        "symmetry": claims.axis_of_symmetry,
+        "free": claims.axis_of(2, alone=False),
+        "any": claims.axis_of(1),
+        "distinct": claims.axis_of(3),
+    },
+    evidence={"put_back": CHECK, "unit": CHECK, "perpendicular": CHECK, "right_handed": CHECK},
+)
+
+
 def _axis(
     moments: Quantity,
     direction: Any,
@@ -114,7 +145,7 @@ def _axis(
     tensor = moments.needed(PrincipalOf).tensor
     is_free = direction.has(angle)
     return establish(
-        "rotation.principal_axis",
+        PRINCIPAL_AXIS,
         vector(f"{symbol}_{k + 1}"),
         lambda *_: direction,
         {"moments": moments, **({"angle": angle} if is_free else {})},

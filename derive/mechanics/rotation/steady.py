@@ -9,9 +9,11 @@ from sympy.core.symbol import Str
 
 from derive.algebra.expressions import column, vector
 from derive.errors import Complaint, Rejected
+from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.vectors import Momentary, Through
 from derive.steps.establish import PhraseData, Scope, establish
 from derive.steps.record import require_constant
+from derive.steps.rule import Rule
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import Subject
 
@@ -44,6 +46,13 @@ def momentary_angular_velocity(
     return _given("momentary_angular_velocity", components, through, symbol, key)
 
 
+CONSTANT_ANGULAR_VELOCITY = Rule(
+    "rotation.constant_angular_velocity",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8",
+    outcomes={"generic": claims.given_as("constant"), "momentary": claims.given_as("momentary")},
+)
+
+
 def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key: str) -> Quantity:
     if len(components) != 3:
         raise Rejected(Complaint("wrong-argument", f"an angular velocity has three components, not {len(components)}"))
@@ -54,12 +63,11 @@ def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key
         require_constant(verb, "component", component)
     is_momentary = verb == "momentary_angular_velocity"
     return establish(
-        "rotation.constant_angular_velocity",
+        CONSTANT_ANGULAR_VELOCITY,
         vector(symbol),
         lambda: omega,
         {},
         key=key,
-        definition=True,
         kind="angular speed",
         outcome="momentary" if is_momentary else "generic",
         facts=[Through(through), *([Momentary(through)] if is_momentary else [])],

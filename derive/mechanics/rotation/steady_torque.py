@@ -19,12 +19,26 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint
+from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.vectors import Momentary, RateOfTurning, whether_zero
+from derive.mechanics.theorems import ROTATING_AXES
+from derive.steps.claims import vanishes
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
+from derive.steps.rule import ROUTE, Quote, Rule
 from derive.steps.step import Form, Level, Quantity, compared_with, require_kind
 
 __all__ = ["torque"]
+
+
+TORQUE = Rule(
+    "rotation.torque",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5",
+    outcomes={"zero": vanishes, "generic": claims.torque_generic, "in_general": claims.torque_in_general},
+    evidence={"carried_round": ROUTE},
+    statements=[claims.of_their_kinds_by_euler],
+    quotes=[Quote(ROTATING_AXES)],
+)
 
 
 def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = "torque") -> Quantity:
@@ -53,7 +67,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     by_euler = _by_euler(omega, inertia)
     level = Level.FULL if by_euler else Level.STANDARD
     return establish(
-        "rotation.torque",
+        TORQUE,
         vector(symbol),
         Cross,
         {"omega": omega, "momentum": momentum},

@@ -19,6 +19,8 @@ from derive.mechanics.rotation.euler_equations import RigidBody
 from derive.mechanics.rotation.inertia import moment_of_inertia
 from derive.mechanics.rotation.tensors import seen_particles
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.level import Manner
+from derive.steps.rule import ROUTE, Rule, Shown
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import Subject
 
@@ -84,6 +86,14 @@ def _letter(quantity: Quantity) -> Expr:
     return found
 
 
+CENTRE_DISTANCE = Rule(
+    "rotation.centre_distance",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    evidence={"balance": ROUTE},
+    shown=Shown(brief=Manner.TOLD),
+)
+
+
 def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantity:
     """Where the centre of mass is on the z axis through a point, l = (m_1 z_1 + m_2 z_2 + ...)/M.
 
@@ -100,7 +110,7 @@ def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantit
     taken = {letter.name for m, r in body.particles() for letter in (m * r[2]).free_symbols}
     letter = next((name for name in ("l", "d", "s") if name not in taken), "l_C")
     return establish(
-        "rotation.centre_distance",
+        CENTRE_DISTANCE,
         scalar(letter, positive=True) if there.is_positive else scalar(letter),
         (lambda M: Ratio(whole, M)) if mass is not None else lambda _: there,
         {"mass": mass if mass is not None else body.mass},

@@ -35,7 +35,10 @@ from derive.mechanics.bodies.equimomental import squared_distance, summed, tenso
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.bodies.parts import turn_about
 from derive.mechanics.bodies.regions import Point
+from derive.mechanics.rotation import claims
+from derive.steps.claims import lasts, nowhere_negative, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Level, Quantity, entry_name, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject
 
@@ -68,6 +71,16 @@ def shape_of(found: Any) -> str:
     return {1: "isotropic", 2: "two_equal"}.get(len({found[i, i] for i in range(3)}), "diagonal")
 
 
+TURNED_TENSOR = Rule(
+    "rotation.turned_tensor",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2",
+    outcomes=claims.TENSORS,
+    evidence={"particles": ROUTE, "quadrature": CHECK, "trace": CHECK},
+    statements=[claims.turned_as_told],
+    named={"angle": claims.turned_by},
+)
+
+
 def turned_tensor(
     inertia: Quantity, axis: str, angle: Expr, symbol: str | None = None, key: str = "turned_tensor"
 ) -> Quantity:
@@ -88,7 +101,7 @@ def turned_tensor(
     there = replace(point, axes=ImmutableDenseMatrix(point.axes * turn))
     name = symbol or f"{inertia.symbol.name.partition('_')[0]}'"
     return establish(
-        "rotation.turned_tensor",
+        TURNED_TENSOR,
         tensor(name),
         lambda I: MatMul(turn.T, I, turn, evaluate=False),
         {"inertia": inertia},
@@ -108,6 +121,13 @@ def turned_tensor(
         ),
         scope=Scope(about=Subject(body=body, point=there, axes=there.axes), differ={"point", "axes"}),
     )
+
+
+MOMENT_ABOUT = Rule(
+    "rotation.moment_about",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    evidence={"particles": ROUTE, "quadrature": CHECK},
+)
 
 
 def moment_about(
@@ -130,7 +150,7 @@ def moment_about(
 
     n = _unit_vector(direction, body, symbol.partition("_")[2] or "n", key)
     return establish(
-        "rotation.moment_about",
+        MOMENT_ABOUT,
         scalar(symbol),
         lambda I, n: Dot(n, applied(I, n)),
         {"inertia": inertia, "direction": n},
@@ -143,12 +163,19 @@ def moment_about(
     )
 
 
+UNIT_VECTOR = Rule(
+    "rotation.unit_vector",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    evidence={"unit": CHECK, "along": CHECK},
+)
+
+
 def _unit_vector(direction: Any, body: Any, letter: str, key: str) -> Quantity:
     """The unit vector along an axis, n = d/|d|."""
     along = value_behind(direction) if isinstance(direction, Quantity) else column(*direction)
     given = {"along": direction} if isinstance(direction, Quantity) else {"along": along}
     return establish(
-        "rotation.unit_vector",
+        UNIT_VECTOR,
         vector(letter),
         lambda d: MatMul(Pow(Norm(d), -1), d, evaluate=False),
         given,
@@ -157,6 +184,14 @@ def _unit_vector(direction: Any, body: Any, letter: str, key: str) -> Quantity:
         lines=Lines(put_in=None),
         scope=Scope(about=Subject(body=body)),
     )
+
+
+TENSOR_ENTRY = Rule(
+    "rotation.tensor_entry",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    outcomes={"moment": claims.tensor_entry_moment, "product": claims.tensor_entry_product},
+    evidence={"particles": ROUTE, "quadrature": CHECK},
+)
 
 
 def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: str | None = None) -> Quantity:
@@ -177,7 +212,7 @@ def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: 
     i, j = ("xyz".index(letter) for letter in sorted(entry))
     name = symbol or entry_name(inertia.symbol.name, i, j).name
     return establish(
-        "rotation.tensor_entry",
+        TENSOR_ENTRY,
         scalar(name),
         lambda: inertia.value[i, j],
         {},
@@ -189,6 +224,14 @@ def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: 
         phrase_data=PhraseData(words={"about": point.name, "entry": entry}, points_to={"inertia": inertia}),
         scope=Scope(about=Subject(body=body, point=point, axis="xyz"[i] if i == j else None)),
     )
+
+
+PRINCIPAL_ANGLE = Rule(
+    "rotation.principal_angle",
+    source="Fowles, Cassiday, *Analytical Mechanics*, section 9.2",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"particles": ROUTE},
+)
 
 
 def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "principal_angle") -> Quantity:
@@ -224,7 +267,7 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
         return sum(left, Integer(0)), Integer(0)
 
     return establish(
-        "rotation.principal_angle",
+        PRINCIPAL_ANGLE,
         tan(2 * angle),
         lambda xy, xx, yy: Ratio(Factors(2, xy), Terms(xx, -yy)),
         entries,
@@ -256,6 +299,13 @@ def _shorter(entry: Expr) -> Expr:
     return min((tidied(form) for form in (plain, TR8(plain).expand())), key=lambda f: (length(f), str(f)))
 
 
+PERPENDICULAR_AXES = Rule(
+    "rotation.perpendicular_axes",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical Mechanics*, section 8.2",
+    evidence={"particles": ROUTE, "quadrature": CHECK},
+)
+
+
 def perpendicular_axes(
     first: Quantity, second: Quantity, symbol: str | None = None, key: str = "perpendicular_axes"
 ) -> Quantity:
@@ -276,7 +326,7 @@ def perpendicular_axes(
     k = "xyz".index(across)
 
     return establish(
-        "rotation.perpendicular_axes",
+        PERPENDICULAR_AXES,
         scalar(symbol or f"I_{across}"),
         lambda a, b: Terms(a, b),
         {"first": first, "second": second},
@@ -287,6 +337,14 @@ def perpendicular_axes(
         phrase_data=PhraseData(words={"about": point.name, "across": across}),
         scope=Scope(about=Subject(body=body, point=point, axis=across)),
     )
+
+
+RADIUS_OF_GYRATION = Rule(
+    "rotation.radius_of_gyration",
+    source="Fowles, Cassiday, *Analytical Mechanics*, section 8.3",
+    evidence={"particles": ROUTE, "quadrature": CHECK},
+    statements=[nowhere_negative],
+)
 
 
 def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_of_gyration") -> Quantity:
@@ -305,7 +363,7 @@ def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_o
     i = "xyz".index(axis)
 
     return establish(
-        "rotation.radius_of_gyration",
+        RADIUS_OF_GYRATION,
         scalar(symbol, nonnegative=True),
         lambda I, mass: Root(Ratio(I, mass)),
         {"moment": moment, "mass": body.mass_as_found},

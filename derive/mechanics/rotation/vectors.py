@@ -40,8 +40,11 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import factored_matrix, size_and_rest, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
+from derive.mechanics.rotation import claims
+from derive.mechanics.rotation.facts import RateByParticles
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter, require_constant
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
 
@@ -69,20 +72,6 @@ class Momentary(Fact):
 
     missing = "is not the angular velocity at one moment"
     point: str
-
-
-class RateByParticles(Fact):
-    """The rate of change of a quantity of a body, without its equations of motion; each has its class."""
-
-    missing = "is not made of particles"
-
-    def rate(self) -> Any:
-        """What the particles contribute, by their accelerations."""
-        raise NotImplementedError
-
-    def in_any_axes(self, torque: Any) -> Any:
-        """The same for a torque, of a body whose tensor is not diagonal."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True)
@@ -131,6 +120,12 @@ class RateOfSquare(RateByParticles):
         return 2 * self.of.in_any_axes(torque)
 
 
+ANY_ANGULAR_VELOCITY = Rule(
+    "rotation.any_angular_velocity",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8",
+)
+
+
 def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
     """An angular velocity of which nothing is known: omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
 
@@ -140,16 +135,23 @@ def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: st
     """
     components = column(*component_names(symbol))
     return establish(
-        "rotation.any_angular_velocity",
+        ANY_ANGULAR_VELOCITY,
         vector(symbol),
         lambda: components,
         {},
         key=key,
-        definition=True,
         kind="angular speed",
         facts=[Through(through)],
         scope=Scope(about=Subject(rotation=components)),
     )
+
+
+SPIN = Rule(
+    "rotation.spin",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9",
+    outcomes={"right_handed": claims.turns("right"), "left_handed": claims.turns("left")},
+    evidence={"length": CHECK, "parallel": CHECK},
+)
 
 
 def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "omega", key: str = "spin") -> Quantity:
@@ -167,7 +169,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
         body.point(through)  # which says so, where the body has no such point
     length = tidied(Norm(along.value))
     return establish(
-        "rotation.spin",
+        SPIN,
         vector(symbol),
         lambda w, d: scaled(w / Norm(d), d),
         {"rate": rate, "axis": along},
@@ -239,6 +241,14 @@ def whether_zero(v: Any) -> str:
     return "generic" if common.is_nonzero and any(entry.is_nonzero for entry in rest) else "in_general"
 
 
+KINETIC_ENERGY = Rule(
+    "rotation.kinetic_energy",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+    evidence={"speeds": ROUTE},
+    statements=[claims.of_their_kinds],
+)
+
+
 def kinetic_energy(
     inertia: Quantity, omega: Quantity, symbol: str | None = None, key: str = "kinetic_energy"
 ) -> Quantity:
@@ -258,7 +268,7 @@ def kinetic_energy(
 
     product = scaled(*factored_matrix(tidied(applied(inertia.value, omega.value))))
     return establish(
-        "rotation.kinetic_energy",
+        KINETIC_ENERGY,
         scalar(symbol or free_letter("T")),
         lambda w, tensor: Factors(Rational(1, 2), Dot(w, applied(tensor, w))),
         {"omega": omega, "inertia": inertia},
@@ -296,6 +306,19 @@ def _as_ratio(size: Expr) -> Expr:
     return size if below == 1 else Ratio(above, below)
 
 
+ANGULAR_MOMENTUM = Rule(
+    "rotation.angular_momentum",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1",
+    outcomes={
+        "parallel": claims.angular_momentum_parallel,
+        "generic": claims.angular_momentum_generic,
+        "in_general": claims.angular_momentum_in_general,
+    },
+    evidence={"moments": ROUTE},
+    statements=[claims.of_their_kinds],
+)
+
+
 def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key: str = "angular_momentum") -> Quantity:
     """Angular momentum, L = I omega: in general not along omega.
 
@@ -309,7 +332,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
     words = _check_point("angular_momentum", inertia, omega)
     by_moments = compared_with(lambda: _over_the_body(inertia, lambda r: Cross(r, Cross(omega.value, r))))
     return establish(
-        "rotation.angular_momentum",
+        ANGULAR_MOMENTUM,
         vector(symbol),
         applied,
         {"inertia": inertia, "omega": omega},
@@ -320,6 +343,19 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         phrase_data=PhraseData(words=words),
         facts=[inertia.needed(AboutPoint), RateOfTurning(inertia, omega)],
     )
+
+
+COSINE_BETWEEN = Rule(
+    "rotation.cosine_between",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2",
+    outcomes={
+        "parallel": claims.cosine_is(1),
+        "opposite": claims.cosine_is(-1),
+        "perpendicular": claims.cosine_is(0),
+        "generic": claims.cosine_is(None),
+    },
+    evidence={"triangle": CHECK},
+)
 
 
 def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "theta") -> Quantity:
@@ -344,7 +380,7 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
         return sign * (beside[0] ** 2 + beside[1] ** 2 - opposite**2) / (2 * beside[0] * beside[1])
 
     return establish(
-        "rotation.cosine_between",
+        COSINE_BETWEEN,
         cos(scalar(angle)),
         lambda u, v: Ratio(Dot(u, v), Factors(Norm(u), Norm(v))),
         {"a": a, "b": b},
@@ -396,6 +432,19 @@ def _relation_of_directions(cosine: Expr) -> str:
     return {Integer(1): "parallel", Integer(-1): "opposite", Integer(0): "perpendicular"}.get(cosine, "generic")
 
 
+ANGLE_BETWEEN = Rule(
+    "rotation.angle_between",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2",
+    outcomes={
+        "parallel": claims.cosine_is(1, claims.rotation_cos),
+        "opposite": claims.cosine_is(-1, claims.rotation_cos),
+        "perpendicular": claims.cosine_is(0, claims.rotation_cos),
+        "generic": claims.cosine_is(None, claims.rotation_cos),
+    },
+    evidence={"sine": CHECK, "tangent": CHECK},
+)
+
+
 def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "angle_between") -> Quantity:
     """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
 
@@ -410,7 +459,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     along = tidied(Dot(a.value, b.value))
     lengths = length_by_turning(a.value) * length_by_turning(b.value)
     return establish(
-        "rotation.angle_between",
+        ANGLE_BETWEEN,
         scalar(symbol),
         lambda: acos(cosine.value),
         {},

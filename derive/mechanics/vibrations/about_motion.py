@@ -15,7 +15,7 @@ from derive.algebra.expressions import bound, explicit, rate
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.hamilton.effective import ReducedMatter
+from derive.mechanics.hamilton.facts import ReducedMatter
 from derive.mechanics.model.dalembert import Matter
 from derive.solving.presentation import presented
 from derive.steps.step import Quantity, is_zero

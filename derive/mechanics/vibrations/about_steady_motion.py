@@ -12,23 +12,46 @@ from derive.algebra.expressions import At, Ratio, Relation, Slope, bound, explic
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.hamilton.effective import ReducedMatter, SeenWith
+from derive.mechanics.hamilton.facts import ReducedMatter, SeenWith
 from derive.mechanics.kinematics.coordinates import OfCoordinate
-from derive.mechanics.lagrange.kept_momentum import KeptMomentum
+from derive.mechanics.lagrange.facts import KeptMomentum
 from derive.mechanics.model.dalembert import Matter
-from derive.mechanics.motion.steady import ZERO, Steady
-from derive.mechanics.rest.equilibria import RestOf, matter_behind
+from derive.mechanics.motion.facts import Steady
+from derive.mechanics.motion.steady import ZERO
+from derive.mechanics.rest.facts import RestOf, matter_behind
+from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.about_motion import About, alone, determinant_about, letter_of_value
-from derive.mechanics.vibrations.oscillations import SquareOf
+from derive.mechanics.vibrations.facts import SquareOf
 from derive.solving.presentation import presented
 from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import sign_where
+from derive.steps.claims import sign_where_it_exists
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known
+from derive.steps.rule import ROUTE, Rule
 from derive.steps.step import Quantity, is_zero
 from derive.witness.facts import Rest
 
 __all__ = ["frequency_squared_about"]
+
+
+FREQUENCY_SQUARED_ABOUT = Rule(
+    "vibrations.frequency_squared_about",
+    source="Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6",
+    outcomes={
+        "stable": sign_where_it_exists(1),
+        "unstable": sign_where_it_exists(-1),
+        "neutral": claims.frequency_squared_about_neutral,
+        "conditional": claims.frequency_squared_about_conditional,
+    },
+    evidence={"all_coordinates": ROUTE},
+    statements=[claims.taken_out_by_its_condition],
+    named={
+        "momentum": claims.momentum_there,
+        "exists": claims.there_where_it_exists,
+        "taken_out": claims.taken_out,
+    },
+)
 
 
 def frequency_squared_about(
@@ -62,7 +85,7 @@ def frequency_squared_about(
         **dict(zip(("taken_out",), about.letter.items(), strict=False)),
     }
     return establish(
-        "vibrations.frequency_squared_about",
+        FREQUENCY_SQUARED_ABOUT,
         scalar(symbol) ** 2,
         lambda U, rest: Ratio(
             At(Slope(U, q, Integer(2)), q, about.place if isinstance(at.value, Relation) else rest), mass

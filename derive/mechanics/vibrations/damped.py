@@ -19,12 +19,15 @@ from derive.algebra.expressions import Relation, Root, explicit, scalar, stand_i
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import T
+from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.facts import Linear
 from derive.mechanics.vibrations.gyroscopic import outcome_data
-from derive.mechanics.vibrations.linearised import Linear, factors_of_amplitudes, with_motion
+from derive.mechanics.vibrations.linearised import factors_of_amplitudes, with_motion
 from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import positive
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter, require_constant
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Quantity, is_zero
 
 __all__: list[str] = []
@@ -104,6 +107,15 @@ def _factors(together: Linear) -> list[tuple[Poly, int]]:
     return sorted(plain, key=lambda each: (not is_zero(each[0].eval(0)), each[0].degree(), len(str(each[0].as_expr()))))
 
 
+DAMPED_CHARACTERISTIC = Rule(
+    "vibrations.damped_characteristic",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25",
+    outcomes={"one": claims.damped_characteristic_one, "several": claims.damped_characteristic_several},
+    evidence={"trial": ROUTE},
+    named={"trial": claims.trial(1, "exponent")},
+)
+
+
 def _characteristic(
     linear: Sequence[Quantity], together: Linear, factors: Sequence[tuple[Poly, int]], letter: Symbol, start: str
 ) -> Quantity:
@@ -121,7 +133,7 @@ def _characteristic(
 
     product = Mul(*(tidied(part.as_expr()).xreplace({S: letter}) ** times for part, times in factors))
     return establish(
-        "vibrations.damped_characteristic",
+        DAMPED_CHARACTERISTIC,
         None,
         lambda *_: Relation(whole, "=", 0),
         {"exponent": letter},
@@ -135,6 +147,13 @@ def _characteristic(
     )
 
 
+DAMPED_FREE = Rule(
+    "vibrations.damped_free",
+    source="that of `normal_modes`",
+    evidence={"put_back": CHECK},
+)
+
+
 def _free(characteristic: Quantity, together: Linear, part: Poly, times: int, start: str) -> Quantity:
     """The exponent zero: a place that nothing drives back to.
 
@@ -142,7 +161,7 @@ def _free(characteristic: Quantity, together: Linear, part: Poly, times: int, st
     """
     letter = characteristic.step.coordinates[-1][0]
     return establish(
-        "vibrations.damped_free",
+        DAMPED_FREE,
         None,
         lambda: Relation(letter, "=", 0),
         {},
@@ -156,6 +175,14 @@ def _free(characteristic: Quantity, together: Linear, part: Poly, times: int, st
 
 def _left(characteristic: Quantity) -> Expr:
     return explicit(characteristic.value).left
+
+
+DAMPED_RATE = Rule(
+    "vibrations.damped_rate",
+    source="that of `normal_modes`",
+    outcomes={kind: claims.gyroscopic_rate(kind) for kind in ("oscillator", "decay", "growth")},
+    evidence={"put_back": CHECK},
+)
 
 
 def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, start: str) -> Quantity:
@@ -176,7 +203,7 @@ def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, s
 
     outcome = "oscillator" if twice else "growth" if sign_by_factors(value) == -1 else "decay"
     return establish(
-        "vibrations.damped_rate",
+        DAMPED_RATE,
         scalar(free_letter(f"beta{number}")),
         lambda *_: value,
         {},
@@ -199,6 +226,15 @@ def _remainder_at(characteristic: Quantity, letter: Symbol, middle: Expr, root: 
     odd = sum((c * square ** (n // 2) for (n,), c in value.terms() if n % 2), start=0 * middle)
     weight = Symbol("w_mark", real=True)
     return even + (weight * odd if root != 0 else 0)
+
+
+DAMPED_FREQUENCY = Rule(
+    "vibrations.damped_frequency",
+    source="that of `normal_modes`",
+    outcomes={"oscillating": claims.damped(1), "conditional": claims.damped(None), "overdamped": claims.damped(-1)},
+    evidence={"motion": CHECK},
+    statements=[claims.positive_where_real],
+)
 
 
 def _frequency(
@@ -225,7 +261,7 @@ def _frequency(
 
     told = {"condition": (condition, Relation(4 * a * c - b**2, ">", 0))} if condition is not None else {}
     return establish(
-        "vibrations.damped_frequency",
+        DAMPED_FREQUENCY,
         scalar(name),
         lambda *_: Root(turned * square),
         {},
@@ -265,6 +301,18 @@ def _modulo(entry: Expr, modulus: Expr) -> Expr:
     return Poly(entry, S, field=True).rem(Poly(modulus, S, field=True)).as_expr()
 
 
+DAMPED_SHAPE = Rule(
+    "vibrations.damped_shape",
+    source="that of `normal_modes`",
+    outcomes={
+        "in_phase": claims.sign_of_product(1),
+        "opposite": claims.sign_of_product(-1),
+        "generic": claims.damped_shape_generic,
+    },
+    evidence={"motion": CHECK},
+)
+
+
 def _shape(
     linear: Sequence[Quantity],
     together: Linear,
@@ -292,7 +340,7 @@ def _shape(
 
     sign = sign_by_factors(tidied(column[0] * column[1])) if len(column) == 2 else None
     return establish(
-        "vibrations.damped_shape",
+        DAMPED_SHAPE,
         MatrixSymbol(f"a_{number}", len(column), 1),
         lambda _: Amplitudes(*column),
         {"rate": own},

@@ -10,15 +10,35 @@ from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Ter
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
 from derive.solving.presentation import presented
 from derive.solving.zeros import check_no_resonance, different_from_zero, positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assume
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Level, Quantity
 
 __all__ = ["steady_amplitude"]
+
+
+STEADY_AMPLITUDE = Rule(
+    "vibrations.steady_amplitude",
+    source="Taylor, *Classical Mechanics*, section 5.5",
+    outcomes={"damped": claims.loses(True), "undamped": claims.loses(False)},
+    evidence={"put_back": CHECK},
+    statements=[claims.swings_of_its_equation],
+)
+
+
+LAG = Rule(
+    "vibrations.lag",
+    source="Taylor, *Classical Mechanics*, section 5.5",
+    outcomes={"damped": claims.loses(True), "undamped": claims.in_step(1, None), "opposite": claims.in_step(-1)},
+    evidence={"quarter_turn_on": CHECK, "put_back": CHECK},
+    statements=[claims.lag_as_written],
+)
 
 
 def steady_amplitude(
@@ -68,7 +88,7 @@ def steady_amplitude(
         return cos(lag) * there, Abs(there)
 
     amplitude = establish(
-        "vibrations.steady_amplitude",
+        STEADY_AMPLITUDE,
         size,
         lambda *_: Ratio(force, Root(Terms(Pow(stiff, 2), Pow(loss, 2)))),
         {"equation": equation, "q": q.symbol},
@@ -86,7 +106,7 @@ def steady_amplitude(
         ),
     )
     lags = establish(
-        "vibrations.lag",
+        LAG,
         scalar("delta") if damped == "undamped" else tan(lag),
         lambda *_: Ratio(loss, stiff) if damped == "damped" else pi if sign == -1 else Integer(0),
         {"equation": equation},

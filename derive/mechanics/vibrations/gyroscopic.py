@@ -33,11 +33,14 @@ from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import T
-from derive.mechanics.vibrations.linearised import Linear, with_motion
+from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.facts import Linear
+from derive.mechanics.vibrations.linearised import with_motion
 from derive.solving.gyroscopic import OMEGA, GyroscopicPencil, Swing, factored
 from derive.solving.zeros import positive
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Quantity, is_zero
 
 __all__: list[str] = []
@@ -105,6 +108,15 @@ def require_turning(verb: str, together: Linear) -> None:
             require_constant(verb, role, entry)
 
 
+GYROSCOPIC_CHARACTERISTIC = Rule(
+    "vibrations.gyroscopic_characteristic",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23",
+    outcomes={"generic": claims.has_turning, "plain": claims.gyroscopic_characteristic_plain},
+    evidence={"quadrature": ROUTE},
+    named={"trial": claims.trial(I, "omega")},
+)
+
+
 def _characteristic(
     linear: Sequence[Quantity], together: Linear, pencil: GyroscopicPencil, letter: Symbol, start: str
 ) -> Quantity:
@@ -116,7 +128,7 @@ def _characteristic(
     matrix = ImmutableDenseMatrix(together.rows_of(pencil.at(letter)).applyfunc(_tidy_entry))
 
     return establish(
-        "vibrations.gyroscopic_characteristic",
+        GYROSCOPIC_CHARACTERISTIC,
         None,
         lambda *_: Relation(Determinant(matrix), "=", 0),
         {"omega": letter},
@@ -158,6 +170,19 @@ def of_cosines_and_sines(linear: Sequence[Quantity], together: Linear, letter: S
 _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
 
 
+GYROSCOPIC_FREQUENCY = Rule(
+    "vibrations.gyroscopic_frequency",
+    source="that of `normal_modes`",
+    outcomes={
+        "oscillating": claims.frequency(1),
+        "growing": claims.frequency(-1),
+        "free": claims.free,
+        "conditional": claims.frequency(None),
+    },
+    evidence={"put_back": CHECK, "sum_of_squares": CHECK},
+)
+
+
 def _frequency(
     characteristic: Quantity, together: Linear, pencil: GyroscopicPencil, n: int, symbol: str, start: str
 ) -> Quantity:
@@ -184,7 +209,7 @@ def _frequency(
     pairs = enumerate(zip(conditions, needs, strict=True), 1)
     told = {f"condition_{i}": (condition, Relation(need, ">", 0)) for i, (condition, need) in pairs}
     return establish(
-        "vibrations.gyroscopic_frequency",
+        GYROSCOPIC_FREQUENCY,
         scalar(name),
         lambda *_: swing.value,
         {},
@@ -232,6 +257,24 @@ def _sum_of_squares(together: Linear) -> Expr:
 # --- how the coordinates move ----------------------------------------------------------------------------------------
 
 
+GYROSCOPIC_MOTION = Rule(
+    "vibrations.gyroscopic_motion",
+    source="Landau, Lifshitz, *Mechanics*, section 39, problem 3",
+    outcomes={
+        "departing": claims.departing,
+        "circle_forwards": claims.sense(1, circle=True),
+        "circle_backwards": claims.sense(-1, circle=True),
+        "ellipse_forwards": claims.sense(1, circle=False),
+        "ellipse_backwards": claims.sense(-1, circle=False),
+        "ellipse": claims.sense(None, circle=False),
+        "straight": claims.straight,
+        "generic": claims.gyroscopic_motion_generic,
+    },
+    evidence={"motion": CHECK, "energy": ROUTE},
+    named={"displacements": claims.moves_so, "first": claims.moves_as(0), "second": claims.moves_as(1)},
+)
+
+
 def _motion(
     linear: Sequence[Quantity],
     together: Linear,
@@ -269,7 +312,7 @@ def _motion(
     displacements = Amplitudes(*(s.symbol for s in together.displacements))
     names = dict(zip(("first", "second"), own, strict=False))
     return establish(
-        "vibrations.gyroscopic_motion",
+        GYROSCOPIC_MOTION,
         MatrixSymbol(f"{_letter(together)}_{n}", len(column), 1),
         lambda w: Amplitudes(*moving(w)),
         {"frequency": frequency},

@@ -13,6 +13,8 @@ from sympy import Add, Expr, Integer, Mul, Poly, Symbol, cancel, discriminant, f
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.facts import Linear
 from derive.mechanics.vibrations.gyroscopic import (
     TurningModes,
     in_quadrature,
@@ -20,10 +22,10 @@ from derive.mechanics.vibrations.gyroscopic import (
     outcome_data,
     require_turning,
 )
-from derive.mechanics.vibrations.linearised import Linear
 from derive.solving.gyroscopic import GyroscopicPencil, Part
 from derive.solving.zeros import border_of, positive
 from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Form, Level, Quantity, is_zero
 from derive.witness.facts import Rest
 
@@ -99,6 +101,21 @@ def _may_drift(part: Part, pencil: GyroscopicPencil) -> bool:
     return any(pencil.sign(tidied(each)) is None for each in below)
 
 
+GYROSCOPIC_STABILITY = Rule(
+    "vibrations.gyroscopic_stability",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7",
+    outcomes={
+        "stable": claims.always(True),
+        "unstable": claims.always(False),
+        "depends": claims.gyroscopic_stability_depends,
+        "first": claims.gyroscopic_stability_first,
+        "further": claims.gyroscopic_stability_further,
+        "last": claims.gyroscopic_stability_last,
+    },
+    evidence={"quadrature": ROUTE, "border": CHECK},
+)
+
+
 def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str) -> Quantity:
     """What holds whatever the letters are.
 
@@ -107,7 +124,7 @@ def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str)
     """
     letter = characteristic.step.coordinates[-1][0]
     return establish(
-        "vibrations.gyroscopic_stability",
+        GYROSCOPIC_STABILITY,
         None,
         lambda equation: equation,
         {"characteristic": characteristic.value},
@@ -159,7 +176,7 @@ def _condition(
         return residual, ZERO
 
     return establish(
-        "vibrations.gyroscopic_stability",
+        GYROSCOPIC_STABILITY,
         None,
         lambda *_: Relation(need, ">", 0),
         {},

@@ -41,12 +41,15 @@ from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.vibrations import claims
 from derive.solving.presentation import presented
 from derive.solving.unknowns import coordinates_of, is_number, residual_of
 from derive.solving.zeros import check_no_resonance, different_from_zero
+from derive.steps.claims import as_told
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume, changes, require_constant
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Level, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["solution"]
@@ -76,6 +79,29 @@ class Linear:
         """What is left of the equation for this function of the time."""
         first = diff(motion, TIME)
         return self.a * diff(first, TIME) + self.b * first + self.c * motion - self.driven
+
+
+SOLUTION = Rule(
+    "vibrations.solution",
+    source="Taylor, *Classical Mechanics*, sections 5.4 to 5.6",
+    outcomes={
+        word: claims.free_motion(word)
+        for word in (
+            "oscillates",
+            "underdamped",
+            "critically_damped",
+            "overdamped",
+            "runs_away",
+            "uniform",
+            "relaxes",
+            "slows",
+            "accumulates",
+        )
+    },
+    evidence={"put_back": CHECK, "start": CHECK},
+    statements=[claims.starts_as_told],
+    named={"start": as_told(claims.starts_as_told), "start_rate": as_told(claims.starts_as_told)},
+)
 
 
 def solution(
@@ -126,7 +152,7 @@ def solution(
         return ImmutableDenseMatrix(at), ImmutableDenseMatrix([explicit(value_behind(each)) for each in asked])
 
     return establish(
-        "vibrations.solution",
+        SOLUTION,
         q.symbol,
         lambda *_: Terms(Add(*(C * e for C, e in zip(values, basis, strict=True))), particular),
         {"equation": equation, "q": q.symbol},

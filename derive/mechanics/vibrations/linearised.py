@@ -8,11 +8,9 @@ forces, drag and given ones among them, to second order.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import reduce
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, lcm, nan, sin, together, zoo
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, cos, nan, sin, zoo
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import by_accelerations, spread
@@ -21,56 +19,25 @@ from derive.algebra.expansion import FirstOrder
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.squares import with_squares
 from derive.algebra.taylor import slope
-from derive.algebra.tidy import common_factor, tidied
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.rest.constrained_stability import constraints_of
 from derive.mechanics.rest.equilibria import place_given
 from derive.mechanics.rest.mass_matrix import check_regular
+from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.facts import Linear
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import sign_known
-from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
+from derive.steps.rule import ROUTE, Rule
+from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
 from derive.witness.facts import Around, Rest
 
 __all__ = ["linearised"]
 
 ZERO = Integer(0)
 MOST_TOLD = 2  # terms of higher order that a sentence tells one by one
-
-
-@dataclass(frozen=True)
-class Linear(Fact):
-    """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, where the
-    state of rest exists, what drives them, and what each coordinate is at rest."""
-
-    missing = "is not an equation of motion to first order"
-    mass: MatrixBase
-    turning: MatrixBase
-    stiffness: MatrixBase
-    displacements: tuple[Coordinate, ...]
-    exists: Relation | None = None
-    driven: tuple[Expr, ...] = ()
-    place: tuple[tuple[Coordinate, Expr], ...] = ()
-
-    def rows_of(self, matrix: MatrixBase) -> MatrixBase:
-        """A matrix of the amplitudes, each row without what all terms of its equation have in common."""
-        size = range(matrix.shape[0])
-        return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
-
-    def common(self, i: int) -> Expr:
-        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta.
-
-        Where each of them has something below it, all that is below is cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
-        """
-        entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
-        parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]
-        if len(parts) == 1:
-            return Integer(1)  # I theta_ddot = 0 stays as it is
-        found = common_factor([above for above, _ in parts])
-        if all(below.free_symbols for _, below in parts):
-            found /= factor(reduce(lcm, (below for _, below in parts)))
-        return Mul(*(part for part in Mul.make_args(found) if part.is_positive and not part.is_Rational))
 
 
 def linearised(
@@ -115,6 +82,26 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     linear = Linear(mass, turning, stiffness, eta, exists, driven, rest)
     rests = [at] if isinstance(at, Quantity) else []
     return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
+
+
+LINEARISED = Rule(
+    "vibrations.linearised",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2",
+    outcomes={
+        "generic": claims.modes_linear(displaced=False, lossy=False, driven=False),
+        "displaced": claims.modes_linear(displaced=True, lossy=False, driven=False),
+        "damped": claims.modes_linear(displaced=False, lossy=True, driven=False),
+        "displaced_damped": claims.modes_linear(displaced=True, lossy=True, driven=False),
+        "driven": claims.modes_linear(displaced=False, lossy=None, driven=True),
+        "displaced_driven": claims.modes_linear(displaced=True, lossy=None, driven=True),
+    },
+    evidence={"second_order": ROUTE, "given_second_order": ROUTE},
+    named={
+        "alone": claims.alone_in_its_equation,
+        "sine": claims.small_function(sin),
+        "cosine": claims.small_function(cos),
+    },
+)
 
 
 def _one(
@@ -162,7 +149,7 @@ def _one(
         alone = {"alone": moving[0].symbol, **_functions_of(equations[i], moving[0], small)}
         counted.update(_dropped(moving[0], small))
     return establish(
-        "vibrations.linearised",
+        LINEARISED,
         None,
         lambda *_: whole,
         {},

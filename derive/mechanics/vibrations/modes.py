@@ -7,7 +7,6 @@ zero belongs to a free motion, a negative one to a displacement that grows.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -32,29 +31,25 @@ from derive.algebra.squares import with_squares
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, T
+from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.damped import DampedModes
+from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.mechanics.vibrations.gyroscopic import TurningModes
-from derive.mechanics.vibrations.linearised import Linear, factors_of_amplitudes, left_by_drift, with_motion
+from derive.mechanics.vibrations.linearised import factors_of_amplitudes, left_by_drift, with_motion
 from derive.mechanics.vibrations.oscillations import frequency, frequency_squared, told_where_positive
 from derive.solving.characteristic import Pencil, root_of
 from derive.solving.characteristic import Root as RootOfPencil
+from derive.steps.claims import nowhere_negative
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import have_numbers
 from derive.steps.record import free_letter, require_constant
-from derive.steps.step import Fact, Level, Quantity, is_zero, require_kind
+from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.step import Level, Quantity, is_zero, require_kind
 
 __all__ = ["beats", "normal_modes", "period"]
 
 ZERO = Integer(0)
 LETTERS = ("omega", "Omega")  # of a frequency: the second where the first is given
-
-
-@dataclass(frozen=True)
-class Mode(Fact):
-    """The frequency, or the rate of growth, of a mode: its root lambda = omega^2 with its sign, and its columns."""
-
-    missing = "is not the frequency of a normal mode"
-    root: RootOfPencil
 
 
 def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str = "") -> tuple[Quantity, ...]:
@@ -123,6 +118,13 @@ def _check_whole(linear: Sequence[Quantity], together: Linear) -> None:
             require_constant("normal_modes", role, entry)
 
 
+CHARACTERISTIC = Rule(
+    "vibrations.characteristic",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3",
+    evidence={"trial": ROUTE},
+)
+
+
 def _characteristic(
     linear: Sequence[Quantity], together: Linear, pencil: Pencil, letter: Symbol, start: str
 ) -> Quantity:
@@ -139,7 +141,7 @@ def _characteristic(
         return found, Relation(expanded_by_rows(matrix), "=", 0)
 
     return establish(
-        "vibrations.characteristic",
+        CHARACTERISTIC,
         None,
         lambda *_: Relation(Determinant(matrix), "=", 0),
         {"omega": letter},
@@ -162,6 +164,21 @@ def _drift(linear: Sequence[Quantity], together: Linear, root: RootOfPencil) -> 
     time = stand_in("s")
     left = [value for column in root.columns for value in left_by_drift(linear, together, column, time)]
     return {"drift": Integer(0), "left": tuple(left)} if all(map(is_zero, left)) else {}
+
+
+MODE_FREQUENCY = Rule(
+    "vibrations.mode_frequency",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3",
+    outcomes={
+        f"{word}{suffix}": claims.modes_frequency(sign, repeated)
+        for word, sign in (("oscillating", 1), ("growing", -1), ("free", 0), ("conditional", None))
+        for suffix, repeated in (("", False), ("_repeated", True))
+    }
+    | {"ordered": claims.is_in_order(whole=True), "ordered_part": claims.is_in_order(whole=False)},
+    evidence={"put_back": CHECK, "rayleigh": ROUTE, "trace": CHECK},
+    statements=[claims.drifts_as_told, claims.positive_where_real],
+    named={"drift": claims.nothing_is_left, "root": claims.root_under_the_sign},
+)
 
 
 def _frequency(
@@ -202,7 +219,7 @@ def _frequency(
     drift = _drift(linear, together, root)
     named = {} if root.has_formula else {"root": scalar(f"{pencil.name}_1")}  # the sentence introduces the first
     return establish(
-        "vibrations.mode_frequency",
+        MODE_FREQUENCY,
         scalar(name),
         lambda *_: root_of(turned * root.value),
         {},
@@ -240,6 +257,24 @@ def _trace(mass: MatrixBase, stiffness: MatrixBase) -> Expr:
     return tidied(Add(*cofactors) / mass.det())
 
 
+MODE_SHAPE = Rule(
+    "vibrations.mode_shape",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3",
+    outcomes={
+        "in_phase": claims.of_pair(same=True),
+        "opposite": claims.of_pair(same=False),
+        "alone": claims.alone,
+        "generic": claims.mode_shape_generic,
+        "uniform": claims.mode_shape_uniform,
+        "departing": claims.mode_shape_departing,
+        "any_of_several": claims.repeated,
+    },
+    evidence={"motion": CHECK, "orthogonal": CHECK},
+    statements=[claims.drifts_as_told],
+    named={"moving": claims.moves_alone, "drift": claims.nothing_is_left},
+)
+
+
 def _shape(
     linear: Sequence[Quantity],
     together: Linear,
@@ -275,7 +310,7 @@ def _shape(
     entries = zip(together.displacements, column, strict=True)
     moved = next(s.symbol for s, entry in entries if not is_zero(entry))
     return establish(
-        "vibrations.mode_shape",
+        MODE_SHAPE,
         MatrixSymbol(f"{_letter_of_shapes(column)}_{n}", len(column), 1),
         lambda _: Amplitudes(*column),
         {"frequency": frequency},
@@ -316,6 +351,14 @@ def _pair(first: Expr, second: Expr) -> str:
     return {1: "in_phase", -1: "opposite", None: "generic"}[strict_sign_within(ratio)]
 
 
+PERIOD = Rule(
+    "vibrations.period",
+    source="Taylor, *Classical Mechanics*, section 5.2",
+    evidence={"once_round": CHECK},
+    statements=[nowhere_negative],
+)
+
+
 def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quantity:
     """Period of an oscillation, tau = 2 pi/omega.
 
@@ -336,7 +379,7 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
         return cos(turn) + u * sin(turn) + v * cos(turn / 2), 1 - v
 
     return establish(
-        "vibrations.period",
+        PERIOD,
         scalar(symbol or free_letter("tau")),
         lambda omega: Ratio(2 * pi, omega),
         {"frequency": of},
@@ -345,6 +388,14 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
         key=key,
         kind="time",
     )
+
+
+BEATS = Rule(
+    "vibrations.beats",
+    source="Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2",
+    evidence={"product": CHECK},
+    statements=[claims.somewhere_positive],
+)
 
 
 def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str = "beats") -> Quantity:
@@ -367,7 +418,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
         return cos(slow.value * T) + cos(fast.value * T), 2 * cos(found * T / 2) * cos(middle * T)
 
     return establish(
-        "vibrations.beats",
+        BEATS,
         scalar(symbol),
         lambda one, other: Terms(other, -one),
         {"slow": slow, "fast": fast},

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from sympy import Abs, Add, Expr, I, Integer, Mul, Pow, Rational, cos, diff, exp, prime, sqrt
 
@@ -14,26 +13,34 @@ from derive.algebra.ranges import fulfilling, rational_in_range, settled, strict
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import OfCoordinate, T
-from derive.mechanics.vibrations.linearised import Linear
+from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.facts import Linear, SquareOf
 from derive.solving.characteristic import root_of
 from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import positive, sign_where
 from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.level import Manner
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Form, Level, Quantity
+from derive.steps.rule import CHECK, Rule, Shown
+from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["frequency", "frequency_and_growth", "frequency_squared"]
 
 SHORT = 4  # a condition of more terms is not told
 
 
-@dataclass(frozen=True)
-class SquareOf(Fact):
-    """The letter of what this is the square of, and where the state exists about which it is."""
-
-    missing = "is not the square of a frequency"
-    letter: str
-    exists: Relation | None = None
+FREQUENCY_SQUARED = Rule(
+    "vibrations.frequency_squared",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1",
+    outcomes=claims.SIGNS,
+    evidence={"put_back": CHECK},
+    named={
+        "oscillator": claims.oscillator,
+        "inertia": claims.divided_by,
+        "acceleration": claims.its_acceleration,
+    },
+    shown=Shown(brief=Manner.TAKEN_IN, standard=Manner.TAKEN_IN),
+)
 
 
 def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "frequency_squared") -> Quantity:
@@ -64,7 +71,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         return left_side.expand().subs(trial**2, found), Integer(0)
 
     return establish(
-        "vibrations.frequency_squared",
+        FREQUENCY_SQUARED,
         Pow(scalar(symbol), 2),
         lambda _: _quotient(stiffness, mass),
         {"q": q},
@@ -172,6 +179,20 @@ def frequency_and_growth(
     return frequency(squared, key=first, condition=condition), _rate(squared, "growing", None, second)
 
 
+FREQUENCY = Rule(
+    "vibrations.frequency",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1",
+    outcomes={
+        "stable": claims.rate_of_square(1, 1),
+        "unstable": claims.rate_of_square(-1, -1),
+        "neutral": claims.rate_of_square(0, 1),
+        "conditional": claims.rate_of_square(None, 1),
+        "growing": claims.rate_of_square(None, -1),
+    },
+    evidence={"motion": CHECK, "positive": CHECK},
+)
+
+
 def _rate(
     squared: Quantity,
     outcome: str,
@@ -209,7 +230,7 @@ def _rate(
         return value, Abs(value)
 
     return establish(
-        "vibrations.frequency",
+        FREQUENCY,
         scalar(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},

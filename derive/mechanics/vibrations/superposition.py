@@ -18,13 +18,15 @@ from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
-from derive.mechanics.vibrations import linear_motion
-from derive.mechanics.vibrations.linearised import Linear, with_motion
-from derive.mechanics.vibrations.modes import Mode
+from derive.mechanics.vibrations import claims, linear_motion
+from derive.mechanics.vibrations.facts import Linear, Mode
+from derive.mechanics.vibrations.linearised import with_motion
 from derive.solving.characteristic import Pencil
+from derive.steps.claims import lasts, vanishes
 from derive.steps.derivation import with_ancestors
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
+from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Form, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["motions_by_modes"]
@@ -159,6 +161,15 @@ def tidied_motion(motion: Expr) -> Expr:
     return min(forms, key=length)
 
 
+SUPERPOSITION = Rule(
+    "vibrations.superposition",
+    source="Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*, section 6.3",
+    outcomes={"generic": lasts, "zero": vanishes},
+    evidence={"put_back": CHECK, "start": CHECK},
+    statements=[claims.starts_as_all_are_told],
+)
+
+
 def _motion(
     equations: Sequence[Quantity],
     together: Linear,
@@ -197,7 +208,7 @@ def _motion(
     product = _as_product(own, i)
     told = {**_told(together, started), "coordinate": (q.symbol, q.symbol)}
     return establish(
-        "vibrations.superposition",
+        SUPERPOSITION,
         q.symbol,
         law,
         named,

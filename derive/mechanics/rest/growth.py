@@ -17,10 +17,10 @@ from sympy import Expr, Integer, Rational, Symbol, lambdify
 
 from derive.algebra.expressions import explicit, rate
 from derive.algebra.ranges import has_meaning, rational_in_range
-from derive.mechanics.hamilton.effective import SeenWith
+from derive.mechanics.hamilton.facts import SeenWith
 from derive.mechanics.model.dalembert import Matter, Reaction
 from derive.mechanics.model.system import System
-from derive.mechanics.rest.equilibria import matter_behind
+from derive.mechanics.rest.facts import matter_behind
 from derive.steps.step import Quantity
 
 DIGITS = 75

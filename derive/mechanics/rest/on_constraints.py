@@ -12,7 +12,7 @@ from mpmath import mp
 from sympy import Expr, lambdify
 
 from derive.algebra.ranges import has_meaning
-from derive.steps.outcomes import Judged
+from derive.steps.rule import Judged
 
 DIGITS = 60
 STEP = 14  # digits of a small displacement

@@ -1,0 +1,566 @@
+"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from itertools import islice
+from typing import Any
+
+from sympy import (
+    Dummy,
+    Expr,
+    Integer,
+    MatrixBase,
+    Mul,
+    Poly,
+    Rational,
+    Symbol,
+    cos,
+    diff,
+    factor_list,
+    gcd_list,
+    oo,
+    prime,
+    sign,
+    sin,
+)
+
+from derive.algebra.equality import equal
+from derive.algebra.expansion import Approach
+from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit
+from derive.algebra.ranges import range_of, rational_in_range
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.solving.root_of_factor import RootOf
+from derive.steps.claims import (
+    MARK_OF,
+    POINTS,
+    holds_at,
+    is_a_root_just_where_told,
+    letters_in,
+    same_equation,
+    turned,
+    value_of_role,
+)
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.record import assumed
+from derive.steps.rule import Judged, Predicate, handed_on_by
+from derive.steps.step import is_zero
+
+TRIED, LITTLE = 8, 1e-12
+
+
+_CAN_BE = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
+
+
+def one_of(alone: bool, first: bool) -> Predicate:
+    """Of how many unknowns this is which."""
+
+    def is_so(facts: Judged) -> bool:
+        count = sum(role.startswith("equation_") for role in facts.inputs)
+        place = 0 if facts.inputs["place"] == 0 else 1
+        return (count == 1) == alone and (alone or (place == 0) == first)
+
+    return is_so
+
+
+def _polynomial(facts: Judged) -> Poly:
+    return Poly(facts.inputs["polynomial"], facts.inputs["gen"])
+
+
+def _slope_there(facts: Judged) -> Any:
+    polynomial = _polynomial(facts)
+    return polynomial.diff(polynomial.gen).as_expr().xreplace({polynomial.gen: facts.result})
+
+
+def single(facts: Judged) -> bool:
+    return bool(_polynomial(facts).degree() == 1)
+
+
+def double(facts: Judged) -> bool:
+    return facts.inputs["count"] == 1 and is_zero(_slope_there(facts))
+
+
+def only(facts: Judged) -> bool:
+    """Another root is there, at which the polynomial divided by this one vanishes; it is complex or not positive."""
+    alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
+    return alone and all(_only_there(facts, point) for point in islice(points(_letters(facts), 4099), TRIED))
+
+
+def _letters(facts: Judged) -> set[Any]:
+    return letters_of(_polynomial(facts).as_expr()) - {facts.inputs["gen"]}
+
+
+def _only_there(facts: Judged, point: Any) -> bool:
+    """In numbers no other root is one that could be taken."""
+    own = complex(value_at(explicit(facts.result), point))
+    there = Poly(_polynomial(facts).as_expr().xreplace(point), facts.inputs["gen"])
+    numbers = sorted((complex(root) for root in there.nroots(n=20, maxsteps=200)), key=lambda root: abs(root - own))
+    unknown, size = facts.inputs["unknown"], max(map(abs, numbers)) or 1
+    known, limited = range_of(unknown), isinstance(unknown, sin | cos)
+    for other in numbers[1:]:
+        beside = limited and abs(other) > 1 or known is not None and not known.least < other.real < known.greatest
+        if abs(other.imag) < LITTLE * size and (other.real > 0 or facts.inputs["positive"] == 0) and not beside:
+            return abs(own.imag) > LITTLE * size
+    return True
+
+
+def of_several(first: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        place, roots = int(facts.inputs["place"]), [explicit(root) for root in facts.inputs["roots"]]
+        another = all(not is_zero(explicit(facts.result) - root) for n, root in enumerate(roots) if n != place)
+        return facts.inputs["count"] > 1 and (place == 0) == first and another
+
+    return is_so
+
+
+def where_the_coefficients_last(predicate: Predicate) -> Predicate:
+    """Where all coefficients vanish, any number is a root: the sentence excludes that, or its condition does."""
+
+    def is_so(facts: Judged) -> bool:
+        known = [facts.inputs[role] for role in ("excluded", "condition") if role in facts.inputs]
+        told = [each.left for each in known if each.mark in ("!=", ">")]
+        factors = {f for each in told for f, _ in factor_list(each)[1]}
+        common = factor_list(gcd_list(_polynomial(facts).coeffs()))[1]
+        open_ = [f for f, _ in common if sign_known(f) is None and not f.is_nonzero]
+        return bool(predicate(facts)) and all(f in factors or -f in factors for f in open_)
+
+    return is_so
+
+
+def absent(facts: Judged) -> bool:
+    return isinstance(facts.result, Relation) and sign_known(facts.result.left) in _CAN_BE[facts.result.mark]
+
+
+def beyond_one(facts: Judged) -> bool:
+    """By numbers for the letters: the cosine is greater than 1, or less than -1."""
+    value = with_numbers(facts.result.left)
+    letters = {letter: Rational(7, 5) for letter in value.free_symbols}
+    there = value.xreplace(letters).evalf(20)
+    return bool(there > 1 if facts.result.mark == ">" else there < -1)
+
+
+def put_in(only_values: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        identity = isinstance(facts.result, Relation) and facts.result.mark == "=" and is_zero(facts.result.residual)
+        return not identity and only_values == (not any(role.startswith("other_") for role in facts.inputs))
+
+    return is_so
+
+
+def identity(facts: Judged) -> bool:
+    return isinstance(facts.result, Relation) and facts.result.mark == "=" and is_zero(facts.result.residual)
+
+
+def _is_divided_as_told(facts: Judged) -> bool:
+    """What must not vanish divides the difference, and the quotient still vanishes where the result says."""
+    excluded = facts.inputs.get("excluded")
+    if excluded is None:
+        return True
+    left, right = explicit(facts.result).sides
+    quotient = tidied(facts.inputs["difference"] / excluded.residual)
+    return excluded.mark == "!=" and quotient.has(*left.free_symbols) and is_zero(quotient.subs(left, right))
+
+
+def compared(squared: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        left, right = facts.result.sides
+        unknown = facts.inputs["unknown"]
+        alone = left == (unknown**2 if squared else unknown) and not explicit(right).has(left)
+        limited = "existing" not in facts.inputs or isinstance(unknown, sin | cos)  # nothing else is between -1 and 1
+        return bool(alone) and limited and _is_divided_as_told(facts)
+
+    return is_so
+
+
+def always(wanted: bool) -> Predicate:
+    """Whether the sign that the difference has for all values of the letters is one that was asked for."""
+
+    def is_so(facts: Judged) -> bool:
+        held = facts.inputs["sign"] in _CAN_BE[MARK_OF[facts.words["comparison"]]]
+        difference = with_numbers(facts.inputs["difference"])
+        letters = sorted(difference.free_symbols, key=str)
+        there = difference.subs({letter: Integer(3 + 2 * i) / 4 for i, letter in enumerate(letters)}).evalf(20)
+        sign = 0 if is_zero(facts.inputs["difference"]) else (1 if there > 0 else -1)
+        return held == wanted and bool(sign == facts.inputs["sign"] or sign in _CAN_BE[facts.result.mark])
+
+    return is_so
+
+
+def as_let(equation: bool, reason: bool) -> Predicate:
+    """An equation has no letter, and a value has one."""
+
+    def is_so(facts: Judged) -> bool:
+        letter = facts.symbol is None if equation else facts.symbol is not None
+        return letter and isinstance(facts.result, Relation) == equation and ("because" in facts.words) == reason
+
+    return is_so
+
+
+def near(*places: Any) -> Predicate:
+    """Whether something is left out, and the letter goes to one of these, or to none of those that have a word."""
+
+    def is_so(facts: Judged) -> bool:
+        to = facts.inputs["to"]
+        there = to in places if places else to not in (0, oo, -oo)
+        return there and not nothing_left_out(facts)
+
+    return is_so
+
+
+def nothing_left_out(facts: Judged) -> bool:
+    return is_zero(explicit(facts.inputs["value"]) - facts.result)
+
+
+def is_nothing(facts: Judged) -> bool:
+    """The limit is zero, and what goes there is not."""
+    return is_zero(facts.result) and not nothing_left_out(facts)
+
+
+def goes_as(wanted: int) -> Predicate:
+    """By the result alone, which is one power of what is small: it stays, vanishes with it, or grows."""
+
+    def is_so(facts: Judged) -> bool:
+        x, to = facts.inputs["x"], facts.inputs["to"]
+        small = 1 / x if to in (oo, -oo) else x - to
+        entries = list(facts.result) if isinstance(facts.result, MatrixBase) else [facts.result]
+        slopes = [tidied(diff(entry, x) / diff(small, x) * small / entry) for entry in entries if entry != 0]
+        return (
+            not nothing_left_out(facts)
+            and bool(slopes)
+            and all(sign(each) == wanted and not each.has(x) for each in slopes)
+        )
+
+    return is_so
+
+
+def bent(sign: int) -> Predicate:
+    """By the values a little to both sides of the place, in numbers: they are below it, or above."""
+
+    def is_so(facts: Judged) -> bool:
+        x = Dummy("x", **facts.inputs["letter"].assumptions0)  # that which varies has no number
+        varied = {facts.inputs["letter"]: x}
+        value, place = (with_numbers(facts.inputs[role].xreplace(varied)) for role in ("value", "place"))
+        told = [c for role, c in facts.inputs.items() if role == "condition" or role.startswith("inside_")]
+        conditions = [with_numbers(explicit(condition).xreplace(varied)) for condition in (*told, *assumed())]
+        letters = {s for e in (value, place, *(c.residual for c in conditions)) for s in letters_of(e)} - {x}
+        seen = []
+        for point in islice(points(letters, seed_of(value, place)), 40):
+            try:
+                there = value_at(place, point)
+                if all(holds_at(c, {**point, x: there}) for c in conditions):
+                    seen.append(_beside(value, x, there, point))
+            except (Undefined, NoNumber, TypeError):
+                continue
+        return bool(seen) and all(sign * apart > 0 for apart in seen[:3])
+
+    return is_so
+
+
+def _beside(value: Expr, x: Symbol, place: Expr, point: Any) -> Expr:
+    near = abs(place) / 10**6 + Rational(1, 10**9)
+    there, *others = (value_at(value, {**point, x: place + k * near}) for k in (0, 1, -1))
+    return min(there - other for other in others) if there > others[0] else max(there - other for other in others)
+
+
+def exact(facts: Judged) -> bool:
+    return is_zero(facts.inputs["value"] - facts.inputs["kept"]) and _says_what_is_kept(facts)
+
+
+def _says_what_is_kept(facts: Judged) -> bool:
+    """The equation is what is kept, but for a factor: each vanishes with the other."""
+    residual = explicit(facts.result).residual
+    moving = [s for s in residual.free_symbols if s.name.endswith(("_dot", "_ddot"))]
+    ratio = facts.inputs["kept"] / residual
+    return all(is_zero(ratio.diff(s)) for s in moving)
+
+
+def leading(*places: Any) -> Predicate:
+    """No order is asked for, and the letter goes to one of these, or to none of those that have a word."""
+
+    def is_so(facts: Judged) -> bool:
+        to = facts.inputs["to"]
+        there = to in places if places else to not in (0, oo, -oo)
+        return there and facts.inputs["order"] == -1 and not exact(facts) and _says_what_is_kept(facts)
+
+    return is_so
+
+
+def to_order(wanted: int | None) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        order = int(facts.inputs["order"])
+        fits = order == wanted if wanted is not None else order not in (-1, 1)
+        return fits and not exact(facts) and _says_what_is_kept(facts)
+
+    return is_so
+
+
+def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
+    """Numbers for the letters, from one scale to another and of both signs; in the range of one that has some."""
+    ordered = sorted(letters, key=str)
+    for shift in range(12):
+        drawn = (Rational(prime(5 + (7 * i + 3 * shift) % 23), 2 + (i + shift) % 5) for i in range(len(ordered)))
+        yield turned({s: rational_in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}, shift)
+
+
+def _two_roots(facts: Judged) -> Iterable[tuple[Expr, Expr, Expr]]:
+    """This root, the other and the factor b, in numbers for which the roots are real: those that are given, and some
+    for each letter that has none."""
+    quadratic = facts.inputs["quadratic"]
+    other = -quadratic.b / quadratic.a - facts.result
+    this, other, b, discriminant = map(with_numbers, (facts.result, other, quadratic.b, quadratic.discriminant))
+    letters = set().union(*(each.free_symbols for each in (this, other, b, discriminant)))
+    for point in _some_points(letters) if letters else ({},):
+        if discriminant.xreplace(point).evalf(30) > 0 or not letters:
+            yield tuple(each.xreplace(point).evalf(30) for each in (this, other, b))
+
+
+def roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        seen = list(_two_roots(facts))
+        return bool(seen) and all(bool(test(*numbers)) for numbers in seen)
+
+    return is_so
+
+
+SMALLER = roots_fit(lambda this, other, b: abs(this) < abs(other) and this * other > 0)
+
+
+LARGER = roots_fit(lambda this, other, b: abs(this) > abs(other) and this * other > 0)
+
+
+def whether(real: bool, predicate: Predicate) -> Predicate:
+    """The roots are known to be real, or that is not known."""
+    return lambda facts: (sign_known(facts.inputs["quadratic"].discriminant) == 1) == real and predicate(facts)
+
+
+def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
+    """By the sign of the discriminant, and of the product of the roots where it is positive."""
+
+    def is_so(facts: Judged) -> bool:
+        q = facts.inputs["quadratic"]
+        if is_zero(q.a) or sign_known((q.b / q.a) ** 2 - 4 * q.c / q.a) != discriminant:
+            return False
+        opposite = sign_known(q.c / q.a) == -1
+        return discriminant != 1 or opposite == (product == -1)
+
+    return is_so
+
+
+def linear(facts: Judged) -> bool:
+    return is_zero(facts.inputs["quadratic"].a)
+
+
+def root(facts: Judged, fact: RootOf) -> bool:
+    """It is a root of its factor."""
+    value = facts.result.right if isinstance(facts.result, Relation) else facts.result
+    powers = range(len(fact.coefficients) - 1, -1, -1)
+    return is_zero(sum(c * explicit(value) ** n for c, n in zip(fact.coefficients, powers, strict=True)))
+
+
+def solved_for(facts: Judged, unknown: Any) -> bool:
+    return bool(unknown == facts.symbol)
+
+
+def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
+    slope = diff(value_of_role(facts, "quantity"), letter)
+    return letter != facts.symbol and is_zero(slope.subs(letter, explicit(facts.result)))
+
+
+def names_put_in(facts: Judged, value: Any) -> bool:
+    """Where letters alone are replaced, each by a value of others, the original becomes the result, or an equation
+    that says the same."""
+    told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
+    others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
+    if value.mark != "=" or value.left.could_extract_minus_sign():
+        return False
+    plain = all(isinstance(letter, Symbol) for letter in told)
+    if others or not plain or any(explicit(at).has(*told) for at in told.values()):
+        return True
+    before, after = explicit(facts.inputs["original"]), explicit(facts.result)
+    names = {s.name for s in before.free_symbols}
+    if any({f"{letter.name}_dot", f"{letter.name}_ddot"} & names for letter in told):  # which are replaced with it
+        return True
+    there = before.xreplace({letter: explicit(at) for letter, at in told.items()})
+    if isinstance(after, Relation):
+        return isinstance(there, Relation) and same_equation(there.residual, after.residual)
+    return bool(equal(there, after))
+
+
+def small_there(facts: Judged, small: Any) -> bool:
+    x, to = facts.inputs["letter"], facts.inputs["to"]
+    if to in (oo, -oo):
+        return is_zero(small * x - 1)
+    return is_zero(small.subs(x, to)) and is_zero(diff(small, x) - 1)
+
+
+def near_that(facts: Judged, place: Any) -> bool:
+    """What is said to be small vanishes there."""
+    return is_zero(facts.inputs["small"].subs(facts.inputs["letter"], place))
+
+
+def highest_power(facts: Judged, power: Any) -> bool:
+    """No power beyond it is kept, and it is the order that was asked for."""
+    order, x, to = (facts.inputs[role] for role in ("order", "letter", "to"))
+    if order == -1 or to in (oo, -oo):
+        return order in (-1, power)
+    return order == power and is_zero(diff(explicit(facts.inputs["kept"]), x, int(power) + 1))
+
+
+def for_short_times(facts: Judged, time: Any) -> bool:
+    return is_zero(time * facts.inputs["letter"] - 1) and explicit(facts.inputs["kept"]).has(TIME)
+
+
+def goes_to(facts: Judged, place: Any) -> bool:
+    """What is named comes close to the place that is named."""
+    approach = facts.inputs["approach"]
+    return isinstance(approach, Approach) and is_zero(approach.args[1] - place)
+
+
+def right_of_a_bound(facts: Judged, bound: Any) -> bool:
+    of = facts.quantities["quantity"].value
+    return isinstance(of, Relation) and of.mark != "=" and is_zero(explicit(of.right) - bound)
+
+
+def for_a_vector(facts: Judged, outcome: str) -> bool:
+    return getattr(facts.inputs["vector"], "shape", None) == (3, 1)
+
+
+def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
+    equation, unknown = facts.inputs["equation"], facts.inputs["unknown"]
+    excluded = unknown in letters_in(facts.inputs.get("excluded", Integer(0)))
+    return isinstance(equation, Relation) and unknown in letters_in(equation) and not excluded
+
+
+def _says_its_bound(facts: Judged, outcome: str) -> bool:
+    """At the bound itself there still is a root, so that only what is beyond it has none."""
+    return outcome != "none" or (facts.result.mark == "<" and is_zero(facts.result.right))
+
+
+def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
+    """With the upper or the lower sign in both roots there is the one that was found."""
+    if "sign" not in facts.words:
+        return _says_its_bound(facts, outcome)
+    sign = {"upper": 1, "lower": -1}[facts.words["sign"]]
+    return is_zero(explicit(facts.inputs["roots"]).xreplace({PLUS_MINUS: Integer(sign)}) - explicit(facts.result))
+
+
+def as_asked_for(facts: Judged, outcome: str) -> bool:
+    """Roots are those of an equation, zeros those of a result, which does vanish where it is said to elsewhere."""
+    given = facts.inputs["equation"]
+    beside, whole = facts.inputs.get("elsewhere"), explicit(given)
+    whole = whole.residual if isinstance(whole, Relation) else whole
+    vanishes = beside is None or all(is_zero(whole.subs(factor, 0)) for factor in Mul.make_args(beside.left))
+    return vanishes and facts.words["asked"] == ("roots" if isinstance(given, Relation) else "zeros")
+
+
+def as_asked(facts: Judged, outcome: str) -> bool:
+    is_letter = isinstance(facts.inputs["unknown"], Symbol)
+    numbered = facts.inputs["count"] == 1 or facts.symbol != facts.inputs["unknown"]
+    if not is_letter:  # the value of a cosine is called a cosine
+        numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
+    limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
+    held = explicit(facts.inputs["equation"]).has(explicit(facts.inputs["unknown"]))
+    return numbered and limited and held and as_asked_for(facts, outcome) and is_a_root_just_where_told(facts)
+
+
+def word_of_its_mark(facts: Judged, outcome: str) -> bool:
+    """ "at most" for <=: the first line shows the mark, and what follows is compared with that; and the quantity is
+    what is compared, not what it is compared with."""
+    difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
+    mark = str(facts.inputs["mark"])
+    right_word = MARK_OF.get(facts.words["comparison"]) == mark
+    if facts.inputs.get("for_real"):  # roots are real where their discriminant is positive, or not negative
+        right_word &= mark in (">", ">=") and facts.quantities["quantity"].step.rule == "answers.discriminant"
+    radicand = (
+        facts.words.get("seen") == "radicand" and facts.quantities["quantity"].step.rule != "answers.discriminant"
+    )
+    return right_word and not radicand and is_zero(difference - facts.inputs["difference"])
+
+
+def there_where_told(facts: Judged, outcome: str) -> bool:
+    """A place where something is extreme is real just where that is said, and between the ends just where that is."""
+    told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
+    return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
+
+
+def _between_the_ends_just_where_told(facts: Judged) -> bool:
+    """By numbers for the letters, where the interval has a width and the place is real."""
+    if "within" not in facts.inputs:
+        return True
+    place, ends = explicit(facts.result), facts.inputs["within"]
+    inside = [each for role, each in facts.inputs.items() if role.startswith("inside_")]
+    real = [each for role, each in facts.inputs.items() if role == "condition"]
+    letters = letters_of(place).union(*map(letters_of, ends), *(letters_of(each.residual) for each in inside))
+    for point in islice(points(letters, seed_of(place)), POINTS):
+        try:
+            low, there, high = (value_at(each, point) for each in (ends[0], place, ends[1]))
+            at = {**point, facts.inputs["letter"]: there}
+            if not low < high or not all(holds_at(each, at) for each in (*real, *assumed())):
+                continue
+            if (low < there < high) != all(holds_at(each, point) for each in inside):
+                return False
+        except (Undefined, NoNumber, TypeError):
+            continue
+    return True
+
+
+def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
+    """What is named goes to its limit where the letter that was expanded in does: h/R with h."""
+    goes, approach, to = (facts.inputs[role] for role in ("letter", "approach", "to"))
+    if not isinstance(approach, Approach) or approach.args[0] != goes:
+        return False
+    aim = approach.args[1]
+    return aim == to if aim in (oo, -oo) else is_zero(aim * facts.inputs["x"] / goes - to)
+
+
+def put_in_zero(facts: Judged) -> bool:
+    return bool(put_in(True)(facts) and is_zero(facts.result))
+
+
+def put_in_again(facts: Judged) -> bool:
+    return bool(bool(equal(facts.result, facts.inputs["found"])))
+
+
+def where_never(facts: Judged) -> bool:
+    return bool(always(False)(facts) and not is_zero(facts.inputs["difference"]))
+
+
+def where_equal(facts: Judged) -> bool:
+    return bool(always(False)(facts) and is_zero(facts.inputs["difference"]))
+
+
+def limiting_case_finite(facts: Judged) -> bool:
+    return bool(is_nothing(facts) or goes_as(0)(facts))
+
+
+one_of_two_smaller_where_real: Predicate = whether(False, roots_fit(lambda this, other, b: abs(this) < abs(other)))
+
+
+one_of_two_larger_where_real: Predicate = whether(False, roots_fit(lambda this, other, b: abs(this) > abs(other)))
+
+
+one_of_two_nearer: Predicate = roots_fit(lambda this, other, b: this * other < 0 and abs(this) < abs(other))
+
+
+one_of_two_farther: Predicate = roots_fit(lambda this, other, b: this * other < 0 and abs(this) > abs(other))
+
+
+def one_of_two_coinciding(facts: Judged) -> bool:
+    return bool(sign_known(facts.inputs["quadratic"].discriminant) == 0)
+
+
+def one_of_two_none(facts: Judged) -> bool:
+    return bool(sign_known(facts.inputs["quadratic"].discriminant) == -1)
+
+
+def combination_generic(facts: Judged) -> bool:
+    return bool(bool(facts.inputs))
+
+
+def combination_named(facts: Judged) -> bool:
+    return bool(not facts.inputs)
+
+
+handed_on_by(RootOf, root)

@@ -1,0 +1,353 @@
+"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import islice
+from typing import Any
+
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Matrix,
+    Rational,
+    Symbol,
+    diff,
+)
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import TIME, Partial, Relation, bound, explicit, rate
+from derive.algebra.samples import letters_of, points, seed_of
+from derive.algebra.taylor import slope
+from derive.mechanics.kinematics.coordinates import by_functions_of_time
+from derive.mechanics.lagrange.facts import Energies, ForceOf, KeptMomentum, WithMomenta, energies_of
+from derive.mechanics.model.constraint import Kept
+from derive.mechanics.model.dalembert import Matter
+from derive.steps.claims import lasts, letters_in, parallel, value_of_role
+from derive.steps.record import assumed, assumed_in_words, coordinates_in
+from derive.steps.rule import Judged, Predicate, Statement, handed_on_by
+from derive.steps.step import Quantity, is_zero
+
+
+def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
+    """With the rate that it returns, the momentum has the value that it keeps."""
+    momentum, value = value_of_role(facts, "momentum"), value_of_role(facts, "value")
+    there = momentum.xreplace({rate(fact.coordinate): fact.turning})
+    as_named = (fact.momentum, fact.coordinate) == (facts.quantities["momentum"].symbol, facts.inputs["coordinate"])
+    return as_named and is_zero(there - value) and is_zero(fact.value - value)
+
+
+def with_momenta(facts: Judged, fact: WithMomenta) -> bool:
+    """The rates of the coordinates whose momenta are kept are gone from the equation."""
+    return not explicit(facts.result).has(*(rate(kept.coordinate) for kept in fact.kept))
+
+
+def force_of_its_constraint(facts: Judged, fact: ForceOf) -> bool:
+    return bool(fact.constraint.force == facts.symbol)
+
+
+def _in_rates(facts: Judged) -> Expr:
+    """The result with the momenta of the mass points in the place of their letters."""
+    L: Quantity = facts.quantities["lagrangian"]
+    matter = L.needed(Matter)
+    letters = {q.name: q for q in matter.coordinates}
+    present = {s: s.name.removeprefix("p_") for s in facts.result.free_symbols if s.name.startswith("p_")}
+    momenta = {p: matter.momentum_along(letters[name]) for p, name in present.items() if name in letters}
+    return bound(explicit(facts.result), momenta)
+
+
+def _is_conserved(facts: Judged) -> bool:
+    """Its rate along the motion, the accelerations taken out by d'Alembert's principle, vanishes.
+
+    What keeps a constraint does no work in the velocities that the constraint allows.
+    """
+    L = facts.quantities["lagrangian"]
+    matter, kept = L.needed(Matter), L.fact(Kept)
+    along = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in matter.coordinates]
+    along += [c.force * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())]
+    return bool(equal(by_functions_of_time(_in_rates(facts), matter.coordinates), Add(*along)))
+
+
+def _is_energy(facts: Judged) -> bool:
+    """Kinetic energy of the mass points, and the potential energy."""
+    L = facts.quantities["lagrangian"]
+    whole = L.needed(Matter).kinetic_energy() + explicit(L.needed(Energies).potential.value)
+    return bool(equal(_in_rates(facts), whole))
+
+
+def _is_worked_on(facts: Judged) -> bool:
+    """Its rate along the motion is not -dL/dt alone."""
+    L = facts.quantities["lagrangian"]
+    matter, kept = L.needed(Matter), L.fact(Kept)
+    power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
+    power -= Add(*(c.force * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())))
+    return not is_zero(power)
+
+
+def _energy(conserved: bool, whole: bool, worked: bool = False) -> Predicate:
+    return lambda facts: (_is_conserved(facts), _is_energy(facts), _is_worked_on(facts)) == (conserved, whole, worked)
+
+
+def _given(conserved: bool, worked: bool) -> Predicate:
+    """Of a Lagrangian that is no difference of two energies."""
+
+    def is_so(facts: Judged) -> bool:
+        L = facts.quantities["lagrangian"]
+        is_given = energies_of(L) is None
+        return is_given and (_is_conserved(facts), _is_worked_on(facts)) == (conserved, worked)
+
+    return is_so
+
+
+ENERGIES = {
+    "given_conserved": _given(True, False),
+    "given_changing": _given(False, False),
+    "given_work": _given(False, True),
+    "energy": _energy(True, True),
+    "conserved": _energy(True, False),
+    "changing_energy": _energy(False, True),
+    "changing": _energy(False, False),
+    "work_energy": _energy(False, True, True),
+    "work": _energy(False, False, True),
+}
+
+
+def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> Predicate:
+    """An equation; whether -dL/dt is in its right side, and other work, and whether no rates make it positive."""
+
+    def is_so(facts: Judged) -> bool:
+        if facts.result.mark != "=" or is_zero(facts.result.right) != (in_time is None):
+            return False
+        found, by_time = explicit(facts.result.right), -diff(explicit(facts.inputs["lagrangian"]), TIME)
+        if in_time is None:
+            return True
+        told = (not is_zero(by_time), not is_zero(found - by_time))
+        return told == (in_time, worked) and (lost is None or _never_gains(found, facts.inputs["moving"]) == lost)
+
+    return is_so
+
+
+def _never_gains(power: Expr, moving: tuple[Symbol, ...]) -> bool:
+    """Against the rates as a quadratic form, whose matrix has no positive leading entry and no odd part."""
+    rates = [rate(q) for q in moving]
+    forwards = power.xreplace({v: -v for v in rates})
+    return is_zero(forwards - power) and all(bool(diff(power, v, 2).is_nonpositive) for v in rates)
+
+
+def carries_momenta_alone(facts: Judged) -> bool:
+    """Where all rates vanish and no place moves by itself, nothing is left but what the shift adds to L."""
+    return is_zero(facts.inputs["gain"])
+
+
+def shifted_as_told(facts: Judged, outcome: str) -> bool:
+    """L at the shifted coordinates, by functions of time, less what it gains, does not depend on the shift."""
+    L, small = facts.quantities["lagrangian"], Dummy("epsilon")
+    moving = L.needed(Matter).coordinates
+    shifted: dict[Symbol, Expr] = {}
+    for role, q in facts.inputs.items():
+        if not role.startswith("q_"):
+            continue
+        x = facts.inputs.get(role.replace("q", "xi"), Integer(1))
+        shifted.update({q: q + small * x, rate(q): rate(q) + small * by_functions_of_time(x, moving)})
+    change = diff(bound(explicit(L.value), shifted), small).subs(small, 0)
+    return bool(equal(change, explicit(facts.result.right)))
+
+
+def cyclic(facts: Judged) -> bool:
+    return is_zero(slope(explicit(facts.inputs["lagrangian"]), facts.inputs["coordinate"]))
+
+
+def not_cyclic(facts: Judged) -> bool:
+    return not cyclic(facts)
+
+
+def by_its_coordinate(facts: Judged, outcome: str) -> bool:
+    """The derivative is by the coordinate that the sentence names."""
+    return isinstance(facts.symbol, Partial) and facts.symbol.args[1] == facts.inputs["coordinate"]
+
+
+def free_bodies(facts: Judged) -> int:
+    return sum(not placed.is_held for placed in facts.subject.body.bodies)
+
+
+def on_the_sides_that_are_assumed(facts: Judged) -> bool:
+    """Of a distance |u| the page takes u only where it assumes u > 0."""
+    sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
+    of_springs = any(side in assumed_in_words() for side in sides)
+    return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")
+
+
+def equation_of(facts: Judged, q: Any) -> bool:
+    """The accelerations stand in Lagrange's equation for q with the second derivatives of L by q_dot and each rate."""
+    L, moving = value_of_role(facts, "lagrangian"), facts.quantities["lagrangian"].coordinates
+    residual = explicit(facts.result).residual
+    inertia = {s: diff(L, rate(q), rate(s)) for s in moving}
+    if all(is_zero(value) for value in inertia.values()):  # a coordinate that nothing has a mass along
+        return q in moving and (q in residual.free_symbols or rate(q) in residual.free_symbols)
+    return q in moving and parallel({s: diff(residual, rate(s, 2)) for s in moving}, inertia)
+
+
+def differentiated_by(facts: Judged, q: Any) -> bool:
+    return bool(facts.symbol.args[1] == q)
+
+
+def has_applied(facts: Judged) -> bool:
+    return "applied" in facts.inputs and not is_zero(facts.inputs["applied"])
+
+
+def has_kept(facts: Judged) -> bool:
+    return any(facts.result.has(letter) for letter in facts.inputs["letters"])
+
+
+def has_rates(condition: Expr) -> bool:
+    return any(condition.has(rate(q)) for q in coordinates_in(condition))
+
+
+def is_stretched(facts: Judged) -> bool:
+    """Whether a small displacement along the steepest way changes the condition by another amount than its length, with
+    numbers for the letters: that way is what virtual work makes of the condition, (J J^T)^-1 J a."""
+    place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
+    if not place or condition is None:
+        return False
+    moving = sorted(coordinates_in(ImmutableDenseMatrix([*place, condition])), key=str)
+    J = Matrix([[diff(c, q) for q in moving] for c in place])
+    a = Matrix([diff(condition, q) for q in moving])
+    for point in islice(points(letters_of(condition) | set().union(*map(letters_of, place)), seed_of(condition)), 4):
+        there = {letter: value.evalf(30) for letter, value in point.items()}
+        jacobian, slopes = J.xreplace(there).evalf(30), a.xreplace(there).evalf(30)
+        steepest = (jacobian * jacobian.T).inv() * jacobian * slopes
+        if abs(steepest.norm() - 1) > Rational(1, 10**9):
+            return True
+    return False
+
+
+Told = Callable[[Judged, str], bool]
+
+
+def of_its_coordinate(facts: Judged, outcome: str) -> bool:
+    """The value that is told is what the momentum is, and the equation holds the rate of its coordinate."""
+    moving = rate(facts.inputs["coordinate"]) in letters_in(facts.result)
+    return (
+        moving
+        and facts.result.mark == "="
+        and is_zero(
+            (facts.result.left - facts.result.right)
+            * diff(explicit(facts.inputs["momentum"]), rate(facts.inputs["coordinate"]))
+            / diff(facts.result.left, rate(facts.inputs["coordinate"]))
+            - explicit(facts.inputs["momentum"])
+            + explicit(facts.inputs["value"])
+        )
+    )
+
+
+def difference(facts: Judged, outcome: str) -> bool:
+    roles = ("kinetic", "potential", "magnetic")
+    kinetic, potential, magnetic = (explicit(facts.inputs.get(role, Integer(0))) for role in roles)
+    return is_zero(explicit(facts.result) - kinetic + potential - magnetic)
+
+
+def a_second_rate(facts: Judged, outcome: str) -> bool:
+    return bool(facts.symbol.name.endswith("_ddot"))
+
+
+def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
+    """What each multiplier has as a factor in the equation is the derivative of a function that is told, by its
+    coordinate or by its rate; but for what friction, which is given by the multiplier, adds to it."""
+    q = facts.inputs["coordinate"]
+    if facts.words["between"] not in ("coordinates", "rates", "both"):
+        return False
+    by = rate(q) if facts.words.get("between") == "rates" else q
+    told = [explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")]
+    residual = explicit(facts.result).residual + explicit(facts.inputs.get("applied", Integer(0)))
+    if facts.words.get("between") == "both":
+        return bool(told)
+    along = [diff(function, by) for function in told]
+    return all(any(is_zero(diff(residual, letter) + f) for f in along) for letter in facts.inputs["letters"])
+
+
+def both(one: Statement, other: Statement) -> Statement:
+    return lambda facts, outcome: one(facts, outcome) and other(facts, outcome)
+
+
+def change_under_shift_none(facts: Judged) -> bool:
+    return bool(facts.result.mark == "=" and is_zero(facts.result.right))
+
+
+def change_under_shift_gain(facts: Judged) -> bool:
+    return bool(facts.result.mark == "=" and not is_zero(facts.result.right))
+
+
+def noether_symmetry(facts: Judged) -> bool:
+    return bool(carries_momenta_alone(facts))
+
+
+def noether_with_gain(facts: Judged) -> bool:
+    return bool(not carries_momenta_alone(facts))
+
+
+def squared_speed_alone(facts: Judged) -> bool:
+    return bool(len(facts.subject.body.particles) == 1 and free_bodies(facts) == 0)
+
+
+def squared_speed_centre(facts: Judged) -> bool:
+    return bool(not facts.subject.body.particles and free_bodies(facts) <= 1)
+
+
+def squared_speed_of_several(facts: Judged) -> bool:
+    return bool(len(facts.subject.body.masses) > 1)
+
+
+def magnetic_term_alone(facts: Judged) -> bool:
+    return bool(facts.inputs["fields"] == 1)
+
+
+def magnetic_term_several(facts: Judged) -> bool:
+    return bool(facts.inputs["fields"] > 1)
+
+
+def lagrangian_generic(facts: Judged) -> bool:
+    return bool("magnetic" not in facts.inputs)
+
+
+def lagrangian_in_field(facts: Judged) -> bool:
+    return bool("magnetic" in facts.inputs)
+
+
+def constraint_rate_in_rates(facts: Judged) -> bool:
+    return bool(has_rates(facts.inputs["condition"]))
+
+
+def constraint_rate_in_coordinates(facts: Judged) -> bool:
+    return bool(not has_rates(facts.inputs["condition"]))
+
+
+def multiplier_generic(facts: Judged) -> bool:
+    return bool(lasts(facts) and not is_stretched(facts))
+
+
+def multiplier_multiplier(facts: Judged) -> bool:
+    return bool(lasts(facts) and is_stretched(facts))
+
+
+def forced_equation_applied(facts: Judged) -> bool:
+    return bool(has_applied(facts) and not has_kept(facts))
+
+
+def forced_equation_kept(facts: Judged) -> bool:
+    return bool(has_kept(facts) and not has_applied(facts))
+
+
+def forced_equation_both(facts: Judged) -> bool:
+    return bool(has_kept(facts) and has_applied(facts))
+
+
+def forced_equation_free(facts: Judged) -> bool:
+    return bool(not has_kept(facts) and not has_applied(facts))
+
+
+handed_on_by(KeptMomentum, kept_momentum)
+handed_on_by(WithMomenta, with_momenta)
+handed_on_by(ForceOf, force_of_its_constraint)

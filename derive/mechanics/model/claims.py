@@ -1,0 +1,50 @@
+"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+
+from __future__ import annotations
+
+from sympy import eye
+
+from derive.steps.rule import Judged
+from derive.steps.step import is_zero
+
+
+def along_space(facts: Judged) -> bool:
+    return is_zero(facts.inputs["frame"] - eye(3))
+
+
+def along_body(facts: Judged) -> bool:
+    return is_zero(facts.inputs["frame"] - facts.inputs["in_space"])
+
+
+def of_a_centre(facts: Judged) -> bool:
+    return "centre" in facts.inputs and is_zero(facts.result - facts.inputs["centre"])
+
+
+def of_a_spring(facts: Judged, several: bool) -> bool:
+    """Whether a spring of the system is as long, the only one or one of several."""
+    springs = [each for each in facts.subject.body.between if each.is_spring]
+    return (len(springs) > 1) == several and any(is_zero(each.length - facts.result) for each in springs)
+
+
+def distance_spring(facts: Judged) -> bool:
+    return bool(of_a_spring(facts, several=False))
+
+
+def distance_springs(facts: Judged) -> bool:
+    return bool(of_a_spring(facts, several=True))
+
+
+def distance_other(facts: Judged) -> bool:
+    return bool(not any(of_a_spring(facts, several) for several in (False, True)))
+
+
+def component_place(facts: Judged) -> bool:
+    return bool("centre" not in facts.inputs)
+
+
+def angular_velocity_body(facts: Judged) -> bool:
+    return bool(along_body(facts) and not along_space(facts))
+
+
+def angular_velocity_following(facts: Judged) -> bool:
+    return bool(not along_body(facts) and not along_space(facts))

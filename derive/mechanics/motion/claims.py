@@ -1,0 +1,231 @@
+"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from itertools import islice
+from typing import Any
+
+from sympy import (
+    Expr,
+    Integer,
+    Rational,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cos,
+    diff,
+    sin,
+    tan,
+)
+
+from derive.algebra.expressions import explicit, rate
+from derive.algebra.samples import NoNumber, Undefined, letters_of, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.mechanics.motion.facts import ByEnergy, Steady
+from derive.steps.claims import holds_at, points_as_assumed, same_equation, sign_is, value_of_role
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.rule import Judged, Predicate, handed_on_by
+from derive.steps.step import is_zero
+
+
+def released(at_rest: bool) -> Predicate:
+    return lambda facts: is_zero(facts.inputs["initial"]) == at_rest
+
+
+def isochronous(wanted: bool) -> Predicate:
+    """The acceleration is proportional to the coordinate, or it is not."""
+
+    def is_so(facts: Judged) -> bool:
+        q, a = facts.inputs["coordinate"], facts.inputs["acceleration"]
+        return is_zero(a - a.diff(q).subs(q, 0) * q) == wanted
+
+    return is_so
+
+
+TRIED = 8
+
+
+def _letter_at(unknown: Expr, start: Expr) -> tuple[Expr, Expr]:
+    if isinstance(unknown, Symbol):
+        return unknown, start
+    if unknown.is_Pow:
+        return unknown.base, start ** (1 / unknown.exp)
+    return unknown.args[0], {cos: acos, sin: asin, tan: atan}[unknown.func](start)
+
+
+def _vanishing_force(facts: Judged) -> bool:
+    return facts.result.mark == "=" and bool(facts.result.left == facts.inputs["unknown"])
+
+
+def lost(later: bool) -> Predicate:
+    """By the force at the start, with numbers for the letters: it is positive there, or it is zero."""
+
+    def is_so(facts: Judged) -> bool:
+        letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
+        force = with_numbers(explicit(facts.inputs["force"]).subs(letter, start))
+        seen = []
+        for point in islice(points_as_assumed(letters_of(force), seed_of(force)), 8):
+            try:
+                seen.append(value_at(force, point))
+            except (Undefined, NoNumber):
+                continue
+        there = [value == 0 if later else value > 0 for value in seen if value.is_real]
+        return _vanishing_force(facts) and bool(there) and all(there) and _gets_there_as_told(facts)
+
+    return is_so
+
+
+def _gets_there_as_told(facts: Judged) -> bool:
+    """By numbers for the letters: the squared rate is positive at the place just where its condition holds."""
+    told = facts.inputs.get("reached")
+    if "squared" not in facts.inputs:
+        return told is None
+    there = explicit(facts.inputs["squared"]).subs(*_letter_at(*facts.result.sides))
+    if told is not None and not explicit(told.residual).free_symbols <= there.free_symbols:
+        return False
+    value = with_numbers(there)
+    for point in islice(points_as_assumed(letters_of(value), seed_of(value)), TRIED):
+        with suppress(Undefined, NoNumber):
+            number = value_at(value, point)
+            if number.is_real and bool(number > 0) != (told is None or holds_at(with_numbers(told), point)):
+                return False
+    return True
+
+
+def turned_back(facts: Judged) -> bool:
+    """With numbers for the letters: the force vanishes at the place and the squared rate is negative there, or zero,
+    while at the start the force pushes and the squared rate is not negative."""
+    just_there = facts.result.mark == ">="
+    unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
+    ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
+    values = [with_numbers(explicit(each).subs(*end)) for end in ends for each in (force, squared)]
+    seen = 0
+    for point in islice(points_as_assumed(set().union(*map(letters_of, values)), seed_of(*values)), 8):
+        try:
+            pushing, moving, last, beyond = (value_at(each, point) for each in values)
+        except (Undefined, NoNumber):
+            continue
+        gets_there = abs(beyond) < Rational(1, 10**9)
+        if not (pushing > 0 and moving >= 0 and abs(last) < Rational(1, 10**9)) or gets_there != just_there:
+            return False
+        if not (gets_there or beyond < 0):
+            return False
+        seen += 1
+    return seen > 0
+
+
+def by_energy(facts: Judged, fact: ByEnergy) -> bool:
+    """The acceleration is half the slope of the square of the rate, which at the start is that of the start."""
+    square, q = explicit(facts.result), fact.coordinate
+    acceleration = fact.acceleration.subs(rate(q) ** 2, square)
+    there = square.subs(q, fact.start) - fact.start_rate**2
+    return facts.symbol == rate(q) ** 2 and is_zero(there) and is_zero(diff(square, q) / 2 - acceleration)
+
+
+def steady(facts: Judged, fact: Steady) -> bool:
+    """What it says of each coordinate is what the sentence says, and some condition is the result."""
+    told = {v.left: v.right for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
+    held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
+    fits = any(same_equation(each, explicit(facts.result).residual) for each in fact.conditions)
+    return fits and all(s in held and is_zero(held[s] - value) for s, value in told.items())
+
+
+def energy_there(facts: Judged, place: Any) -> bool:
+    """The energy has there, with the rate at the start, the value that it keeps."""
+    start = {place.left: explicit(place.right), rate(place.left): explicit(facts.inputs["initial"])}
+    return place.mark == "=" and is_zero(
+        value_of_role(facts, "energy").subs(start, simultaneous=True) - explicit(facts.result).right
+    )
+
+
+def turns_back_there(facts: Judged, amplitude: Any) -> bool:
+    return is_zero(value_of_role(facts, "squared").subs(facts.inputs["coordinate"], amplitude))
+
+
+def pushes_there(facts: Judged, place: Any) -> bool:
+    """At the start the two touch: the force is not negative."""
+    alone = bool(facts.result.left == place.left) and place.mark == "="
+    if not isinstance(place.left, Symbol):
+        return alone
+    return alone and sign_known(value_of_role(facts, "force").subs(place.left, explicit(place.right))) != -1
+
+
+def force_vanishes_there(facts: Judged, place: Any) -> bool:
+    """At a place that the motion does not reach the force would be zero."""
+    return place.mark == "=" and is_zero(value_of_role(facts, "force").xreplace({place.left: explicit(place.right)}))
+
+
+def stays_and_turns(facts: Judged, relation: Any) -> bool:
+    """With what stays and what turns as the sentence says, the slope of L vanishes where the result does."""
+    told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
+    if relation.mark != "=" or relation.left == relation.right:
+        return False
+    if "lagrangian" not in facts.quantities:  # of an equation of motion, which holds the rates themselves
+        q = facts.inputs["coordinate"]
+        still = {rate(q): Integer(0), rate(q, 2): Integer(0), **told}
+        left = explicit(facts.inputs["equation"]).residual.subs(still, simultaneous=True)
+        return same_equation(left, explicit(facts.result).residual)
+    L, q = value_of_role(facts, "lagrangian"), facts.inputs["coordinate"]
+    cyclic = {rate(s) for s in facts.quantities["lagrangian"].coordinates if not L.has(s)}
+    still = {rate(s): Integer(0) for s in facts.quantities["lagrangian"].coordinates if rate(s) not in cyclic}
+    slope = diff(L, q).subs({**still, **told}, simultaneous=True)
+    return same_equation(slope, explicit(facts.result).residual)
+
+
+def sum_left(wanted: str) -> Predicate:
+    """What becomes of the terms that have no highest rate: there were none, they cancelled, or some are left."""
+
+    def is_so(facts: Judged) -> bool:
+        highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
+        before = [tidied(side.xreplace(highest)) for side in facts.inputs["products"]]
+        left = facts.result.left.xreplace(highest)
+        if wanted == "remain":
+            return not is_zero(left)
+        return is_zero(left) and (wanted == "plain") == all(is_zero(each) for each in before)
+
+    return is_so
+
+
+def times_its_factor(facts: Judged) -> bool:
+    """Whether it is the equation times the factor that the sentence names."""
+    multiplied = explicit(facts.inputs["factor"]) * explicit(facts.inputs["written"].left)
+    return is_zero(explicit(facts.result.left) - multiplied)
+
+
+def nothing_else_moves(facts: Judged) -> bool:
+    """Of an equation of motion is left what holds no acceleration, and not the rate of its own coordinate."""
+    q = facts.inputs["coordinate"]
+    moving = {s for s in facts.result.free_symbols if s.name.endswith("_ddot")} | {rate(q)}
+    return not is_zero(facts.result.residual) and not moving & facts.result.free_symbols
+
+
+def sum_of_the_equations_times_their_factors(facts: Judged, outcome: str) -> bool:
+    """Each equation that is named, times the factor that is named with it, adds up to the result."""
+    named = [role for role in facts.quantities if role.startswith("equation_")]
+    products = (facts.inputs[f"factor_{role[9:]}"] * explicit(facts.quantities[role].value).residual for role in named)
+    return is_zero(explicit(facts.result).residual - sum(products, Integer(0)))
+
+
+leaves_contact_never: Predicate = sign_is(1, lambda facts: facts.inputs["force"])
+
+
+def product_alone(facts: Judged) -> bool:
+    return bool(facts.inputs["of_many"] == 1 and times_its_factor(facts))
+
+
+def product_one_of_several(facts: Judged) -> bool:
+    return bool(facts.inputs["of_many"] > 1 and times_its_factor(facts))
+
+
+def steady_motion_generic(facts: Judged) -> bool:
+    return bool(not is_zero(facts.result.residual))
+
+
+def steady_motion_always(facts: Judged) -> bool:
+    return bool(is_zero(facts.result.residual))
+
+
+handed_on_by(ByEnergy, by_energy)
+handed_on_by(Steady, steady)

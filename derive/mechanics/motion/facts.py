@@ -1,0 +1,32 @@
+"""Facts that results hand on besides their value, for the steps that rest on them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from sympy import Expr, Symbol
+
+from derive.steps.step import Fact, Quantity
+
+
+@dataclass(frozen=True)
+class Steady(Fact):
+    """A steady motion: the values of what does not move, the rates of what turns, and what they must fulfil."""
+
+    missing = "is not the condition of a steady motion, as `steady_motion` yields it"
+    lagrangian: Quantity
+    values: Mapping[Symbol, Expr]
+    rates: Mapping[Symbol, Expr]
+    conditions: tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class ByEnergy(Fact):
+    """Where a motion of one coordinate started, and its acceleration by the equation of motion."""
+
+    missing = "is not the square of a rate by conservation of energy"
+    coordinate: Symbol
+    start: Expr
+    start_rate: Expr
+    acceleration: Expr

@@ -1,0 +1,638 @@
+"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
+from itertools import combinations_with_replacement, islice
+from typing import Any
+
+from mpmath import mp
+from sympy import (
+    Abs,
+    Add,
+    Dummy,
+    Expr,
+    Function,
+    Integer,
+    Mul,
+    Poly,
+    Pow,
+    Rational,
+    Symbol,
+    binomial,
+    default_sort_key,
+    diff,
+    factor_list,
+    factorial,
+    gcd_list,
+    im,
+    lambdify,
+    prime,
+    sign,
+    together,
+)
+from sympy.matrices import MatrixBase
+
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import At, Relation, Slope, explicit, rate
+from derive.algebra.ranges import fulfilling, has_meaning, rational_in_range
+from derive.algebra.samples import NoNumber, SamplePoint, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.mechanics.rest.counting import is_countable
+from derive.mechanics.rest.facts import DerivativeOf, LowestOrder, Shape, StableWhere
+from derive.mechanics.rest.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
+from derive.mechanics.rest.on_constraints import signs_on_constraints
+from derive.mechanics.rest.searched import none_is_missing
+from derive.steps.claims import (
+    always_sign,
+    holds_at,
+    lasts,
+    may_be_negative,
+    points_as_assumed,
+    same_equation,
+    value_of_role,
+    vanishes,
+)
+from derive.steps.known_numbers import sign_known
+from derive.steps.numeric import Extreme
+from derive.steps.record import assumed, assumed_in_words
+from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
+from derive.steps.step import is_zero
+from derive.witness.facts import Rest
+
+SHIFTS = 24
+
+
+LITTLE = Rational(1, 10**12)
+
+
+def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
+    """Numbers for the letters, one large where another is small, of all the orders that they may have.
+
+    A letter that may be negative is so in some of them.
+    """
+    ordered = sorted(letters, key=str)
+    for shift in range(SHIFTS):
+        drawn = [Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i in range(len(ordered))]
+        turned = [-1 if may_be_negative(s) and shift >> i % 4 & 1 else 1 for i, s in enumerate(ordered)]
+        numbers = zip(ordered, drawn, turned, strict=True)
+        yield fulfilling({s: turn * rational_in_range(s, number) for s, number, turn in numbers})
+
+
+def _entries(value: Any) -> list[Expr]:
+    return list(value) if isinstance(value, MatrixBase) else [value]
+
+
+def _is_real(value: Any, point: dict[Any, Expr]) -> bool:
+    return all(abs(im(entry.xreplace(point).evalf(30))) < LITTLE for entry in _entries(value))
+
+
+def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
+    difference = explicit(condition.left - condition.right).xreplace(point).evalf(30)
+    return bool(difference > 0) == (condition.mark == ">")
+
+
+def _letters(facts: Judged) -> set[Any]:
+    found = set().union(*(entry.free_symbols for entry in (*_entries(facts.result), *_sided_forces(facts))))
+    found -= set(facts.inputs.get("sought", ()))
+    exists = facts.inputs.get("exists")
+    return found | (set(exists.free_symbols) if exists is not None else set())
+
+
+def _is_there(facts: Judged, point: dict[Any, Expr]) -> bool:
+    """It is real, what is a distance is positive, and no force is left there."""
+    if not _is_real(facts.result, point):
+        return False
+    entries = _entries(facts.result)
+    if not all(entries[int(i)].xreplace(point).evalf(30) > 0 for i in facts.inputs["distances"]):
+        return False
+    there = dict(zip(facts.inputs["sought"], entries, strict=False))
+    return all(abs(force.xreplace(there).xreplace(point).evalf(30)) < LITTLE for force in _sided_forces(facts))
+
+
+def _sided_forces(facts: Judged) -> list[Expr]:
+    """The forces that have another formula on each side of a place, as that of a spring along a line."""
+    sought = facts.inputs.get("sought", ())
+    if len(sought) != len(_entries(facts.result)):
+        return []
+    return [force for i in range(len(sought)) if (force := _force(facts, i)).has(Abs)]
+
+
+def _force(facts: Judged, i: int) -> Expr:
+    return explicit(facts.inputs[f"condition_{i}"].residual)
+
+
+def anywhere(facts: Judged) -> bool:
+    """It is there whatever the numbers, and no condition is told."""
+    return "exists" not in facts.inputs and all(_is_there(facts, n) for n in _numbers(_letters(facts)))
+
+
+def several(facts: Judged) -> bool:
+    return bool(facts.inputs["count"] > 1)
+
+
+def under_its_condition(facts: Judged) -> bool:
+    """It is there just where the condition holds, which some of the numbers fulfil and some do not."""
+    if "exists" not in facts.inputs:
+        return False
+    tried = [(_holds(facts.inputs["exists"], n), _is_there(facts, n)) for n in _numbers(_letters(facts))]
+    return all(holds == real for holds, real in tried) and {holds for holds, _ in tried} == {True, False}
+
+
+def all_are_told(facts: Judged) -> bool:
+    """Of several coordinates no place without a force is left out; of one all are counted by a route."""
+    sought = facts.inputs["sought"]
+    if is_countable(sought):
+        return True
+    forces = tuple(_force(facts, i) for i in range(len(sought)))
+    return none_is_missing(forces, sought, facts.inputs["angles"], facts.inputs["states"])
+
+
+def _moving(facts: Judged) -> tuple[Any, ...]:
+    return tuple(facts.inputs["coordinates"])
+
+
+def _letters_here(facts: Judged) -> list[Any]:
+    of_energy = facts.inputs["potential_here"].free_symbols | set().union(
+        *(value.free_symbols for value in facts.inputs["place"])
+    )
+    return sorted((_letters(facts) | of_energy) - set(_moving(facts)), key=str)
+
+
+def _signs_by_numbers(facts: Judged) -> list[tuple[dict[Any, Expr], int]]:
+    """Some numbers for the letters, where the state exists, and how the energy changes there to second order."""
+    exists, letters = facts.inputs.get("exists"), _letters_here(facts)
+    points = [n for n in _numbers(set(letters)) if exists is None or _holds(exists, n)]
+    numbers = tuple(tuple(point[s] for s in letters) for point in points)
+    signs = _signs_at(facts.inputs["potential_here"], _moving(facts), facts.inputs["place"], tuple(letters), numbers)
+    return list(zip(points, signs, strict=True))
+
+
+@lru_cache(maxsize=16)  # the predicates of one outcome ask for the same
+def _signs_at(
+    potential: Expr, moving: tuple[Any, ...], there: tuple[Expr, ...], letters: tuple[Any, ...], numbers: Any
+) -> list[int]:
+    energy = lambdify([*letters, *moving], potential, "mpmath", dummify=True)
+    place = lambdify(letters, list(there), "mpmath")
+    with mp.workdps(50):
+        found = []
+        for point in numbers:
+            known = [mp.mpf(int(number.p)) / int(number.q) for number in point]
+            found.append(_second_order(lambda *at, known=known: energy(*known, *at), place(*known)))
+    return found
+
+
+def signs(facts: Judged) -> set[int]:
+    return {sign for _, sign in _signs_by_numbers(facts)}
+
+
+def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
+    """1 where the energy rises in all directions, -1 where it falls in one, 0 where it rises in all but some.
+
+    Nothing is differentiated: the energy is compared a little to all sides, which gives the matrix of second order,
+    and its least eigenvalue has that sign, each coordinate being measured in a size of its own.
+    """
+    step, here, size = mp.mpf(10) ** -12, energy(*place), len(place)
+
+    def gained(*ways: int) -> Any:
+        moved = [x + step * way for x, way in zip(place, ways, strict=True)]
+        return (energy(*moved) - here) / step**2
+
+    def twice(i: int, j: int) -> Any:
+        """The second order along the sum of two directions."""
+        way = [int(k == i) + int(k == j and j != i) for k in range(size)]
+        return gained(*way) + gained(*(-w for w in way))
+
+    alone = [mp.re(twice(i, i)) for i in range(size)]
+    matrix = mp.matrix(size, size)
+    for i, j in combinations_with_replacement(range(size), 2):
+        matrix[i, j] = matrix[j, i] = alone[i] if i == j else (mp.re(twice(i, j)) - alone[i] - alone[j]) / 2
+    noise = (abs(here) + mp.mpf(10) ** -6) * mp.mpf(10) ** -16
+    rough = [max(abs(matrix[i, j]) for j in range(size)) for i in range(size)]
+    kept = [i for i in range(size) if rough[i] > noise]
+    scaled = mp.matrix(len(kept), len(kept))
+    for m, i in enumerate(kept):
+        for n, j in enumerate(kept):
+            scaled[m, n] = matrix[i, j] / mp.sqrt(rough[i] * rough[j])
+    least = min(mp.eigsy(scaled, eigvals_only=True)) if kept else mp.mpf(0)
+    if least < -(mp.mpf(10) ** -12):
+        return -1
+    return 1 if least > mp.mpf(10) ** -12 and len(kept) == size else 0
+
+
+def always(sign: int) -> Predicate:
+    return lambda facts: signs(facts) == {sign}
+
+
+def runs_away(facts: Judged) -> bool:
+    """Where the energy falls to some side the motion grows; what turns the motion aside would hold it all the same."""
+    matter = matter_of(facts.quantities["potential"])
+    falling = [numbers for numbers, sign in _signs_by_numbers(facts) if sign == -1]
+    return matter is None or grows_always(matter, _at_rest(facts), falling)
+
+
+def kinetic_energy_is_positive(facts: Judged) -> bool:
+    """A minimum of the potential energy is stable only then; numbers without a meaning do not count."""
+    matter = matter_of(facts.quantities["potential"])
+    there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
+    return matter is None or inertia_is_positive(matter, _at_rest(facts), there)
+
+
+def falls_as_told(facts: Judged) -> bool:
+    """The energy along a straight line through the state of rest, in the direction that is told, and its curvature."""
+    along, told = Dummy("s"), facts.inputs["falling"]
+    moved = zip(_moving(facts), facts.inputs["place"], _entries(explicit(facts.inputs["direction"])), strict=True)
+    energy = facts.inputs["potential_here"].subs({q: at + along * way for q, at, way in moved}, simultaneous=True)
+    curvature = derivative(energy, along, 2).subs(along, 0)
+    return is_zero(curvature - told) and bool(always_sign(-1, lambda _: told)(facts))
+
+
+def nothing_turns_it(facts: Judged) -> bool:
+    matter = matter_of(facts.quantities["potential"])
+    there = [numbers for numbers, _ in _signs_by_numbers(facts)]
+    return matter is None or not is_turned_aside(matter, _at_rest(facts), there)
+
+
+def numbers_here(facts: Judged) -> list[dict[Any, Expr]]:
+    return list(_numbers(set(_letters_here(facts))))
+
+
+def _at_rest(facts: Judged) -> dict[Any, Expr]:
+    return dict(zip(_moving(facts), facts.inputs["place"], strict=True))
+
+
+def both(*predicates: Predicate) -> Predicate:
+    return lambda facts: all(predicate(facts) for predicate in predicates)
+
+
+def higher(kind: str) -> Predicate:
+    """To second order it is level; the first derivative that is not zero tells what it is."""
+
+    def is_so(facts: Judged) -> bool:
+        if not all(is_zero(entry) for entry in _entries(facts.result)):
+            return False
+        return len(_moving(facts)) == 1 and kind_of_order(facts.inputs["potential_here"], facts) == kind
+
+    return is_so
+
+
+def undecided(facts: Judged) -> bool:
+    """No order decides; the sentence tells of the derivative whose sign is not known, where there is one."""
+    return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
+
+
+def kind_of_order(value: Expr, facts: Judged) -> str:
+    (q,), (place,) = _moving(facts), facts.inputs["place"]
+    for order in range(2, 9):
+        there = derivative(value, q, order).xreplace({q: place})
+        if not is_zero(there):
+            signs = {1 if there.xreplace(n).evalf(20) > 0 else -1 for n in _numbers(there.free_symbols)}
+            if order % 2 or signs == {-1}:
+                return "unstable"
+            return "stable" if signs == {1} else "open"
+    return "flat"
+
+
+def depends(border: str | None) -> Predicate:
+    """The sign is not one for all numbers; the condition that is told holds just where it is positive."""
+
+    def is_so(facts: Judged) -> bool:
+        condition, where = facts.inputs["condition"], facts.inputs.get("at_border")
+        tried = [(_holds(condition, numbers), sign) for numbers, sign in _signs_by_numbers(facts)]
+        fits = all(holds == (sign == 1) for holds, sign in tried if sign) and len({holds for holds, _ in tried}) == 2
+        if border is None or where is None or not fits:
+            return fits and where is None and border is None
+        there = facts.inputs["potential_here"].subs(where.left, where.right)
+        return kind_of_order(there, facts) == border
+
+    return is_so
+
+
+def bordered(border: str | None) -> Predicate:
+    """Whether the border belongs to it, by the order that decides there."""
+
+    def is_so(facts: Judged) -> bool:
+        where = facts.inputs.get("at_border")
+        if where is None or border is None:
+            return where is None and border is None and facts.result.mark in (">", "<")
+        there = facts.inputs["potential_here"].subs(where.left, where.right)
+        return kind_of_order(there, facts) == border and facts.result.mark.endswith("=") == (border == "stable")
+
+    return is_so
+
+
+def is_at_rest(facts: Judged) -> bool:
+    """No rate is left in it."""
+    return not explicit(facts.result).has(*map(rate, facts.inputs["coordinates"]))
+
+
+def is_what_the_lagrangian_has(facts: Judged) -> bool:
+    """Whether nothing of it comes from elsewhere: V + L is of the rates alone, and vanishes with them."""
+    moving = [rate(q, n) for q in facts.inputs["coordinates"] for n in (1, 2)]
+    whole = explicit(facts.result + facts.inputs["lagrangian"])
+    return is_zero(whole.subs(dict.fromkeys(moving, 0)))
+
+
+def higher_lasts(facts: Judged) -> bool:
+    """The first derivative that does not vanish does not."""
+    return "higher" not in facts.inputs or not is_zero(facts.inputs["higher"])
+
+
+def sides_as_told(facts: Judged) -> bool:
+    """A side of a place is spoken of just where one is assumed, and springs where words assume it."""
+    sides = [each for each in assumed() if each.mark == ">" and explicit(each.residual).has(*facts.inputs["sought"])]
+    in_words = set(assumed_in_words()).issuperset(sides)
+    return facts.words["seen"] == ("any" if not sides else "stretched" if in_words else "one_side")
+
+
+def level_as_told(facts: Judged) -> bool:
+    """Where the force vanishes whatever the coordinate is, no place is distinguished: just these letters are excluded.
+
+    All coefficients of the force, as a polynomial in what holds the coordinate, have a factor in common.
+    """
+    told, sought = facts.inputs.get("excluded"), facts.inputs["sought"]
+    if len(sought) > 1:
+        return told is None
+    (q,) = sought
+    force = together(explicit(facts.inputs["condition_0"]).residual).as_numer_denom()[0]
+    marks = {f: Dummy() for f in sorted(force.atoms(Function, Pow), key=default_sort_key, reverse=True) if f.has(q)}
+    common = gcd_list(Poly(force.xreplace(marks).xreplace({q: marks.get(q, q)}), q, *marks.values()).coeffs())
+    open_ = Mul(*(f for f, _ in factor_list(common)[1] if sign_known(f) is None and not f.is_nonzero))
+    if not open_.free_symbols:
+        return told is None
+    return told is not None and told.mark == "!=" and same_equation(told.residual, open_)
+
+
+def residual(facts: Judged) -> Judged:
+    return Judged(facts.result.residual)
+
+
+TRIED, DIGITS_LEFT = 6, 10**40  # places; values have 60 digits
+
+
+def facts_derivative(facts: Judged, fact: DerivativeOf) -> bool:
+    of, q, order = facts.symbol.args
+    energy, found = explicit(fact.potential.value), explicit(facts.result)
+    if (of, q) != (fact.potential.symbol, fact.coordinate):
+        return False
+    if energy.has(Abs):
+        return _is_slope_in_numbers(energy, q, int(order), found)
+    return is_zero(diff(energy, fact.coordinate, int(order)) - found)
+
+
+def _nearby(point: SamplePoint) -> Expr:
+    """A distance that is small beside every number of a point."""
+    return min((abs(number) for number in point.values()), default=Integer(1)) / 10**9
+
+
+def _is_slope_in_numbers(energy: Expr, q: Symbol, order: int, found: Expr) -> bool:
+    """Of an energy with distances |x - d|, by central differences at drawn places."""
+    seen = 0
+    for point in islice(points(letters_of(energy) | letters_of(found), seed_of(energy)), TRIED):
+        try:
+            near, steps = _nearby(point), range(order + 1)
+            there = [value_at(energy, {**point, q: point[q] + (n - Rational(order, 2)) * near}) for n in steps]
+            slope = Add(*((-1) ** (order - n) * binomial(order, n) * there[n] for n in steps)) / near**order
+            apart, size = slope - value_at(found, point), abs(slope) + 1
+        except (Undefined, NoNumber):
+            continue
+        if abs(apart) > size / 10**6:
+            return False
+        seen += 1
+    return seen > 0
+
+
+def curvature(facts: Judged, fact: Extreme) -> bool:
+    q, place = facts.inputs["coordinate"], facts.inputs["at"]
+    return is_zero(diff(value_of_role(facts, "potential"), q, 2).xreplace({q: place}) - fact.curvature)
+
+
+def lowest_order(facts: Judged, fact: LowestOrder) -> bool:
+    q, place, n = facts.inputs["coordinate"], facts.inputs["place"], int(fact.order)
+    if n == 0:
+        return bool(fact.coefficient == 0)
+    at = diff(explicit(facts.result), q, n).xreplace({q: place})
+    return is_zero(at / factorial(n) - fact.coefficient)
+
+
+def shape(facts: Judged, fact: Shape) -> bool:
+    """The curvature at the place is the result, and vanishes on the border."""
+    q, result, energy = fact.coordinate, explicit(facts.result), explicit(fact.potential.value)
+    on_border = fact.border is None or is_zero(result.subs(fact.border.left, fact.border.right))
+    if energy.has(Abs):
+        return on_border and _is_curvature_in_numbers(facts, energy, fact, result)
+    return on_border and is_zero(tidied(diff(energy, q, 2).subs(q, fact.place)) - result)
+
+
+def _is_curvature_in_numbers(facts: Judged, energy: Expr, fact: Shape, found: Expr) -> bool:
+    """Of an energy with distances |x - d| at the place, where this is a state of rest: by a central difference."""
+    seen, exists = 0, facts.inputs.get("exists")
+    conditions = [each for each in (exists, *assumed()) if each is not None]
+    letters = letters_of(energy) | letters_of(found) | {s for c in conditions for s in letters_of(c.residual)}
+    for point in islice(points(letters - {fact.coordinate}, seed_of(energy)), 4 * TRIED):
+        try:
+            if not all(holds_at(each, point) for each in conditions):
+                continue
+            at, near = value_at(fact.place, point), _nearby(point)
+            below, there, above = (value_at(energy, {**point, fact.coordinate: at + n * near}) for n in (-1, 0, 1))
+            apart = (below - 2 * there + above) / near**2 - value_at(found, point)
+        except (Undefined, NoNumber):
+            continue
+        if abs(there) > near**2 * DIGITS_LEFT:  # the numbers differ so much in size that the difference has no digits
+            continue
+        if abs(apart) > (abs(value_at(found, point)) + 1) / 10**6:
+            return False
+        seen += 1
+    return seen > 0
+
+
+def stable_where(facts: Judged, fact: StableWhere) -> bool:
+    there = tidied(diff(fact.energy, fact.coordinate, 2).subs(fact.coordinate, fact.place))
+    return fact.condition == facts.inputs["condition"] and is_zero(there - explicit(facts.result))
+
+
+def rest(facts: Judged, fact: Rest) -> bool:
+    result = explicit(facts.result)
+    found = list(result) if isinstance(result, MatrixBase) else [result]
+    held = [fact.values[q] for q in facts.inputs["sought"] if q in fact.values]
+    return len(found) == len(held) and all(is_zero(one - other) for one, other in zip(found, held, strict=True))
+
+
+def order_of(*orders: int, more: bool = False) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        symbol = facts.symbol
+        order = int(symbol.args[2]) if isinstance(symbol, Slope) else 0
+        return order > max(orders) if more else order in orders
+
+    return is_so
+
+
+def shaped(shape: str, at_bound: bool) -> Predicate:
+    """The first derivative that does not vanish, by differentiation where the verb expands in a series."""
+
+    def is_so(facts: Judged) -> bool:
+        q, place = facts.inputs["coordinate"], facts.inputs["place"]
+        level = is_zero(diff(facts.result, q, 2).subs(q, place))
+        if at_bound != ("case" in facts.inputs) or at_bound and not level:
+            return False
+        for n in range(2, 9):
+            there = tidied(diff(facts.result, q, n).subs(q, place))
+            if not is_zero(there):
+                return shape == _shape_by(n, there)
+        return shape == "flat"
+
+    return is_so
+
+
+def _shape_by(order: int, derivative: Expr) -> str:
+    if order % 2:
+        return "inflection"
+    return "minimum" if derivative.is_positive else "maximum" if derivative.is_negative else "conditional"
+
+
+def bent(sign: int | None) -> Predicate:
+    """The second derivative at the place, by differentiation of the value that was put there."""
+
+    def curvature(facts: Judged) -> Expr:
+        q, at = facts.inputs["coordinate"], facts.inputs["at"]
+        return diff(explicit(facts.inputs["potential"]), q, 2).subs(q, at)
+
+    return always_sign(sign, curvature)
+
+
+NEARLY = Rational(1, 10**9)
+
+
+def only_coordinate(facts: Judged, q: Any) -> bool:
+    """The one coordinate that the potential energy contains."""
+    of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
+    return {s for s in of.coordinates if explicit(of.value).has(s)} == {q}
+
+
+def level_there(role: str) -> Naming:
+    """The slope of the energy vanishes at the place that is named."""
+
+    def is_so(facts: Judged, place: Any) -> bool:
+        slope = diff(value_of_role(facts, role), place.left).subs(place.left, explicit(place.right))
+        return place.mark == "=" and (_vanishes_as_assumed(slope) if slope.has(sign) else is_zero(slope))
+
+    return is_so
+
+
+def _vanishes_as_assumed(slope: Expr) -> bool:
+    """With numbers for the letters: which side of a point of the spring the place is on may be assumed."""
+    drawn = islice(points_as_assumed(letters_of(slope), seed_of(slope)), TRIED)
+    seen = [abs(value_at(slope, point)) < NEARLY for point in drawn]
+    return bool(seen) and all(seen)
+
+
+def extreme_there(facts: Judged, place: Any) -> bool:
+    there = value_of_role(facts, "potential").subs(place.left, explicit(place.right))
+    return level_there("potential")(facts, place) and is_zero(there - explicit(facts.result))
+
+
+def flat_in_that_case(facts: Judged, case: Any) -> bool:
+    """On the border the curvature vanishes too, and the left side shows that border."""
+    q, place = facts.inputs["coordinate"], facts.inputs["place"]
+    curvature = explicit(At(value_of_role(facts, "potential"), case.left, case.right)).diff(q, 2).subs(q, place)
+    return case.mark == "=" and is_zero(curvature) and facts.symbol.args[1:] == (case.left, case.right)
+
+
+def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
+    return dict(zip(facts.inputs["coordinates"], facts.inputs["place"], strict=True))
+
+
+def on_the_constraints(facts: Judged, named: Any) -> bool:
+    """The coordinates, their values at rest, at which every constraint holds, or one of the constraints itself."""
+    there = _there_on_constraints(facts)
+    kept = all(is_zero(explicit(residual).xreplace(there)) for residual in facts.inputs["constraints"])
+    if not isinstance(named, Relation):
+        return kept and list(explicit(named)) == list(there)
+    if isinstance(explicit(named.left), MatrixBase):
+        return kept and dict(zip(explicit(named.left), explicit(named.right), strict=True)) == there
+    return kept and any(is_zero(explicit(named).residual - explicit(each)) for each in facts.inputs["constraints"])
+
+
+def along_the_constraints(facts: Judged, way: Any) -> bool:
+    """To first order a displacement in this direction keeps every constraint."""
+    there = _there_on_constraints(facts)
+    slopes = [
+        sum(diff(explicit(residual), q) * dq for q, dq in zip(there, explicit(way), strict=True)).xreplace(there)
+        for residual in facts.inputs["constraints"]
+    ]
+    return all(map(is_zero, slopes))
+
+
+def falls_along(facts: Judged, _: Any) -> bool:
+    """Along the line in that direction the second derivative of the energy is what the sentence says."""
+    s = Symbol("s_along", real=True)
+    names, way = explicit(facts.inputs["moving"]), explicit(facts.inputs["direction"])
+    line = {q: p + s * u for q, p, u in zip(names, facts.inputs["place"], way, strict=True)}
+    energy = value_of_role(facts, "potential_here").subs(line, simultaneous=True)
+    return is_zero(diff(energy, s, 2).subs(s, 0) - explicit(facts.inputs["falling"]))
+
+
+def at_its_place(facts: Judged, state: Any) -> bool:
+    """Each coordinate has the value at which the energy is judged, or the name of the state of rest."""
+    moving, place = facts.inputs["coordinates"], facts.inputs["place"]
+    if state.mark != "=":
+        return False
+    if len(moving) > 1:
+        pairs = zip(state.right.args, place, strict=True)
+        return state.left.args == tuple(moving) and all(is_zero(one - other) for one, other in pairs)
+    rest = getattr(facts.quantities.get("at"), "symbol", None)
+    return state.left == moving[0] and (state.right == rest or is_zero(state.right - place[0]))
+
+
+def steady_as_its_potential(facts: Judged, outcome: str) -> bool:
+    """Where momenta are kept a coordinate that stays is no rest: the sentence says that others move steadily."""
+    of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
+    reduced = [
+        e for e in of.ancestors() if (e.step.rule, e.step.outcome) == ("hamilton.effective_potential", "reduced")
+    ]
+    told = "steady" in facts.inputs
+    return bool(reduced) if told else of not in reduced or isinstance(facts.result, MatrixBase)
+
+
+def about_an_energy(facts: Judged, outcome: str) -> bool:
+    return not isinstance(facts.inputs["potential"], MatrixBase)
+
+
+potential_at_rest_pushed: Predicate = both(is_at_rest, lambda facts: not is_what_the_lagrangian_has(facts))
+
+
+def condition_generic(facts: Judged) -> bool:
+    return bool(lasts(residual(facts)))
+
+
+def condition_zero(facts: Judged) -> bool:
+    return bool(vanishes(residual(facts)))
+
+
+equilibrium_only: Predicate = both(
+    anywhere, lambda facts: not several(facts), all_are_told, sides_as_told, level_as_told
+)
+
+
+stability_of_several_depends: Predicate = both(lambda facts: len(signs(facts)) > 1, runs_away)
+
+
+def _signs_are(signs: set[int]) -> Predicate:
+    return lambda facts: signs_on_constraints(facts, numbers_here(facts)) == signs
+
+
+STABILITY_ON_CONSTRAINTS: dict[str, Predicate] = {
+    "stable": _signs_are({1}),
+    "unstable": _signs_are({-1}),
+    "level": _signs_are({0}),
+    "depends": lambda facts: len(signs_on_constraints(facts, numbers_here(facts))) > 1,
+}
+
+
+handed_on_by(DerivativeOf, facts_derivative)
+handed_on_by(Extreme, curvature)
+handed_on_by(LowestOrder, lowest_order)
+handed_on_by(Shape, shape)
+handed_on_by(StableWhere, stable_where)
+handed_on_by(Rest, rest)

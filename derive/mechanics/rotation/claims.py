@@ -1,0 +1,481 @@
+"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from sympy import (
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Matrix,
+    MatrixBase,
+    Symbol,
+    cos,
+    diff,
+    sin,
+)
+from sympy import diag as diagonal
+
+from derive.algebra.expressions import AXES, Cross, Dot, explicit, rate
+from derive.algebra.tidy import tidied
+from derive.mechanics.bodies.claims import is_round
+from derive.mechanics.bodies.facts import CountedFrom
+from derive.mechanics.bodies.parts import turns_right_handed
+from derive.mechanics.rotation.facts import Disturbed
+from derive.steps.claims import lasts, letters_in, never_vanishes, vanishes
+from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
+from derive.steps.step import is_zero
+
+
+def is_away_from_the_centre(facts: Judged) -> bool:
+    return not is_zero(facts.subject.body.over_mass(lambda r: r, facts.subject.point))
+
+
+def entry(*pairs: str, round_body: bool = False) -> Predicate:
+    """Which entry of a tensor it is, by its letter; of a round body, that it is round by its particles."""
+
+    def is_so(facts: Judged) -> bool:
+        return facts.symbol.name[-2:] in pairs and (not round_body or is_round(facts))
+
+    return is_so
+
+
+def is_mirrored(facts: Judged) -> bool:
+    """A moment of a body of which nothing that is odd in x, in y or in z is left by integration."""
+    body, point = facts.subject.body, facts.subject.point
+    odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
+    return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
+
+
+def _different(values: Iterable[Expr]) -> int:
+    found: list[Expr] = []
+    for value in values:
+        if not any(is_zero(value - other) for other in found):
+            found.append(value)
+    return len(found)
+
+
+def _products_vanish(tensor: Any) -> bool:
+    return all(is_zero(tensor[i, j]) for i in range(3) for j in range(3) if i != j)
+
+
+def _moments_of(tensor: Any) -> list[Expr]:
+    return [tensor[k, k] for k in range(3)]
+
+
+def tensor(different: int | None, round_body: bool = False) -> Predicate:
+    """A diagonal tensor with so many different moments; None for one that is not diagonal."""
+
+    def is_so(facts: Judged) -> bool:
+        tensor = facts.result
+        if different is None:
+            return not _products_vanish(tensor)
+        if round_body and not (is_zero(tensor[0, 0] - tensor[1, 1]) and is_round(facts)):
+            return False
+        return _products_vanish(tensor) and _different(_moments_of(tensor)) == different
+
+    return is_so
+
+
+TENSORS = {"generic": tensor(None), "diagonal": tensor(3), "two_equal": tensor(2), "isotropic": tensor(1)}
+
+
+ROUND_TENSORS = {"round": tensor(2, round_body=True), "round_isotropic": tensor(1, round_body=True)}
+
+
+def moments(different: int, diagonal: bool) -> Predicate:
+    return lambda facts: _different(facts.result) == different and _products_vanish(facts.inputs["inertia"]) == diagonal
+
+
+def axis_of(different: int, alone: bool | None = None) -> Predicate:
+    """Of how many different moments the axis is; whether its own is the single one of three of which two are equal."""
+
+    def is_so(facts: Judged) -> bool:
+        moments, k = facts.inputs["moments"], int(facts.symbol.name[-1]) - 1
+        twins = sum(is_zero(moments[k] - other) for other in moments)
+        return _different(moments) == different and (alone is None or (twins == 1) == alone)
+
+    return is_so
+
+
+def axis_of_symmetry(facts: Judged) -> bool:
+    along = all(bool(x == int(k == 2)) for k, x in enumerate(facts.result))
+    return bool(axis_of(2, alone=True)(facts)) and along and is_round(facts)
+
+
+def moments_compared(wanted: str) -> Predicate:
+    """Equal moments; or one that is always the greater; else the relation says where they are equal."""
+
+    def is_so(facts: Judged) -> bool:
+        moments = facts.inputs["moments"]
+        apart = [tidied(a - b) for a in moments for b in moments if not is_zero(a - b)]
+        if wanted == "always":
+            return not apart
+        signed = bool(apart) and all(bool(d.is_positive or d.is_negative) for d in apart)
+        if wanted == "never":
+            return signed
+        letter, value = facts.result.sides
+        return bool(apart) and not signed and all(is_zero(d.subs(letter, value)) for d in apart)
+
+    return is_so
+
+
+HALF_TURN_ABOUT_X = ImmutableDenseMatrix(diagonal(1, -1, -1))
+
+
+def disturbed(facts: Judged, fact: Disturbed) -> bool:
+    return "xyz"[fact.axis] == facts.words["axis"]
+
+
+def about_that_axis(facts: Judged, letter: Any) -> bool:
+    along = facts.inputs["along"]
+    return bool(facts.words["axis"] == letter.name) and along.name.rpartition("_")[2] == letter.name
+
+
+def steady_component(facts: Judged, along: Any) -> bool:
+    """Its rate is what the equation says that is of second order, and it is not in the linear one."""
+    return explicit(facts.quantities["slow"].value).has(rate(along)) and not explicit(facts.result).has(along)
+
+
+def to_first_order(facts: Judged, speed: Any) -> bool:
+    """With that speed about the axis, what is of first order in the two small components is the linear equation."""
+    exact, small = explicit(facts.quantities["motion"].value).residual, Symbol("s_small", real=True)
+    across = [facts.inputs["small_1"], facts.inputs["small_2"]]
+    along = facts.inputs["along"]
+    there = {w: small * w for w in across} | {rate(w): small * rate(w) for w in across}
+    there |= {along: speed, rate(along): Integer(0)}
+    first = diff(exact.xreplace(there), small).subs(small, 0)
+    return is_zero(first - explicit(facts.result).residual)
+
+
+def another_component(facts: Judged, letter: Any) -> bool:
+    """The two that are small are the two other components of the same vector."""
+    named = [facts.inputs[role] for role in ("along", "small_1", "small_2")]
+    return len(set(named)) == 3 and letter.name.rpartition("_")[0] == named[0].name.rpartition("_")[0]
+
+
+def small_one(which: str) -> Naming:
+    """Its rate is that of the linear equation which the sentence names there."""
+    return lambda facts, letter: explicit(facts.quantities[which].value).has(rate(letter))
+
+
+def moment_across(facts: Judged, moment: Any) -> bool:
+    """The angular momentum divided by it goes round with the result, and it is a moment of that angular momentum."""
+    L = explicit(facts.inputs["momentum"])
+    return is_zero((explicit(facts.result) * explicit(moment)) ** 2 - sum((c**2 for c in L), Integer(0)))
+
+
+def turned_by(facts: Judged, angle: Any) -> bool:
+    """Turned about the axis that is named by that angle, in components."""
+    i = AXES.index(facts.words["along"])
+    turn = Matrix.eye(3)
+    j, k = (i + 1) % 3, (i + 2) % 3
+    turn[j, j], turn[k, k], turn[j, k], turn[k, j] = cos(angle), cos(angle), -sin(angle), sin(angle)
+    return is_zero((turn.T * explicit(facts.inputs["inertia"]) * turn - explicit(facts.result)).applyfunc(tidied))
+
+
+def of_its_equation(facts: Judged, _: Any) -> bool:
+    return rates_of_its_equations(facts, "")
+
+
+def across(facts: Judged) -> Any:
+    return explicit(Cross(facts.inputs["omega"], facts.result))
+
+
+def turns(wanted: str) -> Predicate:
+    """The component along the axis is negative where the body is said to turn left-handed, and there only."""
+
+    def is_so(facts: Judged) -> bool:
+        along = tidied(explicit(Dot(facts.result, facts.inputs["axis"])))
+        return (wanted == "left") == bool(along.is_negative)
+
+    return is_so
+
+
+def cosine_is(wanted: int | None, of: Callable[[Any], Any] = lambda cosine: cosine) -> Predicate:
+    """Parallel, opposite, perpendicular by the cosine 1, -1, 0; None for a cosine that is none of them."""
+
+    def is_so(facts: Judged) -> bool:
+        cosine = of(facts.result)
+        if wanted is not None:
+            return is_zero(cosine - wanted)
+        return not any(is_zero(cosine - special) for special in (1, -1, 0))
+
+    return is_so
+
+
+def rotation_cos(angle: Expr) -> Expr:
+    from sympy import cos
+
+    return cos(angle)
+
+
+def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
+    """Whether the rate vanishes in space, and in the body where that rate was put in; None: it was not."""
+
+    def is_so(facts: Judged) -> bool:
+        seen = facts.inputs.get("in_body")
+        if seen is None:
+            return in_space is None
+        return in_space == is_zero(facts.result) and (in_body is None or in_body == is_zero(seen))
+
+    return is_so
+
+
+def euler(torque: bool, coupled: str) -> Predicate:
+    """Whether a torque acts, and whether products of components are left.
+
+    coupled   "here": in this one; "elsewhere": not here but in another; "nowhere"
+    """
+
+    def is_so(facts: Judged) -> bool:
+        acting = facts.inputs["torque"]
+        driven = not is_zero(acting)
+        rates = facts.inputs["rate"]
+        components = facts.inputs["moving"]
+        mixed = [
+            not all(is_zero(diff(entry, u, v)) for u in components for v in components if u != v) for entry in rates
+        ]
+        here = mixed["xyz".index(facts.words["axis"])]
+        where = "here" if here else "elsewhere" if any(mixed) else "nowhere"
+        return driven == torque and (not coupled or where == coupled)
+
+    return is_so
+
+
+def given_as(sort: str) -> Predicate:
+    """By the verb that the script calls, and by the components that it gives."""
+
+    def is_so(facts: Judged) -> bool:
+        given = all(is_zero(one - other) for one, other in zip(facts.result, facts.inputs["given"], strict=True))
+        return lasts(facts) and given and facts.inputs["verb"].name.startswith(sort)
+
+    return is_so
+
+
+def all_is_added(facts: Judged) -> bool:
+    return all(part.sign > 0 for part in facts.subject.body.parts)
+
+
+def moved(moved: bool, turned: bool) -> Predicate:
+    """Whether there is a way to the part, and whether its axes are not those of the whole."""
+
+    def is_so(facts: Judged) -> bool:
+        way, turn = facts.inputs.get("way"), facts.inputs["turn"]
+        return (way is not None and not is_zero(way)) == moved and (not turn.is_Identity) == turned
+
+    return is_so
+
+
+def beside_the_axis(facts: Judged) -> bool:
+    """Whether the mean place of the particles of some part is beside the axis."""
+    about, k = facts.subject.point, "xyz".index(str(facts.subject.axis))
+    for part in facts.subject.body.parts:
+        mean = sum((m * about.seen(r) for m, r in part.particles), start=about.position * 0) / part.mass
+        if not is_zero(sum(x**2 for i, x in enumerate(mean) if i != k)):
+            return True
+    return False
+
+
+def with_moments(facts: Judged) -> int:
+    return sum(role.startswith("part_") for role in facts.inputs)
+
+
+def is_flat(facts: Judged) -> bool:
+    """No particle is off the plane that is spoken of, and the moment is about an axis in it."""
+    body = facts.subject.body
+    return all(is_zero(place[2]) for _, place in body.particles()) and facts.subject.axis in ("x", "y")
+
+
+def on_its_axis(facts: Judged) -> bool:
+    places = [place for _, place in facts.subject.body.particles()]
+    return facts.subject.axis == "z" and all(is_zero(place[0]) and is_zero(place[1]) for place in places)
+
+
+def part_of_sign(sign: int) -> Predicate:
+    """The part has the name that is told; what is cut out counts as negative."""
+    return lambda facts: facts.inputs["sign"] == sign and facts.words["part"] == facts.inputs["part_of"].called
+
+
+def edges_along_the_axes(facts: Judged, outcome: str) -> bool:
+    """Where edges are spoken of every coordinate has limits of its own."""
+    if "edged" not in facts.words:
+        return True
+    body = facts.subject.body
+    region = body.region(body.point(body.reference))
+    ends = {s for _, *limits in region.limits for end in limits for s in end.free_symbols}
+    return not ends & set(region.names) and region.element == 1
+
+
+def turned_as_told(facts: Judged, outcome: str) -> bool:
+    return turns_right_handed(facts.inputs["turn"], facts.words["along"], facts.inputs["angle"])
+
+
+def inward(facts: Judged, outcome: str) -> bool:
+    """Only of a tensor that is not about the centre of mass it is not said that it is."""
+    about_centre = facts.words.get("about") in {"centre", "centre_of_mass"}
+    return about_centre != (outcome == "outward") and edges_along_the_axes(facts, outcome)
+
+
+def _sign(value: Expr) -> int | None:
+    value = tidied(value)
+    if is_zero(value):
+        return 0
+    return 1 if value.is_positive else -1 if value.is_negative else None
+
+
+def order_is(wanted: str) -> Predicate:
+    """By the moment about the axis: the greatest of all, the least, between the others, or as great as one of them."""
+
+    def is_so(facts: Judged) -> bool:
+        moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
+        about = moments.pop(axis)
+        signs = [_sign(about - other) for other in moments]
+        if 0 in signs:
+            return wanted == "marginal"
+        if _sign(moments[0] - moments[1]) == 0:
+            return wanted == "symmetric"
+        if None in signs:
+            return wanted == "conditional"
+        if signs[0] != signs[1]:
+            return wanted == "unstable"
+        return wanted == ("greatest" if signs[0] == 1 else "least")
+
+    return is_so
+
+
+def excess_is(sign: int | None) -> Predicate:
+    return lambda facts: _sign(facts.inputs["excess"]) == sign and not vanishes(facts)
+
+
+def root_is(grows: bool, *squares: str) -> Predicate:
+    """Whether the square of the rate is negative, and which word it had; the root of one that is not known to be is
+    written all the same."""
+
+    def is_so(facts: Judged) -> bool:
+        word = facts.quantities["squared"].step.outcome
+        return (_sign(facts.inputs["squared"]) == -1) == grows and word in squares
+
+    return is_so
+
+
+_KINDS = {"omega": "angular speed", "inertia": "moment of inertia", "momentum": "angular momentum"}
+
+
+def of_their_kinds(facts: Judged, outcome: str) -> bool:
+    """Whether each role that is a vector or a tensor of rotation is one."""
+    return all(q.step.kind == _KINDS.get(role, q.step.kind) for role, q in facts.quantities.items())
+
+
+def of_their_kinds_by_euler(facts: Judged, outcome: str) -> bool:
+    """Euler's equations are named where the axes are principal ones."""
+    along_principal_axes = is_zero(facts.inputs["inertia"] - Matrix.diag(*facts.inputs["inertia"].diagonal()))
+    return of_their_kinds(facts, outcome) and along_principal_axes == ("euler" in facts.words)
+
+
+def vanish_again(facts: Judged, outcome: str) -> bool:
+    """Products of inertia vanish here too where a tensor about another point, from which this one is, has none."""
+    tensor = facts.quantities["inertia"]
+    before = [e.value for e in tensor.ancestors() if isinstance(e.value, MatrixBase) and e.value.shape == (3, 3)]
+    again = any(each.is_diagonal() and each != tensor.value for each in before)
+    return facts.words["seen"] == "first" or again and facts.words["seen"] == "kept"
+
+
+def rate_of_the_component(facts: Judged, outcome: str) -> bool:
+    return "rate" in facts.quantities and rate(facts.inputs["component"]) in letters_in(facts.result)
+
+
+def inward_or_outward(facts: Judged, outcome: str) -> bool:
+    """The tensor exceeds that about the centre of mass, or is less than the other: it depends on where one starts."""
+    if facts.words["start"] != facts.quantities["centre"].needed(CountedFrom).start.name:
+        return False
+    if "entry" not in facts.quantities:  # a product that vanishes at the centre of mass
+        return outcome == "outward"
+    point = facts.quantities["entry"].subject.point
+    return point is None or (point.name in {"centre", "centre_of_mass"}) == (outcome == "outward")
+
+
+def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
+    """An axis of the whole, of which a part has a moment, is that in the letter of the moment, I_z, and is parallel to
+    the axis of the part."""
+    seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
+    if turn is None:
+        in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles
+        return whole is None and seen != "part" and in_its_way
+    by_letter, own = facts.symbol.name.partition("_")[2], "xyz".index(facts.words["axis"])
+    parallel = {"xyz"[k] for k in range(3) if is_zero(turn[own, k] ** 2 - 1)}
+    return by_letter == whole and {whole} == parallel if parallel else by_letter == "axial" and whole is None
+
+
+def component_of_its_letter(facts: Judged, outcome: str) -> bool:
+    """The axis of the component is the last index of its letter, v_x."""
+    index = facts.symbol.name.rpartition("_")[2]
+    return index in AXES and is_zero(explicit(facts.inputs["vector"])[AXES.index(index)] - explicit(facts.result))
+
+
+def rates_of_its_equations(facts: Judged, outcome: str) -> bool:
+    """Each of the equations that are named is that of its component: the third says that the last is constant."""
+    letters = (facts.inputs["around"], facts.inputs["beside"], facts.inputs["along"])
+    named = [facts.quantities[role].value for role in ("first", "second", "third")]
+    return all(rate(w) in explicit(equation).free_symbols for w, equation in zip(letters, named, strict=True))
+
+
+def agreement_generic(facts: Judged) -> bool:
+    return bool(bool(facts.inputs["turn"].is_Identity))
+
+
+def agreement_turned(facts: Judged) -> bool:
+    return bool(facts.inputs["turn"] == HALF_TURN_ABOUT_X)
+
+
+def angular_momentum_parallel(facts: Judged) -> bool:
+    return bool(is_zero(across(facts)))
+
+
+def angular_momentum_generic(facts: Judged) -> bool:
+    return bool(never_vanishes(across(facts)))
+
+
+def angular_momentum_in_general(facts: Judged) -> bool:
+    return bool(not is_zero(across(facts)) and not never_vanishes(across(facts)))
+
+
+def torque_generic(facts: Judged) -> bool:
+    return bool(never_vanishes(facts.result))
+
+
+def torque_in_general(facts: Judged) -> bool:
+    return bool(lasts(facts) and not never_vanishes(facts.result))
+
+
+def rate_in_body_in_general(facts: Judged) -> bool:
+    return bool(not is_zero(facts.result) and is_zero(facts.inputs["torque"]))
+
+
+def rate_in_body_driven(facts: Judged) -> bool:
+    return bool(not is_zero(facts.inputs["torque"]))
+
+
+def centre_of_parts_cut_out(facts: Judged) -> bool:
+    return bool(not all_is_added(facts))
+
+
+def moment_of_parts_on_axis(facts: Judged) -> bool:
+    return bool(not beside_the_axis(facts) and with_moments(facts) != 1)
+
+
+def moment_of_parts_alone(facts: Judged) -> bool:
+    return bool(not beside_the_axis(facts) and with_moments(facts) == 1)
+
+
+def tensor_entry_moment(facts: Judged) -> bool:
+    return bool(len(set(facts.words["entry"])) == 1)
+
+
+def tensor_entry_product(facts: Judged) -> bool:
+    return bool(len(set(facts.words["entry"])) == 2)
+
+
+handed_on_by(Disturbed, disturbed)

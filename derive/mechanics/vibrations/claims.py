@@ -1,0 +1,720 @@
+"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import lru_cache
+from itertools import islice
+from typing import Any
+
+from sympy import (
+    Abs,
+    Dummy,
+    Expr,
+    I,
+    ImmutableDenseMatrix,
+    Integer,
+    Matrix,
+    Poly,
+    Pow,
+    Rational,
+    Symbol,
+    diff,
+    prime,
+    re,
+    tan,
+)
+from sympy.matrices import MatrixBase
+
+from derive.algebra.amplitudes import determinant_of
+from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.ordered_roots import OrderedRoot
+from derive.algebra.ranges import fulfilling, rational_in_range
+from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
+from derive.algebra.tidy import tidied
+from derive.mechanics.vibrations.facts import Linear, Mode, SquareOf
+from derive.steps.claims import (
+    always_sign,
+    holds_at,
+    is_a_root_just_where_told,
+    not_negative,
+    points_as_assumed,
+    real_numbers,
+    same_equation,
+    sign_where_it_exists,
+    turned,
+)
+from derive.steps.known_numbers import sign_known
+from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
+from derive.steps.step import is_zero
+
+
+def free_motion(wanted: str) -> Predicate:
+    """By the roots of the characteristic equation, as far as the letters decide."""
+
+    def is_so(facts: Judged) -> bool:
+        a, b, c = facts.inputs["linear"]
+        if is_zero(a):
+            return wanted == ("accumulates" if is_zero(c) else _unless_it_grows("relaxes", c / b))
+        if is_zero(c):
+            return wanted == ("uniform" if is_zero(b) else _unless_it_grows("slows", b / a))
+        stiffness, sign = sign_known(c / a), sign_known((b / a) ** 2 - 4 * c / a)
+        if stiffness == -1:
+            return wanted == "runs_away"
+        if is_zero(b):
+            return wanted == "oscillates" and stiffness == 1
+        fitting = {-1: "underdamped", 0: "critically_damped", 1: "overdamped"}
+        if sign is not None:
+            return wanted == fitting[sign]
+        return any(
+            _is_its_condition(facts, s, (b / a) ** 2 - 4 * c / a) for s, word in fitting.items() if word == wanted
+        )
+
+    return is_so
+
+
+def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
+    """The border of the condition is where the discriminant vanishes; with numbers for the letters it is on the side
+    of the border on which the discriminant has this sign."""
+    condition = explicit(facts.inputs["condition"])
+    if not same_equation(condition.residual, discriminant) or (condition.mark == "=") != (wanted == 0):
+        return False
+    if wanted == 0:
+        return True
+    seen = set()
+    for point in points_as_assumed(letters_of(condition.residual) | letters_of(discriminant), 0):
+        with suppress(Undefined, NoNumber):
+            seen.add(holds_at(condition, point) == (value_at(discriminant, point) * wanted > 0))
+    return condition.mark in (">", "<") and seen == {True}
+
+
+def _unless_it_grows(word: str, rate: Expr) -> str:
+    return "runs_away" if sign_known(rate) == -1 else word
+
+
+def loses(wanted: bool) -> Predicate:
+    return lambda facts: is_zero(facts.inputs["loss"]) != wanted
+
+
+def in_step(*signs: int | None) -> Predicate:
+    """Without loss, with the force or against it by the sign of what is left of the stiffness."""
+    return lambda facts: is_zero(facts.inputs["loss"]) and sign_known(facts.inputs["stiff"]) in signs
+
+
+def square(facts: Judged, fact: SquareOf) -> bool:
+    return isinstance(facts.symbol, Pow) and facts.symbol.base.name == fact.letter and facts.symbol.exp == 2
+
+
+def mode(facts: Judged, fact: Mode) -> bool:
+    """The square of the frequency is the root, but for the sign of one that grows; each column is in the kernel."""
+    root = fact.root
+    squared = explicit(facts.result) ** 2
+    if not is_zero(squared - root.value) and not (root.sign == -1 and is_zero(squared + root.value)):
+        return False
+    matrix = Matrix(facts.inputs["stiffness"]) - root.value * Matrix(facts.inputs["mass"])
+    return all(is_zero((matrix * column).applyfunc(tidied)) for column in root.columns)
+
+
+def linear(facts: Judged, fact: Linear) -> bool:
+    """Each coefficient of the equation stands in some row of the matrices, all with one factor."""
+    residual = explicit(facts.result).residual
+    orders = ((fact.mass, 2), (fact.turning, 1), (fact.stiffness, 0))
+    names = [s.symbol for s in fact.displacements]
+    places = [(matrix, n, j) for matrix, n in orders for j in range(len(names))]
+    for i in range(fact.mass.shape[0]):
+        row = [(diff(residual, rate(names[j], n) if n else names[j]), matrix[i, j]) for matrix, n, j in places]
+        first = next(((a, b) for a, b in row if b != 0), None)
+        if first is not None and first[0] != 0 and all(is_zero(a * first[1] - b * first[0]) for a, b in row):
+            return True
+    return False
+
+
+SHIFTS, LITTLE = 20, 1e-9
+
+
+SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))  # so that one letter is large where another is small
+
+
+S = Dummy("s")
+
+
+def _numbers(facts: Judged) -> Iterator[dict[Any, Expr]]:
+    """Numbers for the letters, where the state exists."""
+    matrices = [facts.inputs[role] for role in ("stiffness", "turning", "mass")]
+    letters = sorted(set().union(*(each.free_symbols for each in matrices)), key=str)
+    for shift in range(SHIFTS):
+        drawn = {
+            s: rational_in_range(
+                s, Rational(prime(3 + (7 * i + 5 * shift) % 23), 11) * SCALES[(shift * (i + 1) + i) % 5]
+            )
+            for i, s in enumerate(letters)
+        }
+        drawn = fulfilling(drawn)
+        exists = facts.inputs.get("exists")
+        if exists is None or _holds(exists, drawn):
+            yield drawn
+
+
+def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
+    difference = explicit(condition.left - condition.right).xreplace(point).evalf(30)
+    return bool(difference > 0) == (condition.mark == ">")
+
+
+def _roots(facts: Judged, point: dict[Any, Expr]) -> list[complex]:
+    return _roots_of(*(ImmutableDenseMatrix(facts.inputs[role].xreplace(point)) for role in MATRICES))
+
+
+MATRICES = ("stiffness", "turning", "mass")
+
+
+@lru_cache(maxsize=128)
+def _roots_of(stiffness: MatrixBase, turning: MatrixBase, mass: MatrixBase) -> list[complex]:
+    """All different exponents s."""
+    parts = (each.applyfunc(_as_number) for each in (stiffness, turning, mass))
+    k, g, m = parts
+    matrix = ImmutableDenseMatrix(k + S * g + S**2 * m)
+    polynomial = Poly(determinant_of(matrix), S)
+    return [complex(root) for root in polynomial.sqf_part().nroots(n=25, maxsteps=200)]
+
+
+def _as_number(entry: Expr) -> Expr:
+    return entry if entry.is_Rational else Rational(str(entry.evalf(40)))
+
+
+def _is_among(value: complex, roots: list[complex]) -> bool:
+    size = max(abs(root) for root in roots) + abs(value)
+    return any(abs(value - root) <= LITTLE * size for root in roots)
+
+
+def frequency(sign: int | None) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        real = []
+        for point in _numbers(facts):
+            value = complex(explicit(facts.result).xreplace(point).evalf(25))
+            exponent = value if sign == -1 else 1j * value
+            if not _is_among(exponent, _roots(facts, point)):
+                return False
+            allowed = all(_holds(c, point) for c in facts.inputs["conditions"])
+            positive = abs(value.imag) <= LITTLE * abs(value) and value.real > 0
+            if allowed and not positive:
+                return False
+            real.append(positive)
+        return sign is None or all(real)
+
+    return is_so
+
+
+def free(facts: Judged) -> bool:
+    return is_zero(facts.result) and all(_is_among(0j, _roots(facts, point)) for point in _numbers(facts))
+
+
+def _steady(facts: Judged, point: dict[Any, Expr]) -> bool:
+    """Whether all exponents are imaginary."""
+    roots = _roots(facts, point)
+    size = max(abs(root) for root in roots)
+    return all(abs(root.real) <= LITTLE * size for root in roots)
+
+
+def always(steady: bool) -> Predicate:
+    return lambda facts: all(_steady(facts, point) == steady for point in _numbers(facts))
+
+
+def depends(facts: Judged) -> bool:
+    """All conditions together hold just where nothing grows; on their borders nothing is said."""
+    conditions = facts.inputs["conditions"]
+    points = [n for n in _numbers(facts) if not any(is_zero(explicit(c.residual).xreplace(n)) for c in conditions)]
+    tried = [(all(_holds(c, n) for c in conditions), _steady(facts, n)) for n in points]
+    return all(told == found for told, found in tried) and facts.result in conditions
+
+
+def is_among_conditions(facts: Judged, place: int) -> bool:
+    """Whether it has this place among several."""
+    conditions = facts.inputs["conditions"]
+    return len(conditions) > 1 and bool(facts.result == conditions[place])
+
+
+def moving(facts: Judged) -> list[Expr]:
+    return [entry for entry in facts.result if not is_zero(entry)]
+
+
+def _at_quarters(facts: Judged) -> list[tuple[list[float], list[float]]]:
+    """Where the two that move are at the beginning, and a little later, in numbers."""
+    found = []
+    for point in _numbers(facts):
+        entries = [explicit(entry).xreplace(point) for entry in moving(facts)]
+        at = [[float(re(e.subs(TIME, t).evalf(20))) for e in entries] for t in (Integer(0), Rational(1, 10**6))]
+        found.append((at[0], at[1]))
+    return found
+
+
+def sense(wanted: int | None, circle: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        if len(moving(facts)) != 2:
+            return False
+        turned = {1 if a[0] * b[1] - a[1] * b[0] > 0 else -1 for a, b in _at_quarters(facts)}
+        first, second = moving(facts)
+        steady = is_zero(explicit(first**2 + second**2).diff(TIME))
+        return steady == circle and (wanted is None or turned == {wanted})
+
+    return is_so
+
+
+def departing(facts: Judged) -> bool:
+    """All that move grow at one rate, which is real and positive."""
+    rates = {tidied(entry.diff(TIME) / entry) for entry in map(explicit, moving(facts))}
+    (rate, *others) = rates
+    return not others and not rate.has(TIME) and all(rate.xreplace(n).evalf(20) > 0 for n in _numbers(facts))
+
+
+def straight(facts: Judged) -> bool:
+    """All that move vanish together."""
+    first, *others = moving(facts)
+    return all(is_zero((other / first).diff(TIME)) for other in others)
+
+
+def sign_of_product(wanted: int) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        if len(facts.result) != 2:
+            return False
+        products = {(facts.result[0] * facts.result[1]).xreplace(n).evalf(20) for n in _numbers(facts)}
+        return all(value * wanted > 0 for value in products)
+
+    return is_so
+
+
+def damped(sign: int | None) -> Predicate:
+    """-beta +- i omega are roots: with omega real, or imaginary."""
+
+    def is_so(facts: Judged) -> bool:
+        for point in _numbers(facts):
+            beta = complex(explicit(facts.inputs["beta"]).xreplace(point).evalf(25))
+            value = complex(explicit(facts.result).xreplace(point).evalf(25))
+            turned = value if sign == -1 else 1j * value
+            real = abs(value.imag) <= LITTLE * abs(value)
+            roots = _roots(facts, point)
+            if not (_is_among(-beta + turned, roots) and _is_among(-beta - turned, roots)):
+                return False
+            if sign is not None and not real or any(_holds(c, point) != real for c in facts.inputs["conditions"]):
+                return False
+        return bool(facts.inputs["conditions"]) == (sign is None)
+
+    return is_so
+
+
+def gyroscopic_rate(kind: str) -> Predicate:
+    """Whether it is half the sum of two roots, or a root itself, with the other sign."""
+
+    def is_so(facts: Judged) -> bool:
+        for point in _numbers(facts):
+            value, roots = complex(explicit(facts.result).xreplace(point).evalf(25)), _roots(facts, point)
+            halves = [(a + b) / 2 for i, a in enumerate(roots) for b in roots[:i]]
+            if not _is_among(-value, halves if kind == "oscillator" else roots):
+                return False
+            if kind != "oscillator" and (value.real > 0) != (kind == "decay"):
+                return False
+        return True
+
+    return is_so
+
+
+def has_turning(facts: Judged) -> bool:
+    return not all(is_zero(entry) for entry in facts.inputs["turning"])
+
+
+TINY = Rational(1, 10**15)
+
+
+def _modes_numbers(facts: Judged) -> Iterator[dict[Expr, Expr]]:
+    """Numbers for the letters, from one scale to another and of both signs; of a letter with a range those of it."""
+    letters = sorted(facts.inputs["stiffness"].free_symbols | facts.inputs["mass"].free_symbols, key=str)
+    drawn = (
+        turned(
+            {
+                s: rational_in_range(s, Rational(prime(4 + (5 * i + 3 * shift + i * shift) % 17), 3 + (i + shift) % 4))
+                for i, s in enumerate(letters)
+            },
+            shift,
+        )
+        for shift in range(40)
+    )
+    yield from islice((numbers for numbers in drawn if _exists(facts, numbers)), 5)
+
+
+def _exists(facts: Judged, numbers: dict[Expr, Expr]) -> bool:
+    """Whether these numbers fulfil the condition under which there is the state of rest."""
+    condition = facts.inputs.get("exists")
+    if condition is None:
+        return True
+    difference = condition.residual.xreplace(numbers)
+    return bool(difference > 0 if condition.mark == ">" else difference < 0)
+
+
+def _polynomial(facts: Judged, numbers: dict[Expr, Expr]) -> Poly:
+    """det(K - lambda M) with numbers for the letters."""
+    stiffness, mass = (ImmutableDenseMatrix(facts.inputs[role].xreplace(numbers)) for role in ("stiffness", "mass"))
+    return _determinant(stiffness, mass)
+
+
+@lru_cache(maxsize=64)  # each frequency and each shape of a system asks for the same few
+def _determinant(stiffness: ImmutableDenseMatrix, mass: ImmutableDenseMatrix) -> Poly:
+    unknown = Dummy("lambda")
+    return Poly(determinant_of(stiffness - unknown * mass), unknown)
+
+
+def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
+    value = polynomial.eval(place.evalf(40))
+    size = sum((Abs(c * place.evalf(40) ** n) for (n,), c in polynomial.terms()), Integer(0))
+    return bool(Abs(value) <= TINY * size)
+
+
+def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
+    """Whether det(K - lambda M) vanishes there; once, or as often as its slope does too."""
+    for numbers in _modes_numbers(facts):
+        polynomial, place = _polynomial(facts, numbers), explicit(square.xreplace(numbers))
+        several = _vanishes_at(polynomial.diff(), place)
+        if not _vanishes_at(polynomial, place) or times is not None and several != (times > 1):
+            return False
+    return True
+
+
+def _sign_everywhere(value: Expr, facts: Judged) -> int | None:
+    """The sign at all points that were tried, if it is one."""
+    signs = set()
+    for numbers in _modes_numbers(facts):
+        there = explicit(value.xreplace(numbers)).evalf(30)
+        signs.add(0 if is_zero(value) else 1 if there.is_positive else -1 if there.is_negative else None)
+    return signs.pop() if len(signs) == 1 else None
+
+
+def modes_frequency(sign: int | None, repeated: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        square = -(facts.result**2) if sign == -1 else facts.result**2
+        decided = sign is None or _sign_everywhere(square, facts) == sign
+        return decided and _is_not_negative(facts) and _is_root(square, facts, 2 if repeated else 1)
+
+    return is_so
+
+
+def is_in_order(whole: bool) -> Predicate:
+    """Whether it is a root of the determinant, and the number of its letter is that of its place, by Sturm's theorem,
+    among all roots, or among those of a factor of lower degree."""
+
+    def is_so(facts: Judged) -> bool:
+        square = facts.result**2
+        if not isinstance(square, OrderedRoot):
+            return False
+        place, size = int(str(square.name).rpartition("_")[2]), facts.inputs["stiffness"].shape[0]
+        unknown = Dummy("lambda")
+        for numbers in _modes_numbers(facts):
+            factor = Poly([each.xreplace(numbers) for each in square.args[0]], unknown)
+            below = Rational(str(explicit(square.xreplace(numbers)).evalf(40) * (1 - TINY)))
+            own = _polynomial(facts, numbers) if whole else factor
+            if own.count_roots(sup=below) != place - 1 or (factor.degree() == size) != whole:
+                return False
+        return _is_root(square, facts, 1) and _sign_everywhere(square, facts) == 1
+
+    return is_so
+
+
+def _is_not_negative(facts: Judged) -> bool:
+    """Of the two roots of a square the frequency is that which is not negative, wherever it is real."""
+    there = [explicit(facts.result.xreplace(numbers)).evalf(30) for numbers in _modes_numbers(facts)]
+    return not any(value.is_negative or (value / I).is_negative for value in there)
+
+
+def of_pair(same: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        if len(facts.result) != 2:
+            return False
+        product = facts.result[0] * facts.result[1]
+        return _sign_everywhere(product, facts) == (1 if same else -1) and oscillates(facts)
+
+    return is_so
+
+
+def alone(facts: Judged) -> bool:
+    moving = [entry for entry in facts.result if not is_zero(entry)]
+    return len(facts.result) == 2 and len(moving) == 1 and oscillates(facts)
+
+
+def oscillates(facts: Judged) -> bool:
+    return not is_zero(facts.inputs["squared"]) and always_sign(-1, lambda f: f.inputs["squared"])(facts) is False
+
+
+def repeated(facts: Judged) -> bool:
+    return _is_root(facts.inputs["squared"], facts, 2)
+
+
+def _displaced(facts: Judged) -> bool:
+    return any(not is_zero(value) for value in facts.inputs["place"])
+
+
+def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
+    """At rest or elsewhere, with a drag or without, by what the equation itself holds."""
+
+    def is_so(facts: Judged) -> bool:
+        found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
+        letters = facts.inputs["displacements"]
+        if len(letters) == 1 and explicit(facts.result).left.has(rate(*letters)) != found[1]:
+            return False  # of one coordinate the equation itself shows the drag
+        return found[0] == displaced and found[2] == driven and lossy in (None, found[1])
+
+    return is_so
+
+
+def drifts_as_told(facts: Judged, outcome: str) -> bool:
+    """That no force acts to any order needs equations that leave nothing of a uniform motion, in numbers."""
+    if "drift" not in facts.inputs:
+        return True
+    left = facts.inputs["left"]
+    letters = sorted(set().union(*(each.free_symbols for each in left)), key=str)
+    for n in (1, 2):
+        point = {s: rational_in_range(s, Rational(prime(5 + 3 * i + n), 7 + n)) for i, s in enumerate(letters)}
+        if any(abs(each.xreplace(point).evalf(30)) > TINY for each in left):
+            return False
+    return bool(left)
+
+
+def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
+    """In numbers, where the state of rest exists; that it vanishes or is of no known sign, by the letters."""
+    return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
+
+
+def rate_of_square(sign: int | None, turned: int) -> Predicate:
+    """An oscillation has the root of the square as its rate, a motion that grows the root of minus the square."""
+    judged = _of_square(sign)
+    return lambda facts: judged(facts) and is_zero(explicit(facts.result) ** 2 - turned * facts.inputs["squared"])
+
+
+SIGNS: dict[str, Predicate] = {
+    word: _of_square(sign, lambda facts: facts.result)
+    for word, sign in (("stable", 1), ("unstable", -1), ("neutral", 0), ("conditional", None))
+}
+
+
+def alone_in_its_equation(facts: Judged, q: Any) -> bool:
+    motion = facts.quantities["motion"]
+    return {s for s in motion.coordinates if explicit(motion.value).residual.has(s, rate(s), rate(s, 2))} == {q}
+
+
+def small_function(of: Callable[[Any], Any]) -> Naming:
+    def is_so(facts: Judged, value: Any) -> bool:
+        motion = explicit(facts.quantities["motion"].value).residual
+        return bool(value == of(facts.inputs["alone"])) and motion.has(value)
+
+    return is_so
+
+
+def nothing_is_left(facts: Judged, drift: Any) -> bool:
+    """In a uniform motion along the zero mode nothing is left of the whole equations of motion."""
+    left = facts.inputs["left"]
+    return drift == 0 and bool(left) and all(is_zero(explicit(each)) for each in left)
+
+
+def root_under_the_sign(facts: Judged, name: Any) -> bool:
+    """The square of the result is a root of that letter, and the sentence names the smallest, whose number is 1."""
+    square = facts.result**2
+    return isinstance(square, OrderedRoot) and str(name) == f"{str(square.name).rpartition('_')[0]}_1"
+
+
+def momentum_there(facts: Judged, relation: Any) -> bool:
+    """The momentum of that letter, as it was found, in the steady motion; or a letter of the value that it keeps."""
+    steady = next((f for f in facts.quantities["where"].facts if hasattr(f, "conditions")), None)
+    behind = list(facts.quantities["potential"].ancestors())
+    if steady is None or relation.mark != "=":
+        return False
+    kept = [dict(e.step.roles) for e in behind if e.step.rule == "lagrange.value_kept"]
+    values = {roles["momentum"]: explicit(roles["value"]) for roles in kept}
+    stated = {relation.left: explicit(relation.right)}
+    for letter, value in {**values, relation.left: relation.left}.items():
+        momenta = [e for e in behind if e.symbol == letter]
+        if not momenta or not value.has(relation.left):
+            continue
+        moving = {rate(s): Integer(0) for s in momenta[0].coordinates}
+        moving |= {rate(s): v for s, v in steady.rates.items()} | dict(steady.values)
+        found = next((e for e in momenta if not isinstance(e.value, Symbol)), momenta[0])
+        return is_zero(explicit(found.value).subs(moving, simultaneous=True) - value.xreplace(stated))
+    return False
+
+
+def there_where_it_exists(facts: Judged, exists: Any) -> bool:
+    place = explicit(facts.quantities["where"].value)
+    inputs = {"positive": Integer(0), "condition": exists}
+    return isinstance(place, MatrixBase) or is_a_root_just_where_told(Judged(place, inputs))
+
+
+def taken_out(facts: Judged, relation: Any) -> bool:
+    """It is in the condition, and no longer in the result."""
+    if relation.mark != "=":
+        return False
+    held = explicit(facts.quantities["where"].value).free_symbols
+    return relation.left in held and relation.left not in explicit(facts.result).free_symbols
+
+
+def trial(unit: Any, role: str) -> Naming:
+    """It starts from 1, and its rate is the exponent times itself."""
+
+    def is_so(facts: Judged, value: Any) -> bool:
+        return value.subs(TIME, 0) == 1 and is_zero(diff(value, TIME) - unit * facts.inputs[role] * value)
+
+    return is_so
+
+
+def oscillator(facts: Judged, equation: Any) -> bool:
+    """Times the inertia, and with the result for the square of the frequency, it is the linear equation."""
+    linear = explicit(facts.quantities["linear"].value).residual
+    inertia = explicit(facts.inputs.get("inertia", Integer(1)))
+    there = equation.left.doit().subs(facts.symbol, explicit(facts.result))
+    return is_zero(linear - inertia * there)
+
+
+def divided_by(facts: Judged, inertia: Any) -> bool:
+    q = facts.inputs["q"]
+    return is_zero(diff(explicit(facts.quantities["linear"].value).residual, rate(q, 2)) - explicit(inertia))
+
+
+def its_acceleration(facts: Judged, letter: Any) -> bool:
+    return bool(letter == rate(facts.inputs["q"], 2)) and explicit(facts.quantities["linear"].value).has(letter)
+
+
+def _displacements(facts: Judged) -> list[Any]:
+    linear = facts.quantities["linear"]
+    return next([s.symbol for s in f.displacements] for f in linear.facts if hasattr(f, "displacements"))
+
+
+def moves_alone(facts: Judged, letter: Any) -> bool:
+    moved = [s for s, a in zip(_displacements(facts), facts.result, strict=True) if not is_zero(a)]
+    return bool(moved[0] == letter)
+
+
+def moves_so(facts: Judged, displacements: Any) -> bool:
+    """The motion that is told of each displacement satisfies the linear equation."""
+    equation = explicit(facts.quantities["linear"].value).residual
+    motion: dict[Any, Any] = {}
+    for s, course in zip(explicit(displacements), explicit(facts.result), strict=True):
+        motion |= {rate(s, n) if n else s: diff(course, TIME, n) for n in range(3)}
+    return is_zero(equation.xreplace(motion))
+
+
+def moves_as(which: int) -> Naming:
+    def is_so(facts: Judged, letter: Any) -> bool:
+        told = zip(explicit(facts.inputs["displacements"]), explicit(facts.result), strict=True)
+        return bool([s for s, course in told if not is_zero(course)][which] == letter)
+
+    return is_so
+
+
+def starts_as_told(facts: Judged, outcome: str) -> bool:
+    """The motion has the value and the rate at the start that the sentence says."""
+    if not _of_an_equation(facts, outcome):
+        return False
+    told, q = [facts.inputs[role] for role in ("start", "start_rate") if role in facts.inputs], facts.inputs["q"]
+    at = [diff(facts.result, TIME, n).subs(TIME, 0) for n in range(len(told))]
+    named = [(q, "="), (rate(q), "=")][: len(told)] == [(each.left, each.mark) for each in told]
+    return named and all(is_zero(value - each.right) for value, each in zip(at, told, strict=True))
+
+
+def starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
+    """At the start the coordinate and its rate have the values that the sentence says, or zero where it says none."""
+    q = facts.inputs["coordinate"]
+    told = {each.left: each.right for role, each in facts.inputs.items() if role.startswith("start_")}
+    at_start = {q: facts.result.subs(TIME, 0), rate(q): diff(facts.result, TIME).subs(TIME, 0)}
+    others_zero = facts.words["seen"] == "others_zero"
+    return all(
+        is_zero(value - told[s]) if s in told else others_zero and is_zero(value) for s, value in at_start.items()
+    )
+
+
+def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
+    """With what the letter that is taken out is said to be, the condition holds."""
+    told, where = facts.inputs.get("taken_out"), facts.quantities["where"].value
+    if told is None or not isinstance(where, Relation):
+        return True
+    return is_zero(explicit(where).residual.subs(told.left, told.right))
+
+
+def _of_an_equation(facts: Judged, outcome: str) -> bool:
+    """What moves is a letter, and what it obeys an equation, or what its rate or acceleration was found to be."""
+    q, found = facts.inputs["q"], facts.quantities.get("equation")
+    solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
+    return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)
+
+
+def swings_of_its_equation(facts: Judged, outcome: str) -> bool:
+    return not_negative(facts, outcome) and _of_an_equation(facts, outcome)
+
+
+def positive_where_real(facts: Judged, outcome: str) -> bool:
+    """A frequency is not negative where it is real: in numbers."""
+    return all(number >= 0 for number in real_numbers(facts))
+
+
+def somewhere_positive(facts: Judged, outcome: str) -> bool:
+    """Which of two frequencies is greater may depend on the letters, but not the wrong one is so for all of them."""
+    return not_negative(facts, outcome) and any(number >= 0 for number in real_numbers(facts))
+
+
+def lag_as_written(facts: Judged, outcome: str) -> bool:
+    """With a loss its tangent is told, without one the angle itself."""
+    return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
+
+
+def gyroscopic_characteristic_plain(facts: Judged) -> bool:
+    return bool(not has_turning(facts))
+
+
+def gyroscopic_motion_generic(facts: Judged) -> bool:
+    return bool(len(moving(facts)) > 2)
+
+
+def gyroscopic_stability_depends(facts: Judged) -> bool:
+    return bool(depends(facts) and len(facts.inputs["conditions"]) == 1)
+
+
+def gyroscopic_stability_first(facts: Judged) -> bool:
+    return bool(depends(facts) and is_among_conditions(facts, 0))
+
+
+def gyroscopic_stability_further(facts: Judged) -> bool:
+    return bool(depends(facts) and facts.result in facts.inputs["conditions"][1:-1])
+
+
+def gyroscopic_stability_last(facts: Judged) -> bool:
+    return bool(depends(facts) and is_among_conditions(facts, -1))
+
+
+def damped_characteristic_one(facts: Judged) -> bool:
+    return bool(Poly(facts.result.left, facts.inputs["exponent"]).degree() == 2)
+
+
+def damped_characteristic_several(facts: Judged) -> bool:
+    return bool(Poly(explicit(facts.result.left), facts.inputs["exponent"]).degree() > 2)
+
+
+def damped_shape_generic(facts: Judged) -> bool:
+    return bool(len(facts.result) > 1)
+
+
+def mode_shape_generic(facts: Judged) -> bool:
+    return bool(oscillates(facts) and not repeated(facts))
+
+
+def mode_shape_uniform(facts: Judged) -> bool:
+    return bool(is_zero(facts.inputs["squared"]))
+
+
+mode_shape_departing: Predicate = always_sign(-1, lambda facts: facts.inputs["squared"])
+
+
+def frequency_squared_about_neutral(facts: Judged) -> bool:
+    return bool(is_zero(facts.result))
+
+
+def frequency_squared_about_conditional(facts: Judged) -> bool:
+    return bool(not is_zero(facts.result))
+
+
+handed_on_by(SquareOf, square)
+handed_on_by(Mode, mode)
+handed_on_by(Linear, linear)

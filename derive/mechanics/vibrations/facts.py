@@ -1,0 +1,74 @@
+"""Facts that results hand on besides their value, for the steps that rest on them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import reduce
+
+from sympy import (
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Mul,
+    factor,
+    lcm,
+    together,
+)
+from sympy.matrices import MatrixBase
+
+from derive.algebra.expressions import Relation
+from derive.algebra.tidy import common_factor, tidied
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.solving.characteristic import Root as RootOfPencil
+from derive.steps.step import Fact
+
+
+@dataclass(frozen=True)
+class Linear(Fact):
+    """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, where the
+    state of rest exists, what drives them, and what each coordinate is at rest."""
+
+    missing = "is not an equation of motion to first order"
+    mass: MatrixBase
+    turning: MatrixBase
+    stiffness: MatrixBase
+    displacements: tuple[Coordinate, ...]
+    exists: Relation | None = None
+    driven: tuple[Expr, ...] = ()
+    place: tuple[tuple[Coordinate, Expr], ...] = ()
+
+    def rows_of(self, matrix: MatrixBase) -> MatrixBase:
+        """A matrix of the amplitudes, each row without what all terms of its equation have in common."""
+        size = range(matrix.shape[0])
+        return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
+
+    def common(self, i: int) -> Expr:
+        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta.
+
+        Where each of them has something below it, all that is below is cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
+        """
+        entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
+        parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]
+        if len(parts) == 1:
+            return Integer(1)  # I theta_ddot = 0 stays as it is
+        found = common_factor([above for above, _ in parts])
+        if all(below.free_symbols for _, below in parts):
+            found /= factor(reduce(lcm, (below for _, below in parts)))
+        return Mul(*(part for part in Mul.make_args(found) if part.is_positive and not part.is_Rational))
+
+
+@dataclass(frozen=True)
+class Mode(Fact):
+    """The frequency, or the rate of growth, of a mode: its root lambda = omega^2 with its sign, and its columns."""
+
+    missing = "is not the frequency of a normal mode"
+    root: RootOfPencil
+
+
+@dataclass(frozen=True)
+class SquareOf(Fact):
+    """The letter of what this is the square of, and where the state exists about which it is."""
+
+    missing = "is not the square of a frequency"
+    letter: str
+    exists: Relation | None = None

@@ -1,0 +1,232 @@
+"""Rules: what the project knows of each law that makes steps, in one record next to the verb that uses it.
+
+A verb says how its result came out, "zero", "unstable", "slow", and a page chooses its sentence by that word. The rule
+has, for each such word, a predicate that must be true of the result. Predicates stand in the `claims.py` of their
+folder and share no code with the verbs. `establish` asks them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from derive.algebra.equality import Compared
+from derive.steps.level import Level, Manner
+from derive.steps.subject import NOTHING, Mixed, Subject
+
+GENERIC = "generic"  # the outcome where nothing is to be chosen
+CENTRE_OF_MASS = "centre_of_mass"  # a word for the point "centre" of a body that has another one too
+ZERO = "zero"  # the outcome of a result that vanishes
+AXES = ("x", "y", "z")
+ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What a predicate is asked about.
+
+    result      what was established
+    inputs      role -> value
+    quantities  role -> the quantity that the value came from, where one did, and what the sentence points to
+    symbol      what the page calls the result
+    subject     what the result is about
+    words       the terms that the phrase has
+    """
+
+    result: Any
+    inputs: Mapping[str, Any] = field(default_factory=dict)
+    quantities: Mapping[str, Any] = field(default_factory=dict)
+    symbol: Any = None
+    subject: Subject = NOTHING
+    words: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Why a sentence is not confirmed, in words: a predicate may return this in place of False."""
+
+    reason: str
+    help: str | None = None
+
+    def __bool__(self) -> bool:
+        return False
+
+
+Predicate = Callable[[Judged], "bool | Doubt"]
+Statement = Callable[[Judged, str], "bool | Doubt"]
+Naming = Callable[[Judged, Any], bool]
+
+
+def anything(facts: Judged) -> bool:
+    """The predicate of an outcome that claims nothing."""
+    return True
+
+
+@dataclass(frozen=True)
+class Theorem:
+    """A theorem in its general form, which a page states by name before the first step that uses it.
+
+    formula   what it says
+    letters   what else the phrase names
+    source    book and section
+    between   what the word `between` of the steps that use it must be, where that matters
+    prepared  whether it is stated before a step that prepares those that use it
+    """
+
+    name: str
+    formula: Any
+    source: str
+    letters: Mapping[str, Any] = field(default_factory=dict)
+    between: frozenset[str] = frozenset()
+    prepared: bool = False
+
+
+@dataclass(frozen=True)
+class Quote:
+    """That the steps of a rule use a theorem.
+
+    outcomes   in which they do; empty for all
+    law_in     outcomes in which the theorem is the law of the step, which need not write it again
+    """
+
+    theorem: Theorem
+    outcomes: frozenset[str] = frozenset()
+    law_in: frozenset[str] = frozenset()
+
+    def fits(self, outcome: str, between: str) -> bool:
+        in_outcome = not self.outcomes or outcome in self.outcomes
+        return in_outcome and (not self.theorem.between or between in self.theorem.between)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How a page shows the steps of a rule, below the level `full`.
+
+    brief, standard   the manner at these levels; `outcomes` has exceptions
+    told_along        outcomes in which the sentence of the step before may state the result too
+    first_only        of several such steps the first alone is shown
+    result_again      up to this level, a step that follows one of the same form shows its result alone
+    each_worked_out   no step is shortened because another one of the same form came before
+    unless_long       a long one is left out
+    taken_in_if       a predicate of the step; where it is true the step that uses it takes it in
+    """
+
+    brief: Manner = Manner.OWN
+    standard: Manner = Manner.OWN
+    outcomes: Mapping[str, tuple[Manner, Manner]] = field(default_factory=dict)
+    told_along: frozenset[str] = frozenset({GENERIC})
+    first_only: bool = False
+    result_again: Level | None = None
+    each_worked_out: bool = False
+    unless_long: bool = False
+    taken_in_if: Callable[[Any], bool] | None = None
+
+    def manner(self, outcome: str, level: Level) -> Manner:
+        brief, standard = self.outcomes.get(outcome, (self.brief, self.standard))
+        return brief if level is Level.BRIEF else standard
+
+
+@dataclass(frozen=True, eq=False)
+class Rule:
+    """A law that makes steps.
+
+    name        folder and function
+    source      book and section
+    outcomes    word -> the predicate that must be true of the result for the word to be right
+    evidence    claim -> ROUTE or CHECK, for each second way to the result. A route goes another way through the
+                physics and would see a wrong law; a check starts from the result or from the same formula and would see
+                a slip. A rule without evidence is a definition
+    statements  what must be true of roles, points and formulas that only the sentence has, whatever the outcome
+    named       role -> what must be true of a thing that only the sentence names; `value` also stands for `value_1`
+    shown       how a page shows its steps
+    quotes      the theorems that its steps use
+    prepares    the theorem that a page states before such a step, for the steps that rest on it
+    """
+
+    name: str
+    source: str = ""
+    outcomes: Mapping[str, Predicate] = field(default_factory=lambda: {GENERIC: anything})
+    evidence: Mapping[str, Compared] = field(default_factory=dict)
+    statements: Sequence[Statement] = ()
+    named: Mapping[str, Naming] = field(default_factory=dict)
+    shown: Shown = Shown()
+    quotes: Sequence[Quote] = ()
+    prepares: Theorem | None = None
+
+    def __post_init__(self) -> None:
+        RULES[self.name] = self
+
+    @property
+    def key(self) -> str:
+        """The key of its steps where a verb gives none."""
+        return self.name.rpartition(".")[2]
+
+    @property
+    def is_definition(self) -> bool:
+        return not self.evidence
+
+    def verdict(self, outcome: str, facts: Judged) -> bool | Doubt:
+        """Whether the rule has this outcome and it is true, and so is what its sentence says besides the chain."""
+        predicate = self.outcomes.get(outcome)
+        verdict = predicate is not None and predicate(facts)
+        return verdict and self._stated(outcome, facts)
+
+    def _stated(self, outcome: str, facts: Judged) -> bool | Doubt:
+        if not _names_its_point(facts):
+            return Doubt("it names a point that the result is not about")
+        if not _names_its_axis(facts):
+            return Doubt("it names an axis that the result is not about")
+        if not _letter_of_its_axis(facts):
+            return Doubt("its letter has the index of another axis")
+        return next((said for each in self.statements if not (said := each(facts, outcome))), True)
+
+    def wrongly_named(self, facts: Judged, named: Mapping[str, Any]) -> str | None:
+        """The first role under which a sentence names the wrong thing, or one that nothing judges."""
+        for role, value in named.items():
+            judge = self.named.get(role) or self.named.get(role.rstrip("0123456789").removesuffix("_"))
+            if judge is None or not judge(facts, value):
+                return role
+        return None
+
+
+RULES: dict[str, Rule] = {}  # by name, as the modules of the verbs are loaded
+_HANDED_ON: dict[type[Any], Naming] = {}
+
+
+def handed_on_by(kind: type[Any], predicate: Naming) -> None:
+    """Say what must hold between a step and a fact of this kind that it returns with its value."""
+    _HANDED_ON[kind] = predicate
+
+
+def wrongly_handed_on(facts: Judged, handed_on: Sequence[Any]) -> Any | None:
+    """The first fact that does not fit the step that returns it."""
+    return next((f for f in handed_on if (judge := _HANDED_ON.get(type(f))) and not judge(facts, f)), None)
+
+
+def judged_facts() -> frozenset[type[Any]]:
+    """The kinds of fact that have a predicate."""
+    return frozenset(_HANDED_ON)
+
+
+def _names_its_point(facts: Judged) -> bool:
+    """Whether the point that is named is the one that the result is about, where that is known."""
+    known = getattr(facts.subject.point, "name", None)
+    in_full = {CENTRE_OF_MASS: "centre"} if known == "centre" else {}
+    named = {in_full.get(facts.words[word], facts.words[word]) for word in ("about", "point") if word in facts.words}
+    return not isinstance(known, str) or isinstance(facts.subject.point, Mixed) or named <= {known}
+
+
+def _names_its_axis(facts: Judged) -> bool:
+    """Whether the axis that is named is the one that the result is about, where that is known."""
+    axis = facts.subject.axis
+    named = {facts.words[word] for word in ("axis", "axis_letter") if word in facts.words}
+    return not isinstance(axis, str) or named <= {axis}
+
+
+def _letter_of_its_axis(facts: Judged) -> bool:
+    """Whether a letter with the index of an axis, I_z, has that of the axis that the sentence names; of a part it is
+    that of the whole to which the axis of the part is parallel."""
+    axis = facts.words.get("whole", facts.words.get("axis"))
+    index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
+    return index not in AXES or axis not in AXES or index == axis
