@@ -17,6 +17,7 @@ from derive.errors import DeriveError, Rejected, Unverified
 from derive.mechanics import beats, let, limiting_case, maximum, minimum, put_in, roots, solved_for, where
 from derive.steps.establish import Scope, establish
 from derive.steps.record import Run, recorded
+from derive.steps.rule import RULES
 from derive.steps.step import Quantity
 from tests.courses import rendered_once
 from tests.stock.described import complaints, course_with, edited, messages, solved
@@ -150,12 +151,11 @@ def test_a_restated_limit_says_the_same_of_its_letter() -> None:
     with recorded(Run()):
         limit = limiting_case(given(sqrt((M + m) * g / (m * l)), "w", symbol="w"), M)
         again = establish(
-            "answers.let",
+            RULES["answers.let"],
             limit.symbol,
             lambda w: w,
             {"w": limit},
             key="again",
-            definition=True,
             scope=Scope(case_of=limit),
         )
     assert again.step.approximates == limit.step.approximates and not again.step.about and not again.exact

@@ -16,14 +16,13 @@ import pytest
 
 import derive.mechanics
 import derive.steps.numeric
-from derive.algebra.equality import Compared
 from derive.page.wording import AFTER, AND
-from derive.steps.rule import judged_facts
-from derive.steps.second_ways import CHECKS, OTHERWISE, ROUTES, is_decided, sort_of
+from derive.steps.rule import ROUTE, Rule, judged_facts
 from derive.steps.step import Fact, Quantity
 from tests.courses import ROOT
 from tests.mechanics.block import a, known_block
-from tests.page.test_wording import VARIANTS, WORDS
+from tests.page.test_wording import WORDS
+from tests.rules import records
 
 SOURCE = ROOT / "derive"
 MODULES = {
@@ -58,17 +57,6 @@ ENGINE = {
 }
 PRINTING = {"cli.options", "cli.running", "cli.streams", "cli.terminal", "building.doctor"}
 VERB_MODULES = sorted(name for name in MODULES if name.startswith("mechanics."))
-DEFINITIONS = {
-    "any_angular_velocity",
-    "given_lagrangian",
-    "changing_angular_velocity",
-    "constant_angular_velocity",
-    "momentary_angular_velocity",
-    "principal_tensor",
-    "let",
-    "combination",
-    "axis_vector",
-}
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}
 
 
@@ -224,12 +212,8 @@ def verbs() -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("name", verbs())
-def test_a_verb_says_its_source_and_its_second_route_or_check(name: str) -> None:
-    told = inspect.getdoc(verbs()[name]) or ""
-    assert re.search(r"Source: \S", told)
-    assert re.search(r"^(Second route|Check): \S", told, re.MULTILINE) or name in DEFINITIONS
-    if name in DEFINITIONS:
-        assert "definition" in told
+def test_a_verb_says_its_source(name: str) -> None:
+    assert re.search(r"Source: \S", inspect.getdoc(verbs()[name]) or "")
 
 
 @pytest.mark.parametrize("name", verbs())
@@ -259,155 +243,123 @@ def test_a_verb_is_named_for_what_it_yields() -> None:
     assert [name for name in verbs() if re.match(r"(compute|get|make|calculate|find|do)_", name)] == []
 
 
-# --- words ---
+# --- rules ---
+
+RECORDS = list(records())
+MARK = re.compile(f"{AND}.*|{AFTER}.*")
+
+
+def outcomes_with_a_phrase(rule: str) -> set[str]:
+    return {MARK.sub("", key) for key in WORDS.rules.get(rule, {})}
+
+
+def test_a_rule_is_named_for_its_folder_and_by_its_constant() -> None:
+    for module, const, rule in RECORDS:
+        folder, _, name = rule.name.partition(".")
+        assert folder == (module.split(".")[1]), rule.name
+        assert name.upper() == const, rule.name
+    assert len({rule.name for *_, rule in RECORDS}) == len(RECORDS) > 150
+
+
+@pytest.mark.parametrize("rule", [rule for *_, rule in RECORDS], ids=lambda rule: rule.name)
+def test_a_rule_has_a_source_and_a_phrase_for_each_outcome_and_each_claim_and_no_other(rule: Rule) -> None:
+    assert rule.source or rule.is_definition
+    assert outcomes_with_a_phrase(rule.name) == set(rule.outcomes)
+    assert set(WORDS.routes.get(rule.name, {})) == set(rule.evidence)
+    for table in (WORDS.setups, WORDS.clauses):
+        assert set(table.get(rule.name, {})) <= set(rule.outcomes)
+
+
+def test_every_phrase_belongs_to_a_rule() -> None:
+    rules = {rule.name for *_, rule in RECORDS}
+    assert set(WORDS.rules) == rules
+    for table in (WORDS.routes, WORDS.setups, WORDS.clauses):
+        assert set(table) <= rules
 
 
 @cache
-def establishing_calls() -> list[tuple[str, str, ast.Call]]:
-    """Module, rule and call of every `establish(...)` in the engine."""
-    return [
-        (name, node.args[0].value, node)
-        for name in sorted(ENGINE)
-        for node in ast.walk(tree(name))
-        if isinstance(node, ast.Call)
-        and isinstance(node.func, ast.Name)
-        and node.func.id == "establish"
-        and isinstance(node.args[0], ast.Constant)
-    ]
-
-
-def written_outcomes(module: str, call: ast.Call) -> set[str]:
-    """The outcomes that can be read off the source: constants, the branches of a choice, the values of a table."""
-    given = next((keyword.value for keyword in call.keywords if keyword.arg == "outcome"), ast.Constant("generic"))
-    functions = {n.name: n for n in ast.walk(tree(module)) if isinstance(n, ast.FunctionDef)}
-    roots: list[ast.AST] = [given]
-    roots += [functions[n.id] for n in ast.walk(given) if isinstance(n, ast.Name) and n.id in functions]
-    found: set[str] = set()
-    for root in roots:
-        for node in ast.walk(root):
-            branches: list[Any] = []
-            if isinstance(node, ast.IfExp):
-                branches = [node.body, node.orelse]
-            elif isinstance(node, ast.Return | ast.Lambda):
-                branches = [node.value if isinstance(node, ast.Return) else node.body]
-            elif isinstance(node, ast.Dict):
-                branches = node.values
-            elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(".get"):
-                branches = node.args[1:]
-            found |= {b.value for b in [*branches, given] if isinstance(b, ast.Constant) and isinstance(b.value, str)}
-    return found
-
-
-def documented_outcomes(module: str, call: ast.Call) -> set[str]:
-    """The outcomes that the docstring of the verb names, without what it says of them in brackets."""
-    functions = [n for n in tree(module).body if isinstance(n, ast.FunctionDef)]
-    verb = next((n for n in functions if n.lineno <= call.lineno <= (n.end_lineno or 0)), None)
-    told = re.search(r"Outcomes: (.*?)\.?\n\s*(?:\w+ ?\w*:|$)", (verb and ast.get_docstring(verb)) or "", re.DOTALL)
-    listed = re.sub(r"\([^()]*\)", "", told[1]) if told else ""
+def uses(module: str) -> dict[str, set[str]]:
+    """The constants that each top-level function of a module, or method of a class, establishes by."""
     return {
-        word.strip(" `.\n")
-        for word in re.split(r"[,:;]|\band\b", listed)
-        if re.fullmatch(r"[\s`]*[a-z_]+[\s`.]*", word)
+        node.name: {
+            ast.unparse(call.args[0])
+            for call in ast.walk(node)
+            if isinstance(call, ast.Call) and ast.unparse(call.func) == "establish"
+        }
+        for node in tree(module).body
+        if isinstance(node, ast.FunctionDef | ast.ClassDef)
     }
+
+
+def test_each_record_is_used_in_its_module() -> None:
+    for module, const, rule in RECORDS:
+        assert any(const in used for used in uses(module).values()), rule.name
+
+
+FUNCTIONS = {
+    (module, node.name): node for module in ENGINE for node in tree(module).body if isinstance(node, ast.FunctionDef)
+}
 
 
 @cache
-def reached_outcomes() -> dict[str, set[str]]:
-    """The outcomes that the variants of the block reach, by rule."""
-    found: dict[str, set[str]] = {}
-    for variant in VARIANTS:
-        for quantity in known_block(**variant).values():
-            found.setdefault(quantity.step.rule, set()).add(quantity.step.outcome)
+def names_from_elsewhere(module: str) -> dict[str, tuple[str, str]]:
+    """What a module has from others: the name that it uses, and where that is a function."""
+    return {
+        alias.asname or alias.name: (node.module.removeprefix("derive."), alias.name)
+        for node in ast.walk(tree(module))
+        if isinstance(node, ast.ImportFrom) and node.module
+        for alias in node.names
+    }
+
+
+def rules_of(module: str, name: str, seen: set[tuple[str, str]]) -> set[Rule]:
+    """The rules by which a function establishes, itself or by functions that are not verbs."""
+    seen.add((module, name))
+    nodes = list(ast.walk(FUNCTIONS[module, name]))
+    its_own = {n.arg for n in nodes if isinstance(n, ast.arg)}
+    its_own |= {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+    constants = {const: rule for where, const, rule in RECORDS if where == module}
+    found = {rule for const, rule in constants.items() if const in uses(module)[name]}
+    for used in {n.id for n in nodes if isinstance(n, ast.Name)} - its_own - set(verbs()):
+        there = names_from_elsewhere(module).get(used, (module, used))
+        if there in FUNCTIONS and there not in seen:
+            found |= rules_of(*there, seen)
     return found
 
 
-def test_every_rule_has_a_phrase_for_each_outcome() -> None:
-    rules = {rule for _, rule, _ in establishing_calls()}
-    impossible = {("rotation.angular_momentum", "zero")}  # it says `parallel` where the vector product vanishes
-    missing = {
-        (rule, outcome)
-        for module, rule, call in establishing_calls()
-        for outcome in written_outcomes(module, call)
-        | documented_outcomes(module, call)
-        | reached_outcomes().get(rule, set())
-        if outcome not in WORDS.rules.get(rule, {})
-    }
-    assert missing <= impossible
-    assert rules == set(WORDS.rules)
+def rules_of_verb(name: str) -> set[Rule]:
+    return rules_of(verbs()[name].__module__.removeprefix("derive."), name, set())
 
 
-def test_no_phrase_is_for_an_outcome_that_cannot_be() -> None:
-    possible = {rule: set(outcomes) for rule, outcomes in reached_outcomes().items()}
-    for module, rule, call in establishing_calls():
-        possible.setdefault(rule, set()).update(written_outcomes(module, call), documented_outcomes(module, call))
-    told = {
-        (rule, word)
-        for rule, phrases in WORDS.rules.items()
-        for key in phrases
-        for word in key.partition(AND)[0].split(AFTER)
-        if word not in WORDS.rules
-    }
-    told |= {(rule, key) for table in (WORDS.setups, WORDS.clauses) for rule in table for key in table[rule]}
-    spare = {(rule, outcome) for rule, outcome in told if outcome not in possible[rule]}
-    assert spare == set()
+def called(name: str) -> str:
+    """By what word its docstring calls the second way: the first of the two that it has."""
+    found = re.search(r"^(Second route|Check): ", inspect.getdoc(verbs()[name]) or "", re.MULTILINE)
+    return found[1] if found else ""
 
 
-def test_every_rule_has_words_for_each_second_route() -> None:
-    claims = {
-        (rule, key.value)
-        for _, rule, call in establishing_calls()
-        for keyword in call.keywords
-        if keyword.arg == "routes"
-        for table in ast.walk(keyword.value)
-        if isinstance(table, ast.Dict)
-        for key in table.keys
-        if isinstance(key, ast.Constant)
-    }
-    claims |= {
-        (rule, f"given_{key.value}")
-        for _, rule, call in establishing_calls()
-        for keyword in call.keywords
-        for named in ast.walk(keyword.value)
-        if isinstance(named, ast.Call) and re.search(r"\bnamed(_by)?$", ast.unparse(named.func))
-        for table in ast.walk(named)
-        if isinstance(table, ast.Dict)
-        for key in table.keys
-        if isinstance(key, ast.Constant)
-    }
-    claims |= {
-        (rule, "energy_identity")
-        for _, rule, call in establishing_calls()
-        if "further_routes" in ast.unparse(call)  # of a Lagrangian that is given
-    }
-    claims |= {
-        (rule, claim)
-        for _, rule, call in establishing_calls()
-        if "another_way" in ast.unparse(call)  # of `Body`, and of a body by its map
-        for claim in ("particles", "quadrature")
-    }
-    told = {(rule, claim) for rule, routes in WORDS.routes.items() for claim in routes}
-    assert claims == told
+@pytest.mark.parametrize("name", verbs())
+def test_a_docstring_says_second_route_where_one_goes_through_the_physics_and_check_where_none_does(name: str) -> None:
+    told = inspect.getdoc(verbs()[name]) or ""
+    as_another = re.search(r"(?:Second route|Check): as `(\w+)`", told)
+    rules = rules_of_verb(name)
+    ways = {way for rule in rules for way in rule.evidence.values()}
+    if ways:
+        assert called(name) == ("Second route" if ROUTE in ways else "Check")
+    elif rules:
+        assert "definition" in told
+    else:
+        assert as_another or called(name) == ""
+    if as_another:
+        assert called(name) == called(as_another[1])
 
 
-def test_of_each_second_way_it_is_decided_whether_it_is_a_route_through_the_physics_or_a_check() -> None:
-    told = {(rule, claim) for rule, routes in WORDS.routes.items() for claim in routes}
-    assert sorted(way for way in told if not is_decided(*way)) == []
-    assert {claim for _, claim in told} >= ROUTES | CHECKS
-    assert set(OTHERWISE) <= told
-
-
-def test_the_rules_that_are_told_to_have_checks_only_have_no_route() -> None:
-    text = (ROOT / "docs" / "soundness.md").read_text(encoding="utf-8")
-    told = re.findall(r"`(\w+\.\w+)`", text.partition("## What has checks only")[2].partition("## ")[0])
-    sorts = {rule: {sort_of(rule, claim) for claim in WORDS.routes[rule]} for rule in told}
-    assert len(told) > 50
-    assert all(found == {Compared.CHECK} for found in sorts.values())
-
-
-def test_a_definition_is_a_definition_and_everything_else_has_a_route() -> None:
-    for _, rule, call in establishing_calls():
-        named = {keyword.arg for keyword in call.keywords}
-        assert ("routes" in named) != ("definition" in named), rule
+@pytest.mark.parametrize("name", verbs())
+def test_a_docstring_names_outcomes_that_the_rules_of_the_verb_have(name: str) -> None:
+    told = re.search(r"Outcomes: (.*?)\.?\n\s*(?:\w+ ?\w*:|$)", inspect.getdoc(verbs()[name]) or "", re.DOTALL)
+    listed = re.sub(r"\([^()]*\)", "", told[1]) if told else ""
+    words = {word.strip(" `.\n") for word in re.split(r"[,:;]|\band\b", listed)}
+    outcomes = {outcome for rule in rules_of_verb(name) for outcome in rule.outcomes}
+    assert {word for word in words if re.fullmatch(r"[a-z_]+", word)} <= outcomes or not outcomes
 
 
 def test_quantities_are_made_by_establish_alone() -> None:
@@ -429,7 +381,8 @@ def _one_value_twice(pair: ast.AST) -> bool:
     one, other = (set(filter(None, map(ast.unparse, _written(each)))) for each in pair.elts)
     both = [each for each in pair.elts if isinstance(each, ast.Call) and ast.unparse(each.func) == "Relation"]
     turned = len(both) == 2 and len({tuple(sorted(map(ast.unparse, each.args))) for each in both}) == 1
-    return bool(one & other) or turned
+    manners = all(name.startswith("Manner.") for name in one | other)
+    return not manners and (bool(one & other) or turned)
 
 
 def _written(value: ast.expr) -> list[ast.expr]:

@@ -24,6 +24,7 @@ from derive.mechanics import (
 )
 from derive.steps.establish import Scope, establish
 from derive.steps.record import coordinate_named, recorded
+from derive.steps.rule import RULES
 from derive.steps.step import Quantity
 
 m, l, g, b = symbols("m l g b", positive=True)
@@ -36,12 +37,11 @@ def position(name: str, value: Any, *coordinates: Coordinate, kind: str = "lengt
     letters = {symbol: known for q in coordinates for symbol, known in q.letters.items()}
     value = Integer(value) if isinstance(value, int) else value
     return establish(
-        "answers.let",
+        RULES["answers.let"],
         scalar(name),
         lambda: value,
         {},
         key=name,
-        definition=True,
         kind=kind,
         scope=Scope(coordinates=letters),
     )

@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 from sympy import Expr, ImmutableDenseMatrix, Integer, sqrt, symbols
 
-import derive.mechanics.outcomes  # noqa: F401  which says what must hold
 from derive.algebra.ranges import POSITIVE, Range, within
 from derive.mechanics.answers.quadratics import Quadratic
-from derive.mechanics.outcomes.signs import turned
-from derive.steps.rule import Judged, holds
+from derive.steps.claims import turned
 from derive.steps.record import Run, recorded
+from derive.steps.rule import Judged
+from tests.rules import holds
 
 m, k = symbols("m k", positive=True)
 alpha, beta = symbols("alpha beta", real=True)

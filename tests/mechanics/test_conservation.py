@@ -13,6 +13,7 @@ from derive.algebra.expressions import Factors, Relation, Terms, explicit
 from derive.errors import Rejected
 from derive.mechanics import coordinate, rate_under
 from derive.steps.establish import Scope, establish
+from derive.steps.rule import RULES
 from derive.steps.step import Quantity
 
 M, k, b, g, l = symbols("M k b g l", positive=True)
@@ -26,11 +27,10 @@ both = SimpleNamespace(letters={**x.letters, **theta.letters})
 
 def named(key: str, value: Expr, moving: Any, kind: str | None = None) -> Quantity:
     return establish(
-        "answers.let",
+        RULES["answers.let"],
         Symbol(key, real=True),
         lambda: value,
         {},
-        definition=True,
         key=key,
         kind=kind,
         scope=Scope(coordinates=moving.letters),
@@ -39,12 +39,11 @@ def named(key: str, value: Expr, moving: Any, kind: str | None = None) -> Quanti
 
 def equation(left: Expr, moving: Any, right: Expr = NONE, key: str = "motion") -> Quantity:
     return establish(
-        "answers.let",
+        RULES["answers.let"],
         None,
         lambda: Relation(left, "=", right),
         {},
         outcome="equation",
-        definition=True,
         key=key,
         scope=Scope(coordinates=moving.letters),
     )
@@ -82,11 +81,10 @@ def test_each_equation_is_multiplied_by_what_the_quantity_needs() -> None:
     y = coordinate("y", "length")
     both = {**x.letters, **y.letters}
     turning = establish(
-        "answers.let",
+        RULES["answers.let"],
         Symbol("l_z", real=True),
         lambda: M * (x.symbol * y.rate - y.symbol * x.rate),
         {},
-        definition=True,
         key="l_z",
         scope=Scope(coordinates=both),
     )

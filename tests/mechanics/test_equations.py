@@ -9,13 +9,14 @@ from derive.algebra.expressions import vector
 from derive.errors import Rejected
 from derive.mechanics import Cuboid, Direction, any_angular_velocity, at, kinetic_energy, let, magnitude, spin
 from derive.steps.establish import establish
+from derive.steps.rule import RULES
 from derive.steps.step import Quantity
 from tests.mechanics.block import M, a, b, c, known_block, omega, outcomes, values
 
 
 def defined(name: str, *components: object) -> Quantity:
     column = Matrix(components).as_immutable()
-    return establish("answers.let", vector(name), lambda: column, {}, definition=True, key=name)
+    return establish(RULES["answers.let"], vector(name), lambda: column, {}, key=name)
 
 
 @pytest.mark.parametrize(

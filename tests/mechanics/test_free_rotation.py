@@ -26,6 +26,7 @@ from derive.mechanics import (
 )
 from derive.steps.derivation import derivation_of, from_json, to_json, with_ancestors
 from derive.steps.establish import Scope, establish
+from derive.steps.rule import RULES
 from derive.steps.step import Level, Quantity
 
 I_x, I_y, I_z, A, C = symbols("I_x I_y I_z A C", positive=True)
@@ -54,11 +55,10 @@ def component(i: int) -> Quantity:
     """A component of the angular velocity by itself."""
     names = component_names("omega")
     return establish(
-        "answers.let",
+        RULES["answers.let"],
         scalar("n"),
         lambda: names[i],
         {},
-        definition=True,
         key="n",
         kind="angular speed",
         scope=Scope(coordinates=dict.fromkeys(names, "angular speed")),

@@ -23,8 +23,8 @@ from derive.mechanics import (
     space,
     stability,
 )
-from derive.mechanics.rest.growth import grows_always, is_turned_aside
 from derive.mechanics.rest import stability as minima
+from derive.mechanics.rest.growth import grows_always, is_turned_aside
 from derive.steps.record import recorded
 
 m, q, B, k, c, w = symbols("m q B k c omega", positive=True)

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 from sympy import Integer, Symbol, cos, exp, pi, symbols
 
-import derive.mechanics.outcomes  # noqa: F401  which says what must hold
 from derive.algebra.expressions import TIME, Relation, rate, scalar
 from derive.errors import Unverified
 from derive.mechanics import (
@@ -33,10 +32,11 @@ from derive.mechanics.lagrange.facts import KeptMomentum
 from derive.mechanics.model.forces import Charge, GivenForce
 from derive.mechanics.rest.facts import LowestOrder
 from derive.mechanics.vibrations.facts import SquareOf
-from derive.steps.rule import Judged, wrongly_handed_on, wrongly_named
 from derive.steps.record import recorded
+from derive.steps.rule import Judged, wrongly_handed_on
 from derive.steps.step import Quantity
 from tests.mutation.runs import RUNS
+from tests.rules import wrongly_named
 
 M, m, R, l, h, k, K, s = symbols("M m R l h k K s", positive=True)
 x, w = scalar("x"), scalar("w")

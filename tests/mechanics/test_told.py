@@ -12,9 +12,10 @@ from sympy.core.symbol import Str
 from derive.algebra.expressions import TIME, Relation, rate, scalar
 from derive.errors import Unverified
 from derive.steps.establish import establish
-from derive.steps.rule import Judged, told_rightly
+from derive.steps.rule import RULES, Judged
 from derive.steps.subject import Subject
 from tests.mechanics.block import known_block
+from tests.rules import stated_rightly
 
 R, a, r, z, h, m, g = symbols("R a r z h m g", positive=True)
 x, y, q, theta = (scalar(name) for name in ("x", "y", "q", "theta"))
@@ -41,8 +42,8 @@ def cylindrical(**changed: Any) -> Judged:
     "wrong", [{"x_is": -r * cos(theta)}, {"y_is": r}, {"x_is": r * sin(theta), "y_is": r * cos(theta)}]
 )
 def test_cylindrical_coordinates_are_judged_by_their_element(wrong: dict[str, Any]) -> None:
-    assert told_rightly("bodies.section_radius", "straight", cylindrical())
-    assert not told_rightly("bodies.section_radius", "straight", cylindrical(**wrong))
+    assert stated_rightly("bodies.section_radius", "straight", cylindrical())
+    assert not stated_rightly("bodies.section_radius", "straight", cylindrical(**wrong))
 
 
 class Cone:
@@ -55,28 +56,28 @@ class Cone:
 
 @pytest.mark.parametrize(("volume", "right"), [(pi * R**2 * h / 3, True), (pi * R**2 * h / 2, False)])
 def test_a_volume_is_judged_by_its_cross_sections(volume: Any, right: bool) -> None:
-    assert told_rightly("bodies.volume", "cylindrical", Judged(volume, {}, subject=Subject(body=Cone()))) == right
+    assert stated_rightly("bodies.volume", "cylindrical", Judged(volume, {}, subject=Subject(body=Cone()))) == right
 
 
 def test_two_roles_of_a_rotation_cannot_be_exchanged() -> None:
     found = known_block()
     roles = {"inertia": found["inertia_tensor"], "omega": found["spin"]}
     other = {"inertia": found["spin"], "omega": found["inertia_tensor"]}
-    assert told_rightly("rotation.angular_momentum", "generic", Judged(Integer(1), quantities=roles))
-    assert not told_rightly("rotation.angular_momentum", "generic", Judged(Integer(1), quantities=other))
+    assert stated_rightly("rotation.angular_momentum", "generic", Judged(Integer(1), quantities=roles))
+    assert not stated_rightly("rotation.angular_momentum", "generic", Judged(Integer(1), quantities=other))
 
 
 @pytest.mark.parametrize(("named", "right"), [("centre", True), ("corner", False)])
 def test_the_point_that_is_named_is_the_one_of_the_result(named: str, right: bool) -> None:
     facts = Judged(Integer(1), subject=Subject(point=Centre()), words={"about": named})
-    assert bool(told_rightly("some.rule", "generic", facts)) is right
+    assert bool(stated_rightly("answers.let", "generic", facts)) is right
 
 
 def test_two_moments_cannot_have_one_name() -> None:
     names = ImmutableDenseMatrix([scalar("I_1"), scalar("I_3"), scalar("I_3")])
     values = ImmutableDenseMatrix([a, a, R])
     with pytest.raises(Unverified, match="have one name"):
-        establish("answers.let", names, lambda: values, {}, key="moments", definition=True)
+        establish(RULES["answers.let"], names, lambda: values, {}, key="moments")
 
 
 @pytest.mark.parametrize(
@@ -116,34 +117,34 @@ def test_two_moments_cannot_have_one_name() -> None:
     ],
 )
 def test_what_is_told_is_what_it_is_called(rule: str, right: Judged, wrong: Judged) -> None:
-    assert told_rightly(rule, "generic", right)
-    assert not told_rightly(rule, "generic", wrong)
+    assert stated_rightly(rule, "generic", right)
+    assert not stated_rightly(rule, "generic", wrong)
 
 
 @pytest.mark.parametrize("wrong", [Relation(R, "<=", 0), Relation(R, "<", a)])
 def test_that_no_root_is_real_is_said_of_what_is_below_zero(wrong: Relation) -> None:
-    assert told_rightly("answers.one_of_two", "none", Judged(Relation(R, "<", 0)))
-    assert not told_rightly("answers.one_of_two", "none", Judged(wrong))
+    assert stated_rightly("answers.one_of_two", "none", Judged(Relation(R, "<", 0)))
+    assert not stated_rightly("answers.one_of_two", "none", Judged(wrong))
 
 
 def test_a_long_diagonal_is_called_so() -> None:
     right, wrong = (Judged(R, words={"axis": name}) for name in ("diagonal", "corner"))
-    assert told_rightly("bodies.axis_vector", "diagonal", right)
-    assert not told_rightly("bodies.axis_vector", "diagonal", wrong)
+    assert stated_rightly("bodies.axis_vector", "diagonal", right)
+    assert not stated_rightly("bodies.axis_vector", "diagonal", wrong)
 
 
 @pytest.mark.parametrize("mark", ["<", ">", "!="])
 def test_nothing_is_less_than_itself(mark: str) -> None:
     with pytest.raises(Unverified, match="can never hold"):
-        establish("answers.let", None, lambda: Relation(a, mark, a), {}, key="bound", definition=True)
+        establish(RULES["answers.let"], None, lambda: Relation(a, mark, a), {}, key="bound")
 
 
 def test_the_component_along_the_axis_is_that_along_z() -> None:
     beside = Judged(R, {"along": Str("y")}, **(FROM_CENTRE | {"symbol": scalar("r_y")}))
-    assert told_rightly("bodies.centre_component", "on_axis", Judged(R, {"along": Str("z")}, **FROM_CENTRE))
-    assert told_rightly("bodies.centre_component", "generic", beside)
-    assert not told_rightly("bodies.centre_component", "on_axis", beside)
-    assert not told_rightly("bodies.centre_component", "generic", Judged(R, {"along": Str("y")}, **FROM_CENTRE))
+    assert stated_rightly("bodies.centre_component", "on_axis", Judged(R, {"along": Str("z")}, **FROM_CENTRE))
+    assert stated_rightly("bodies.centre_component", "generic", beside)
+    assert not stated_rightly("bodies.centre_component", "on_axis", beside)
+    assert not stated_rightly("bodies.centre_component", "generic", Judged(R, {"along": Str("y")}, **FROM_CENTRE))
 
 
 @pytest.mark.parametrize(
@@ -151,8 +152,8 @@ def test_the_component_along_the_axis_is_that_along_z() -> None:
 )
 def test_what_is_a_size_is_not_negative(rule: str) -> None:
     of = {"equation": Relation(x, "=", 0), "q": x}
-    assert told_rightly(rule, "generic", Judged(a / R, of))
-    assert not told_rightly(rule, "generic", Judged(-a / R, of))
+    assert stated_rightly(rule, "generic", Judged(a / R, of))
+    assert not stated_rightly(rule, "generic", Judged(-a / R, of))
 
 
 ROOTS = {"equation": Relation(a * q**2, "=", z), "unknown": q, "positive": Integer(0), "count": Integer(2)}
@@ -161,45 +162,45 @@ ROOTS = {"equation": Relation(a * q**2, "=", z), "unknown": q, "positive": Integ
 def test_a_root_is_real_where_it_is_said_to_be_and_nowhere_else() -> None:
     facts = {"symbol": scalar("q_1"), "words": {"asked": "roots"}}
     root = sqrt(x / a)
-    assert told_rightly("answers.roots", "several", Judged(root, ROOTS | {"condition": Relation(x, ">", 0)}, **facts))
+    assert stated_rightly("answers.roots", "several", Judged(root, ROOTS | {"condition": Relation(x, ">", 0)}, **facts))
     for told in ({}, {"condition": Relation(x, "<", 0)}, {"condition": Relation(a, ">", 0)}):
-        assert not told_rightly("answers.roots", "several", Judged(root, ROOTS | told, **facts))
-    assert not told_rightly("answers.roots", "several", Judged(R, ROOTS, **(facts | {"symbol": q})))
+        assert not stated_rightly("answers.roots", "several", Judged(root, ROOTS | told, **facts))
+    assert not stated_rightly("answers.roots", "several", Judged(R, ROOTS, **(facts | {"symbol": q})))
 
 
 def test_a_motion_starts_as_its_sentence_says() -> None:
     of = {"equation": Relation(x, "=", 0), "q": x}
     start = {"start": Relation(x, "=", R), "start_rate": Relation(rate(x), "=", a)}
-    assert told_rightly("vibrations.solution", "uniform", Judged(R + a * TIME, of | start))
-    assert not told_rightly("vibrations.solution", "uniform", Judged(a + R * TIME, of | start))
+    assert stated_rightly("vibrations.solution", "uniform", Judged(R + a * TIME, of | start))
+    assert not stated_rightly("vibrations.solution", "uniform", Judged(a + R * TIME, of | start))
     other = of | start | {"q": Relation(x, "=", 0)}
-    assert not told_rightly("vibrations.solution", "uniform", Judged(R + a * TIME, other))
+    assert not stated_rightly("vibrations.solution", "uniform", Judged(R + a * TIME, other))
 
 
 def test_a_comparison_has_the_word_of_its_mark() -> None:
     at_most = {"words": {"comparison": "at_most"}}
     compared = {"quantity": R, "bound": a, "difference": R - a}
-    assert told_rightly("answers.where", "solved", Judged(R, {**compared, "mark": Str("<=")}, **at_most))
-    assert not told_rightly("answers.where", "solved", Judged(R, {**compared, "mark": Str("=")}, **at_most))
+    assert stated_rightly("answers.where", "solved", Judged(R, {**compared, "mark": Str("<=")}, **at_most))
+    assert not stated_rightly("answers.where", "solved", Judged(R, {**compared, "mark": Str("=")}, **at_most))
 
 
 def test_a_quantity_is_compared_with_its_bound_and_not_the_other_way_round() -> None:
     turned = {"quantity": Integer(0), "bound": R, "difference": R, "mark": Str(">")}
-    assert not told_rightly("answers.where", "solved", Judged(R, turned, words={"comparison": "greater_than"}))
+    assert not stated_rightly("answers.where", "solved", Judged(R, turned, words={"comparison": "greater_than"}))
 
 
 def test_the_tangent_of_a_lag_is_told_as_such() -> None:
-    assert told_rightly("vibrations.lag", "damped", Judged(R, symbol=tan(theta)))
-    assert not told_rightly("vibrations.lag", "damped", Judged(R, symbol=theta))
+    assert stated_rightly("vibrations.lag", "damped", Judged(R, symbol=tan(theta)))
+    assert not stated_rightly("vibrations.lag", "damped", Judged(R, symbol=theta))
 
 
 def test_the_given_number_fulfils_a_condition_just_where_it_is_said_to() -> None:
     for given, word, right in ((3, "fulfilled", True), (1, "fulfilled", False), (1, "not_fulfilled", True)):
         inputs = {"given": Relation(x, "=", Integer(given)), "condition": Relation(Integer(given), ">", Integer(2))}
         facts = Judged(Relation(x, ">", Integer(2)), inputs, words={"seen": word})
-        assert told_rightly("numeric.value", "measured", facts) == right
+        assert stated_rightly("numeric.value", "measured", facts) == right
     other = {"given": Relation(x, "=", Integer(5)), "condition": Relation(Integer(3), ">", Integer(2))}
-    assert not told_rightly(
+    assert not stated_rightly(
         "numeric.value", "measured", Judged(Relation(x, ">", Integer(2)), other, words={"seen": "fulfilled"})
     )
-    assert told_rightly("numeric.value", "measured", Judged(x, {}))
+    assert stated_rightly("numeric.value", "measured", Judged(x, {}))

@@ -16,15 +16,16 @@ from pathlib import Path
 from typing import Any
 
 from derive.algebra.kinds import KINDS
-from derive.steps.rule import known_outcomes
 from tests.courses import ROOT
+from tests.rules import records as rules
 
 MODULES = (
     *sorted(
         ".".join(path.relative_to(ROOT / "derive").with_suffix("").parts)
         for path in (ROOT / "derive" / "mechanics").rglob("*.py")
-        if path.stem not in {"__init__", "arguments", "landmarks"} and path.parent.name != "outcomes"
+        if path.stem not in {"__init__", "arguments", "landmarks", "claims", "growth", "searched", "on_constraints"}
     ),  # the others only check
+    *sorted(f"solving.{path.stem}" for path in (ROOT / "derive" / "solving").glob("[a-z]*.py")),
     "steps.numeric",
     "steps.chain",
     "steps.establish",
@@ -121,13 +122,8 @@ def mutants_of(module: str) -> tuple[ast.Module, list[Mutant]]:
     """The tree of a module, and every mutant of it, in the order of the text."""
     importlib.import_module("derive.mechanics")
     tree = ast.parse(SOURCES[module])
-    rules = known_outcomes()
-    own = {
-        node.args[0].value
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and _called(node) == "establish" and isinstance(node.args[0], ast.Constant)
-    }
-    maker = _Maker(module, tree, {rule: outcomes for rule, outcomes in rules.items() if rule in own})
+    records = [rule for name, _, rule in rules() if name == module]
+    maker = _Maker(module, tree, {rule.name: tuple(rule.outcomes) for rule in records if len(rule.outcomes) > 1})
     found = list(maker.mutants())
     counted: Counter[str] = Counter()
     for mutant in found:
@@ -180,6 +176,8 @@ class _Maker:
             for i, inner in enumerate(statement.body):
                 yield from self._below(inner, statement, "body", i)
         elif isinstance(statement, ast.Assign | ast.AnnAssign) and statement.value is not None:
+            if isinstance(statement.value, ast.Call) and _called(statement.value) == "Rule":
+                return  # it only checks
             target = statement.targets[0] if isinstance(statement, ast.Assign) else statement.target
             if isinstance(target, ast.Name):
                 self.where = f"{prefix}{target.id}"

@@ -18,6 +18,7 @@ from derive.page.wording import Phrases, Text, phrases
 from derive.steps.establish import establish
 from derive.steps.step import Step, compared_with
 from tests.courses import ROOT
+from tests.rules import made_up
 
 a, b = symbols("a b", positive=True)
 
@@ -30,9 +31,7 @@ def words() -> Phrases:
 def step(key: str, *claims: str, definition: bool = False) -> Step:
     """(a + b)^2 by a rule whose second routes have words."""
     routes = dict.fromkeys(claims, compared_with(lambda: a**2 + 2 * a * b + b**2))
-    made = establish(
-        "test.square", scalar("s"), lambda: (a + b) ** 2, {}, key=key, routes=routes, definition=definition
-    )
+    made = establish(made_up("test.square"), scalar("s"), lambda: (a + b) ** 2, {}, key=key, routes=routes)
     return made.step
 
 

@@ -25,13 +25,14 @@ from derive.steps.chain import (
 )
 from derive.steps.establish import establish
 from derive.steps.step import Form, Level, Quantity
+from tests.rules import made_up
 
 a, b, x = symbols("a b x", positive=True)
 s = scalar("s")
 
 
 def made(key: str, symbol: Any, value: Any) -> Quantity:
-    return establish(f"test.{key}", symbol, lambda: value, {}, definition=True)
+    return establish(made_up(f"test.{key}"), symbol, lambda: value, {})
 
 
 def evidence_of(*exprs: Any, because: str = "result", motion: Any = None) -> Any:

@@ -18,10 +18,11 @@ from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 from tests.mechanics.block import AMOUNTS, a, known_block
 from tests.mechanics.slab import known_slab
+from tests.rules import made_up
 
 
 def made(key: str, *parents: Quantity, value: Any = a) -> Quantity:
-    return establish("test.made", scalar(key), lambda: value, {}, key=key, definition=True, parents=parents)
+    return establish(made_up("test.made"), scalar(key), lambda: value, {}, key=key, parents=parents)
 
 
 # A small tree: `top` and `side` both rest on `shared`, which rests on `root`.

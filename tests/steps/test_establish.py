@@ -14,10 +14,12 @@ from derive.algebra.rounding import Rounded
 from derive.errors import Unverified
 from derive.mechanics import let
 from derive.steps.establish import Lines, establish
-from derive.steps.rule import _PREDICATES, outcomes_of
+from derive.steps.rule import Rule
 from derive.steps.step import Form, Level, Quantity, compared_with
+from tests.rules import made_up
 
 a, b, x = symbols("a b x", positive=True)
+DEFINITION = Rule("test.sum_of_squares")
 
 
 def sum_of_squares(**changes: Any) -> Quantity:
@@ -28,7 +30,9 @@ def sum_of_squares(**changes: Any) -> Quantity:
         "routes": {"squares": compared_with(lambda: a**2 + b**2)},
         **changes,
     }
-    return establish("test.sum_of_squares", scalar("s"), arguments.pop("law"), arguments.pop("inputs"), **arguments)
+    routes = arguments["routes"] or {}
+    rule = arguments.pop("rule", made_up("test.sum_of_squares", "squares", *routes))
+    return establish(rule, scalar("s"), arguments.pop("law"), arguments.pop("inputs"), **arguments)
 
 
 def refusal_of(make: Callable[[], Any]) -> Any:
@@ -96,7 +100,7 @@ def test_a_series_has_the_derivatives_of_the_whole_and_no_term_beyond(
 ) -> None:
     def made() -> Quantity:
         series = Form(Truncated(polynomial, x, Integer(0), Integer(order)), "series")
-        return establish("test.s", scalar("s"), lambda: cos(x), {}, definition=True, lines=Lines(after=[series]))
+        return establish(made_up("test.s"), scalar("s"), lambda: cos(x), {}, lines=Lines(after=[series]))
 
     if message:
         assert message in refusal_of(made).message
@@ -107,20 +111,20 @@ def test_a_series_has_the_derivatives_of_the_whole_and_no_term_beyond(
 def test_a_step_without_a_second_route_is_refused_unless_it_is_a_definition() -> None:
     assert refusal_of(lambda: sum_of_squares(routes={})).code == "no-second-route"
     assert refusal_of(lambda: sum_of_squares(routes=None)).code == "no-second-route"
-    assert sum_of_squares(routes=None, definition=True).step.evidence[-1].grade is Grade.DEFINITION
+    assert sum_of_squares(routes=None, rule=DEFINITION).step.evidence[-1].grade is Grade.DEFINITION
 
 
 def test_a_definition_still_has_lines_that_must_follow() -> None:
     wrong = [Form(a**2, "slip")]
     assert (
-        "line 2" in refusal_of(lambda: sum_of_squares(routes=None, definition=True, lines=Lines(between=wrong))).message
+        "line 2" in refusal_of(lambda: sum_of_squares(routes=None, rule=DEFINITION, lines=Lines(between=wrong))).message
     )
 
 
 def test_the_law_is_read_with_names_and_with_values() -> None:
     p = sum_of_squares(key="first")
     twice = establish(
-        "test.twice",
+        made_up("test.twice", "sum"),
         scalar("t"),
         lambda s: 2 * s,
         {"s": p},
@@ -133,10 +137,10 @@ def test_the_law_is_read_with_names_and_with_values() -> None:
 
 
 def test_a_vector_brings_the_names_of_its_components_along() -> None:
-    v = establish("test.v", vector("v"), lambda: column(a, b, 0), {}, definition=True)
+    v = establish(made_up("test.v"), vector("v"), lambda: column(a, b, 0), {})
     v_x, v_y, _ = component_names("v")
     product = establish(
-        "test.product",
+        made_up("test.product", "plain"),
         scalar("p"),
         lambda _: v_x * v_y,
         {"v": v},
@@ -147,13 +151,15 @@ def test_a_vector_brings_the_names_of_its_components_along() -> None:
 
 def test_the_outcome_is_chosen_by_the_result_and_judged_by_its_predicate() -> None:
     sums = {"sum": lambda facts: facts.result.is_Add, "single": lambda facts: not facts.result.is_Add}
-    outcomes_of("test.sum_of_squares", sums)
-    try:
-        assert sum_of_squares(outcome=lambda s: "sum" if s.is_Add else "single").step.outcome == "sum"
-        assert "could not be confirmed" in refusal_of(lambda: sum_of_squares(outcome="single")).message
-        assert "could not be confirmed" in refusal_of(lambda: sum_of_squares(outcome="unheard_of")).message
-    finally:
-        _PREDICATES.pop("test.sum_of_squares")
+    rule = made_up("test.sum_of_squares", "squares", outcomes=sums)
+    assert sum_of_squares(rule=rule, outcome=lambda s: "sum" if s.is_Add else "single").step.outcome == "sum"
+    assert "could not be confirmed" in refusal_of(lambda: sum_of_squares(rule=rule, outcome="single")).message
+    assert "could not be confirmed" in refusal_of(lambda: sum_of_squares(rule=rule, outcome="unheard_of")).message
+
+
+def test_a_claim_that_the_rule_does_not_have_is_refused() -> None:
+    rule = made_up("test.sum_of_squares", "other")
+    assert "does not say what `squares` is evidence of" in refusal_of(lambda: sum_of_squares(rule=rule)).message
 
 
 def test_an_outcome_that_no_predicate_judges_is_refused() -> None:
@@ -171,7 +177,7 @@ def test_a_rounded_line_may_be_off_by_half_a_unit_and_no_more(value: str, fits: 
 
     def third() -> Quantity:
         return establish(
-            "test.third",
+            made_up("test.third", "put_back"),
             scalar("t"),
             lambda: Rational(1, 3),
             {},
@@ -188,7 +194,7 @@ def test_a_rounded_line_may_be_off_by_half_a_unit_and_no_more(value: str, fits: 
 
 def test_trigonometry_in_a_line_is_decided_exactly() -> None:
     step = establish(
-        "test.one",
+        made_up("test.one", "half_angles"),
         scalar("one"),
         lambda: sin(x) ** 2 + cos(x) ** 2,
         {},
@@ -201,9 +207,9 @@ def test_trigonometry_in_a_line_is_decided_exactly() -> None:
 def test_a_name_that_stands_for_itself_is_let_be() -> None:
     """A general omega has components omega_x, omega_y, omega_z, which are just names."""
     open_components = column(*symbols("w_x w_y w_z", real=True))
-    w = establish("test.w", vector("w"), lambda: open_components, {}, definition=True)
+    w = establish(made_up("test.w"), vector("w"), lambda: open_components, {})
     size = establish(
-        "test.size",
+        made_up("test.size", "sum"),
         scalar("n"),
         lambda v: Dot(v, v),
         {"w": w},
@@ -217,7 +223,7 @@ def test_a_name_that_stands_for_itself_is_let_be() -> None:
 def test_an_outcome_that_belies_the_result_is_refused(outcome: str, zero: bool) -> None:
     complaint = refusal_of(
         lambda: establish(
-            "test.difference",
+            made_up("test.difference", "again"),
             scalar("d"),
             lambda p, q: p - q,
             {"p": a, "q": a if zero else b},

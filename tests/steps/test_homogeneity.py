@@ -18,6 +18,7 @@ from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Form, Quantity, Step
 from tests.mechanics import slab
 from tests.mechanics.block import M, a, known_block, omega
+from tests.rules import made_up
 
 x, t = symbols("x t", real=True)
 v, L = ex.vector("v"), ex.vector("L")
@@ -137,12 +138,11 @@ def test_a_wrong_dimension_in_a_motion_is_found_where_it_first_shows() -> None:
 def made(result: Expr, kind: str | None = None, *lines: Expr) -> Quantity:
     after = [Form(line, "line") for line in lines]
     return establish(
-        "test.made",
+        made_up("test.made"),
         ex.scalar("q"),
         lambda: result,
         {},
         key="made",
-        definition=True,
         kind=kind,
         lines=Lines(after=after),
     )

@@ -18,6 +18,7 @@ from derive.steps.establish import Lines, establish
 from derive.steps.numeric import coefficient_of, comparison_of, value_of
 from derive.steps.step import Quantity
 from tests.mechanics.block import AMOUNTS, M, a, known_block, omega
+from tests.rules import made_up
 
 ONE, CENTI = Integer(1), Rational(1, 100)
 
@@ -122,7 +123,7 @@ NEAR = [Rational(39_999, 1000), 40 - Rational(1, 10**12), 40 + Rational(1, 10**3
 
 def near_critical(value: Any, width: Expr) -> Quantity | None:
     """The value of what vanishes where c = 2 a, for a = 20 cm and a width of nearly 40 cm."""
-    made = establish("test.made", Symbol("s"), lambda: value, {}, definition=True)
+    made = establish(made_up("test.made"), Symbol("s"), lambda: value, {})
     return value_of(made, {a: Amount(Integer(20), "cm", CENTI), c: Amount(width, "cm", CENTI)}, "", ONE, 6)
 
 
@@ -150,11 +151,10 @@ def test_a_value_that_differs_by_little_is_refused(monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize("width", [*NEAR, Integer(40)], ids=str)
 def test_an_inequality_is_told_by_numbers_however_near(width: Expr) -> None:
     condition = establish(
-        "test.condition",
+        made_up("test.condition"),
         None,
         lambda: Relation(sqrt(2) * c, ">", sqrt(8) * a),
         {},
-        definition=True,
         lines=Lines(arranged=lambda r: r),
     )
     found = comparison_of(condition, {a: Amount(Integer(20), "cm", CENTI), c: Amount(width, "cm", CENTI)})
@@ -175,7 +175,7 @@ def test_any_number_put_in_agrees_with_plain_arithmetic(number: int, power: int,
 @pytest.mark.parametrize(("width", "word"), [(41, "fulfilled"), (40, "not_fulfilled"), (39, "not_fulfilled")])
 def test_of_a_condition_it_is_told_whether_the_given_number_fulfils_it(width: int, word: str) -> None:
     condition = establish(
-        "test.condition", None, lambda: Relation(c, ">", 2 * a), {}, definition=True, lines=Lines(arranged=lambda r: r)
+        made_up("test.condition"), None, lambda: Relation(c, ">", 2 * a), {}, lines=Lines(arranged=lambda r: r)
     )
     amounts = {a: Amount(Integer(20), "cm", CENTI), c: Amount(Integer(width), "cm", CENTI)}
     found = value_of(condition, amounts, "m", ONE, 4, more=[("cm", CENTI)])

@@ -21,13 +21,14 @@ from derive.steps.record import (
     recorded,
     require_constant,
 )
+from tests.rules import made_up
 from tests.steps.test_establish import a, b, sum_of_squares
 
 q, w = symbols("q w", real=True)
 
 
 def named(key: str, value: Any, **more: Any) -> Any:
-    return establish(f"test.{key}", scalar("s"), lambda: value, {}, definition=True, **more)
+    return establish(made_up(f"test.{key}"), scalar("s"), lambda: value, {}, **more)
 
 
 def test_everything_established_within_is_recorded_and_nothing_else() -> None:
@@ -83,7 +84,7 @@ def test_the_letter_of_a_coordinate_may_be_given_a_value_in_one_motion() -> None
     with recorded():
         coordinate_named(q, "angle")
         for key, value in (("here", a), ("there", b)):
-            establish(f"test.{key}", q, lambda value=value: value, {}, definition=True)
+            establish(made_up(f"test.{key}"), q, lambda value=value: value, {})
 
 
 def test_an_assumption_is_noted_once_and_nowhere_outside_a_run() -> None:
@@ -124,7 +125,7 @@ def test_what_changes_is_refused_where_a_law_is_one_for_constants() -> None:
 
 def test_a_vector_of_names_alone_may_become_any_vector_of_its_letter() -> None:
     def vector_v(key: str, value: Any) -> None:
-        establish(f"test.{key}", vector("v"), lambda: value, {}, definition=True)
+        establish(made_up(f"test.{key}"), vector("v"), lambda: value, {})
 
     with recorded():
         vector_v("open", column(*component_names("v")))

@@ -25,8 +25,8 @@ from derive.mechanics import (
     speed_from_energy,
     weight,
 )
-from derive.steps.rule import Judged
 from derive.steps.record import recorded
+from derive.steps.rule import Judged
 from derive.steps.step import Form, Quantity
 from derive.witness import along
 from derive.witness.claim import Claim

@@ -20,8 +20,8 @@ from derive.mechanics import (
     put_in,
     weight,
 )
-from derive.steps.rule import Judged
 from derive.steps.record import recorded
+from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness.claim import Claim, agree, seen, substituted
 from derive.witness.dynamics import Blueprint

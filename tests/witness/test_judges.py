@@ -6,8 +6,8 @@ import ast
 from pathlib import Path
 
 from derive.mechanics import Particle, System, coordinate, lagrangian, point, weight
-from derive.steps.rule import Judged
 from derive.steps.record import recorded
+from derive.steps.rule import Judged
 from derive.witness import judges
 from tests.courses import ROOT
 from tests.witness.systems import PENDULUM, g, m

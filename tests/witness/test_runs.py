@@ -27,8 +27,8 @@ from derive.mechanics import (
     speed_from_energy,
     weight,
 )
-from derive.steps.rule import Judged
 from derive.steps.record import recorded
+from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness import runs
 from derive.witness.claim import Claim

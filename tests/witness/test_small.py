@@ -30,8 +30,8 @@ from derive.mechanics import (
     t,
     weight,
 )
-from derive.steps.rule import Judged
 from derive.steps.record import recorded
+from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness import small
 from derive.witness.claim import Claim

@@ -1,0 +1,64 @@
+"""Write the page of all rules, and the list of those with checks only, from the records next to the verbs."""
+
+from __future__ import annotations
+
+import textwrap
+from itertools import groupby
+from pathlib import Path
+
+import derive.mechanics
+import derive.steps.numeric  # noqa: F401
+from derive.steps.rule import CHECK, ROUTE, RULES, Rule
+
+DOCS = Path(__file__).parent.parent / "docs"
+DOCUMENT, SOUNDNESS = DOCS / "rules.md", DOCS / "soundness.md"
+START, END = "<!-- rules with checks only, by tools/rules.py -->\n", "<!-- the end of these rules -->\n"
+HEAD = """# The rules
+
+Each step of a solution is made by one of these rules. A rule is a record in the code, next to the verb that uses it. Its
+*outcomes* choose the sentence; each has a predicate that must be true of the result. Its *routes* reach the result by another
+path through the physics, its *checks* put the result to a test. A rule without either is a definition.
+`python -P -m tools.rules` writes this page from the records.
+"""
+
+
+def document() -> str:
+    """A section for each folder, with a row for each of its rules."""
+    rules = sorted(RULES.values(), key=lambda rule: rule.name)
+    parts = [HEAD]
+    for folder, own in groupby(rules, key=lambda rule: rule.name.partition(".")[0]):
+        parts.append(
+            f"\n## {folder.capitalize()}\n\n| rule | outcomes | routes | checks | source |\n|---|---|---|---|---|\n"
+        )
+        parts += [_row(rule) for rule in own]
+    return "".join(parts)
+
+
+def _row(rule: Rule) -> str:
+    ways = {sort: [claim for claim, each in rule.evidence.items() if each is sort] for sort in (ROUTE, CHECK)}
+    cells = [rule.key, _listed(rule.outcomes), *(_listed(ways[sort]) for sort in (ROUTE, CHECK)), rule.source]
+    return "| " + " | ".join([f"`{cells[0]}`", *cells[1:]]) + " |\n"
+
+
+def _listed(words: object) -> str:
+    return ", ".join(str(word).replace("_", " ") for word in words)  # type: ignore[attr-defined]
+
+
+def with_checks_only() -> str:
+    names = sorted(rule.name for rule in RULES.values() if rule.evidence and ROUTE not in rule.evidence.values())
+    return textwrap.fill(", ".join(f"`{name}`" for name in names), 120, break_on_hyphens=False) + ".\n"
+
+
+def soundness(text: str) -> str:
+    """The page with the list as it is now."""
+    before, _, rest = text.partition(START)
+    return before + START + with_checks_only() + END + rest.partition(END)[2]
+
+
+def main() -> None:
+    DOCUMENT.write_text(document(), encoding="utf-8")
+    SOUNDNESS.write_text(soundness(SOUNDNESS.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
