@@ -22,6 +22,7 @@ import derive.steps.establish
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, Relation, explicit
 from derive.errors import DeriveError
+from derive.steps.rule import Rule
 from derive.steps.step import Route
 from tests.mutation.runs import RUNS, Run
 
@@ -110,11 +111,11 @@ def established_in(run: Run) -> list[Established]:
     found: list[Established] = []
     evidence_of = derive.steps.establish.evidence_of_routes
 
-    def noted(key: str, rule: str, result: Any, routes: Mapping[str, Route]) -> Any:
+    def noted(key: str, rule: Rule, result: Any, routes: Mapping[str, Route]) -> Any:
         asking = sys._getframe(1).f_locals  # those of `establish`
         if routes:
             moving = frozenset(asking["scope"].coordinates)
-            found.append(Established(run.name, rule, key, result, dict(routes), moving))
+            found.append(Established(run.name, rule.name, key, result, dict(routes), moving))
         return evidence_of(key, rule, result, routes)
 
     with patch.object(derive.steps.establish, "evidence_of_routes", noted):

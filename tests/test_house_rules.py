@@ -6,7 +6,7 @@ import ast
 import inspect
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -312,23 +312,25 @@ def names_from_elsewhere(module: str) -> dict[str, tuple[str, str]]:
     }
 
 
-def rules_of(module: str, name: str, seen: set[tuple[str, str]]) -> set[Rule]:
-    """The rules by which a function establishes, itself or by functions that are not verbs."""
+def rules_of(module: str, name: str, seen: set[tuple[str, str]], but_for: Collection[str]) -> set[Rule]:
+    """The rules by which a function establishes, itself or by functions other than these."""
     seen.add((module, name))
     nodes = list(ast.walk(FUNCTIONS[module, name]))
     its_own = {n.arg for n in nodes if isinstance(n, ast.arg)}
     its_own |= {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
     constants = {const: rule for where, const, rule in RECORDS if where == module}
     found = {rule for const, rule in constants.items() if const in uses(module)[name]}
-    for used in {n.id for n in nodes if isinstance(n, ast.Name)} - its_own - set(verbs()):
+    for used in {n.id for n in nodes if isinstance(n, ast.Name)} - its_own - set(but_for):
         there = names_from_elsewhere(module).get(used, (module, used))
         if there in FUNCTIONS and there not in seen:
-            found |= rules_of(*there, seen)
+            found |= rules_of(*there, seen, but_for)
     return found
 
 
-def rules_of_verb(name: str) -> set[Rule]:
-    return rules_of(verbs()[name].__module__.removeprefix("derive."), name, set())
+def rules_of_verb(name: str, through_others: bool = False) -> set[Rule]:
+    """The rules by which a verb establishes, itself or by other verbs too."""
+    module = verbs()[name].__module__.removeprefix("derive.")
+    return rules_of(module, name, set(), () if through_others else set(verbs()))
 
 
 def called(name: str) -> str:
@@ -358,7 +360,7 @@ def test_a_docstring_names_outcomes_that_the_rules_of_the_verb_have(name: str) -
     told = re.search(r"Outcomes: (.*?)\.?\n\s*(?:\w+ ?\w*:|$)", inspect.getdoc(verbs()[name]) or "", re.DOTALL)
     listed = re.sub(r"\([^()]*\)", "", told[1]) if told else ""
     words = {word.strip(" `.\n") for word in re.split(r"[,:;]|\band\b", listed)}
-    outcomes = {outcome for rule in rules_of_verb(name) for outcome in rule.outcomes}
+    outcomes = {outcome for rule in rules_of_verb(name, through_others=True) for outcome in rule.outcomes}
     assert {word for word in words if re.fullmatch(r"[a-z_]+", word)} <= outcomes or not outcomes
 
 

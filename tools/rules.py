@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import sys
 import textwrap
+from collections.abc import Iterable
 from itertools import groupby
 from pathlib import Path
 
 import derive.mechanics
 import derive.steps.numeric  # noqa: F401
-from derive.steps.rule import CHECK, ROUTE, RULES, Rule
+from derive.steps.rule import CHECK, ROUTE, Rule
 
 DOCS = Path(__file__).parent.parent / "docs"
 DOCUMENT, SOUNDNESS = DOCS / "rules.md", DOCS / "soundness.md"
@@ -22,11 +24,17 @@ path through the physics, its *checks* put the result to a test. A rule without 
 """
 
 
+def rules() -> list[Rule]:
+    """The rules of the modules that are loaded, by name."""
+    modules = [module for name, module in sys.modules.items() if name.startswith("derive.")]
+    found = {each for module in modules for each in vars(module).values() if isinstance(each, Rule)}
+    return sorted(found, key=lambda rule: rule.name)
+
+
 def document() -> str:
     """A section for each folder, with a row for each of its rules."""
-    rules = sorted(RULES.values(), key=lambda rule: rule.name)
     parts = [HEAD]
-    for folder, own in groupby(rules, key=lambda rule: rule.name.partition(".")[0]):
+    for folder, own in groupby(rules(), key=lambda rule: rule.name.partition(".")[0]):
         parts.append(
             f"\n## {folder.capitalize()}\n\n| rule | outcomes | routes | checks | source |\n|---|---|---|---|---|\n"
         )
@@ -40,12 +48,12 @@ def _row(rule: Rule) -> str:
     return "| " + " | ".join([f"`{cells[0]}`", *cells[1:]]) + " |\n"
 
 
-def _listed(words: object) -> str:
-    return ", ".join(str(word).replace("_", " ") for word in words)  # type: ignore[attr-defined]
+def _listed(words: Iterable[str]) -> str:
+    return ", ".join(word.replace("_", " ") for word in words)
 
 
 def with_checks_only() -> str:
-    names = sorted(rule.name for rule in RULES.values() if rule.evidence and ROUTE not in rule.evidence.values())
+    names = [rule.name for rule in rules() if rule.evidence and ROUTE not in rule.evidence.values()]
     return textwrap.fill(", ".join(f"`{name}`" for name in names), 120, break_on_hyphens=False) + ".\n"
 
 

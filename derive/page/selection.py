@@ -22,7 +22,6 @@ from derive.page.pointers import that_have_it
 from derive.steps.condensed import condensed
 from derive.steps.derivation import Derivation
 from derive.steps.level import Level, Manner
-from derive.steps.rule import RULES
 from derive.steps.step import Form, Step
 
 OWN, TOLD, TAKEN_IN, LEFT_OUT, POINTED_OUT = Manner
@@ -128,15 +127,12 @@ class Selection:
             return POINTED_OUT
         if self.level is Level.FULL or step.key in self.asked or step.key in self.worded or step.key in self.shown:
             return OWN
-        shown = RULES[step.rule].shown
         if step.key in self.needed.numbers:
             return OWN
-        manner = shown.manner(step.outcome, self.level)
-        is_long = shown.unless_long and _length(step.result) > LONGEST_CLAUSE
-        if is_long or repeats and shown.first_only:
+        manner = step.display.manner(self.level)
+        is_long = step.display.unless_long and _length(step.result) > LONGEST_CLAUSE
+        if is_long or repeats and step.display.first_only:
             manner = LEFT_OUT
-        if shown.taken_in_if is not None and shown.taken_in_if(step):
-            manner = TAKEN_IN
         for _ in range(self.needed.letters.get(step.key, 0)):
             manner = LESS[manner]
         return OWN if manner is TOLD and not _is_short(step) else manner
@@ -168,16 +164,15 @@ class Selection:
         """
         if self.level is Level.FULL or self.shown.get(step.key) == "full":
             return step.chain
-        shown = RULES[step.rule].shown
-        if repeats and in_turn and shown.result_again is not None and shown.result_again.shows(self.level):
+        if repeats and in_turn and step.display.shows_result_alone(self.level):
             return step.chain[-1:]
-        level = Level.BRIEF if repeats and not shown.each_worked_out else self.level
+        level = Level.BRIEF if repeats and not step.display.each_worked_out else self.level
         return tuple(form for form in step.chain[:-1] if level.shows(form.level)) + step.chain[-1:]
 
 
 def needs_no_words(step: Step) -> bool:
     """Whether the sentence before it may tell it along: it has no condition to tell."""
-    return step.outcome in RULES[step.rule].shown.told_along and dict(step.words).get("seen", "any") == "any"
+    return step.display.told_along and dict(step.words).get("seen", "any") == "any"
 
 
 def _is_short(step: Step) -> bool:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from derive.mechanics.theorems import THEOREMS
 from derive.page.tree import Block, Document, Folded, Paragraph, PartPage
 from derive.page.wording import Inline, Math, Phrases, ToldIn, ToldOnce, filled
-from derive.steps.rule import RULES, Theorem
+from derive.steps.rule import Theorem
 from derive.steps.step import Level, Step
 
 
@@ -66,7 +66,7 @@ class Theorems:
 
     def without_law(self, step: Step) -> Step:
         """The step without the line that says what a theorem has said already."""
-        said = any(quote.theorem in self._told and step.outcome in quote.law_in for quote in RULES[step.rule].quotes)
+        said = any(theorem.name in step.law_in for theorem in self._told)
         if not (said and self._drops_laws and len(step.chain) > 1 and step.chain[0].because == "law"):
             return step
         return replace(step, chain=step.chain[1:])
@@ -75,9 +75,8 @@ class Theorems:
         if not theorem.prepared:
             return _uses(step, theorem)
         resting = (other for other in self._steps if step.key in other.inputs)
-        return RULES[step.rule].prepares is theorem and any(_uses(other, theorem) for other in resting)
+        return step.prepares == theorem.name and any(_uses(other, theorem) for other in resting)
 
 
 def _uses(step: Step, theorem: Theorem) -> bool:
-    between = dict(step.words).get("between", "")
-    return any(quote.theorem is theorem and quote.fits(step.outcome, between) for quote in RULES[step.rule].quotes)
+    return theorem.name in step.theorems

@@ -14,6 +14,7 @@ from derive.algebra.encoding import as_data, from_data
 from derive.algebra.equality import Compared, Evidence, Grade
 from derive.algebra.expressions import Relation
 from derive.errors import Complaint, Place, Rejected
+from derive.steps.level import Display, Manner
 from derive.steps.record import Run
 from derive.steps.step import Form, Level, Quantity, Step
 
@@ -178,7 +179,7 @@ def derivation_of(
 # --- JSON ------------------------------------------------------------------------------------------------------------
 
 
-_CLASSES = {each.__name__: each for each in (Derivation, Step, Form, Level, Evidence, Compared, Grade)}
+_CLASSES = {each.__name__: each for each in (Derivation, Step, Form, Level, Manner, Display, Evidence, Compared, Grade)}
 
 
 def to_json(derivation: Derivation) -> str:

@@ -215,7 +215,9 @@ def establish(
         law_at=_place_of_verb(sys._getframe(1)),
         approximates=approximates,
         about=about,
+        **rule.theorems(chosen, words),
     )
+    step = replace(step, display=rule.shown.of(step))
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), tuple(facts), subject)
     quantity = _witnessed(quantity, judged)
     record.add(quantity, scope.case_of)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any
 
 
 class Manner(StrEnum):
@@ -25,3 +28,66 @@ class Level(StrEnum):
     def shows(self, other: Level) -> bool:
         order = list(Level)
         return order.index(other) <= order.index(self)
+
+
+@dataclass(frozen=True)
+class Display:
+    """How a page shows a step below the level `full`, as its rule says.
+
+    brief, standard   the manner at these levels
+    told_along        whether the sentence of the step before may state the result too
+    first_only        of several such steps the first alone is shown
+    result_again      up to this level, a step that follows one of the same form shows its result alone
+    each_worked_out   the step is not shortened because another one of the same form came before
+    unless_long       a long one is left out
+    """
+
+    brief: Manner = Manner.OWN
+    standard: Manner = Manner.OWN
+    told_along: bool = True
+    first_only: bool = False
+    result_again: Level | None = None
+    each_worked_out: bool = False
+    unless_long: bool = False
+
+    def manner(self, level: Level) -> Manner:
+        return self.brief if level is Level.BRIEF else self.standard
+
+    def shows_result_alone(self, level: Level) -> bool:
+        """Whether a step that repeats the form of the one before it shows its result alone at this level."""
+        return self.result_again is not None and self.result_again.shows(level)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How a page shows the steps of a rule; without more each is on its own, with its sentence and its lines.
+
+    outcomes      outcome -> the manner at `brief` and at `standard`, where it is not that of the rule
+    told_along    outcomes in which the sentence of the step before may state the result too
+    taken_in_if   a predicate of the step; where it is true the step that uses it takes it in
+    The others are those of `Display`.
+    """
+
+    brief: Manner = Manner.OWN
+    standard: Manner = Manner.OWN
+    outcomes: Mapping[str, tuple[Manner, Manner]] = field(default_factory=dict)
+    told_along: frozenset[str] = frozenset({"generic"})
+    first_only: bool = False
+    result_again: Level | None = None
+    each_worked_out: bool = False
+    unless_long: bool = False
+    taken_in_if: Callable[[Any], bool] | None = None
+
+    def of(self, step: Any) -> Display:
+        """How this step is shown."""
+        brief, standard = self.outcomes.get(step.outcome, (self.brief, self.standard))
+        if self.taken_in_if is not None and self.taken_in_if(step):
+            brief = standard = Manner.TAKEN_IN
+        along = step.outcome in self.told_along
+        return Display(
+            brief, standard, along, self.first_only, self.result_again, self.each_worked_out, self.unless_long
+        )
+
+
+ON_ITS_OWN = Display()
+SHOWN = Shown()

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from derive.algebra.equality import Compared
-from derive.steps.level import Level, Manner
+from derive.steps.level import SHOWN
+from derive.steps.level import Shown as Shown  # by this name to all who make rules
 from derive.steps.subject import NOTHING, Mixed, Subject
 
 GENERIC = "generic"  # the outcome where nothing is to be chosen
@@ -95,36 +96,9 @@ class Quote:
     law_in: frozenset[str] = frozenset()
 
     def fits(self, outcome: str, between: str) -> bool:
+        """Whether a step with this outcome, and with this word `between`, uses the theorem."""
         in_outcome = not self.outcomes or outcome in self.outcomes
         return in_outcome and (not self.theorem.between or between in self.theorem.between)
-
-
-@dataclass(frozen=True)
-class Shown:
-    """How a page shows the steps of a rule, below the level `full`.
-
-    brief, standard   the manner at these levels; `outcomes` has exceptions
-    told_along        outcomes in which the sentence of the step before may state the result too
-    first_only        of several such steps the first alone is shown
-    result_again      up to this level, a step that follows one of the same form shows its result alone
-    each_worked_out   no step is shortened because another one of the same form came before
-    unless_long       a long one is left out
-    taken_in_if       a predicate of the step; where it is true the step that uses it takes it in
-    """
-
-    brief: Manner = Manner.OWN
-    standard: Manner = Manner.OWN
-    outcomes: Mapping[str, tuple[Manner, Manner]] = field(default_factory=dict)
-    told_along: frozenset[str] = frozenset({GENERIC})
-    first_only: bool = False
-    result_again: Level | None = None
-    each_worked_out: bool = False
-    unless_long: bool = False
-    taken_in_if: Callable[[Any], bool] | None = None
-
-    def manner(self, outcome: str, level: Level) -> Manner:
-        brief, standard = self.outcomes.get(outcome, (self.brief, self.standard))
-        return brief if level is Level.BRIEF else standard
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +124,7 @@ class Rule:
     evidence: Mapping[str, Compared] = field(default_factory=dict)
     statements: Sequence[Statement] = ()
     named: Mapping[str, Naming] = field(default_factory=dict)
-    shown: Shown = Shown()
+    shown: Shown = SHOWN
     quotes: Sequence[Quote] = ()
     prepares: Theorem | None = None
 
@@ -180,6 +154,15 @@ class Rule:
         if not _letter_of_its_axis(facts):
             return Doubt("its letter has the index of another axis")
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
+
+    def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:
+        """The names of the theorems that a step uses and states, as a `Step` has them."""
+        quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
+        return {
+            "theorems": tuple(each.theorem.name for each in quotes),
+            "law_in": tuple(each.theorem.name for each in self.quotes if outcome in each.law_in),
+            "prepares": self.prepares.name if self.prepares is not None else None,
+        }
 
     def wrongly_named(self, facts: Judged, named: Mapping[str, Any]) -> str | None:
         """The first role under which a sentence names the wrong thing, or one that nothing judges."""

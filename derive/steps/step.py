@@ -17,6 +17,7 @@ from derive.algebra.expressions import AXES, Relation, explicit
 from derive.algebra.kinds import kind_with_article
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
+from derive.steps.level import ON_ITS_OWN, Display
 from derive.steps.level import Level as Level  # of the forms below, and by this name to all who make them
 from derive.steps.subject import NOTHING, Subject
 
@@ -51,6 +52,8 @@ class Step:
     The result of a limit or a series has a letter of its own; `approximates` is the letter of the whole, or the key of
     an equation. `about` says that the step is derived from such a result, so that its letter is only about equal to
     its first line.
+    `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that it uses,
+    those among them that state its law, and the theorem that a page states before it for the steps that rest on it.
     """
 
     key: str
@@ -70,6 +73,10 @@ class Step:
     law_at: str = field(default="", compare=False)
     approximates: Any = None
     about: bool = False
+    display: Display = field(default=ON_ITS_OWN, compare=False)
+    theorems: tuple[str, ...] = field(default=(), compare=False)
+    law_in: tuple[str, ...] = field(default=(), compare=False)
+    prepares: str | None = field(default=None, compare=False)
 
     @property
     def exact(self) -> bool:

@@ -21,7 +21,9 @@ from derive.witness.trial import Contradiction, Given, Trial
 
 PUT_IN = "answers.put_in"
 REDUCED = frozenset(["hamilton.routhian", "hamilton.effective_potential"])
-APPROXIMATE = frozenset(["approximate", "limits"])
+APPROXIMATE = frozenset(
+    ["answers.equation_in_limit", "answers.limiting_case", "answers.known_case", "answers.case_in_letters"]
+)
 CLOSE = 1e-6  # to which the two must agree, relative to the terms that are compared
 TRIALS = 2
 STATES = 3
@@ -45,7 +47,7 @@ class Claim:
     @property
     def is_approximate(self) -> bool:
         """Whether it, or something that it rests on, is a limit or a series: no motion satisfies it exactly."""
-        return any(each.step.rule.partition(".")[0] in APPROXIMATE for each in self.quantity.ancestors())
+        return any(each.step.rule in APPROXIMATE for each in self.quantity.ancestors())
 
     @property
     def rule(self) -> str:

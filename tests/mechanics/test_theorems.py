@@ -11,7 +11,9 @@ from sympy import Expr, Integer, Matrix, S, Symbol, cos, diff, eye, sin, sqrt, s
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Partial, TimeRate, explicit, rate, scalar
 from derive.mechanics import Cuboid, centre_of_mass, inertia_tensor, moved_to
-from derive.mechanics.theorems import THEOREMS, Theorem
+from derive.mechanics.theorems import THEOREMS
+from derive.steps.rule import Theorem
+from tests.rules import records
 
 BY_NAME = {theorem.name: theorem for theorem in THEOREMS}
 a, b, c, M, t = symbols("a b c M t", positive=True)
@@ -89,7 +91,8 @@ def test_a_positive_multiplier_pushes_towards_a_larger_constraint(name: str) -> 
 
 @pytest.mark.parametrize("theorem", THEOREMS, ids=lambda theorem: theorem.name)
 def test_each_theorem_says_where_it_is_from_and_who_uses_it(theorem: Theorem) -> None:
-    assert theorem.used_by and "section" in theorem.source
-    rule, outcomes = next(iter(theorem.used_by.items()))
-    assert theorem.is_used_by(rule, next(iter(outcomes), "generic"), next(iter(theorem.between), ""))
-    assert not theorem.is_used_by("no.rule", "generic")
+    assert "section" in theorem.source
+    quotes = [(rule, quote) for *_, rule in records() for quote in rule.quotes if quote.theorem is theorem]
+    assert quotes
+    for rule, quote in quotes:
+        assert quote.outcomes | quote.law_in <= set(rule.outcomes), rule.name

@@ -16,9 +16,9 @@ from derive.course.reference.errata import Erratum
 from derive.page.checks import Checks, checks_of
 from derive.page.wording import Phrases, Text, phrases
 from derive.steps.establish import establish
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Step, compared_with
 from tests.courses import ROOT
-from tests.rules import made_up
 
 a, b = symbols("a b", positive=True)
 
@@ -28,10 +28,11 @@ def words() -> Phrases:
     return phrases(ROOT / "templates")
 
 
-def step(key: str, *claims: str, definition: bool = False) -> Step:
+def step(key: str, *claims: str) -> Step:
     """(a + b)^2 by a rule whose second routes have words."""
     routes = dict.fromkeys(claims, compared_with(lambda: a**2 + 2 * a * b + b**2))
-    made = establish(made_up("test.square"), scalar("s"), lambda: (a + b) ** 2, {}, key=key, routes=routes)
+    rule = Rule("test.square", evidence={each: CHECK if each == "sum" else ROUTE for each in claims})
+    made = establish(rule, scalar("s"), lambda: (a + b) ** 2, {}, key=key, routes=routes)
     return made.step
 
 
@@ -53,7 +54,7 @@ def counted(*steps: Step, compared: Any = ()) -> Checks:
 
 
 def test_steps_lines_and_routes_are_counted_apart() -> None:
-    counts = counted(step("one", "particles", "sum"), step("two", "work"), step("named", definition=True)).counts()
+    counts = counted(step("one", "particles", "sum"), step("two", "work"), step("named")).counts()
     assert (counts["steps_proved"], counts["steps_definition"], counts["steps_sampled"]) == (2, 1, 0)
     assert (counts["routes"], counts["routes_proved"], counts["checks"]) == (2, 2, 1)
     assert counts["lines"] == sum(len(s.chain) - 1 for s in (step("one", "sum"), step("two", "sum"), step("x", "sum")))

@@ -12,15 +12,9 @@ from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
 from derive.page.introduced import expressions_in, letters_in
 from derive.page.selection import (
-    EACH_WORKED_OUT,
-    FIRST_ONLY,
-    LAW_ONCE,
     LEFT_OUT,
-    LEFT_OUT_IF_LONG,
-    MANNERS,
     NOTHING_NEEDED,
     OWN,
-    RESULTS_ONLY,
     TAKEN_IN,
     TOLD,
     Selection,
@@ -29,6 +23,7 @@ from derive.page.tree import Display, Document, Paragraph
 from derive.page.wording import Text, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, rendered_once, solved_once
+from tests.rules import records
 
 WORDS = phrases(ROOT / "templates")
 Known = tuple[Problem, Solved]
@@ -74,12 +69,9 @@ def said(document: Document) -> str:
     return " ".join(node.text for block in paragraphs for node in block.nodes if isinstance(node, Text))
 
 
-def test_the_rules_are_of_steps_that_there_are() -> None:
-    of_several = LAW_ONCE | RESULTS_ONLY | FIRST_ONLY | LEFT_OUT_IF_LONG | EACH_WORKED_OUT
-    rules = {rule.partition(":")[0] for rule in MANNERS} | of_several
-    assert rules - set(WORDS.rules) == set()
-    outcomes = {tuple(rule.split(":")) for rule in MANNERS if ":" in rule}
-    assert {(rule, outcome) for rule, outcome in outcomes if outcome not in WORDS.rules[rule]} == set()
+def test_the_exceptions_are_for_outcomes_that_the_rule_has() -> None:
+    for *_, rule in records():
+        assert set(rule.shown.outcomes) <= set(rule.outcomes), rule.name
 
 
 def test_each_sum_shows_by_which_identity_its_terms_cancel(tmp_path: Path) -> None:
@@ -90,7 +82,9 @@ def test_each_sum_shows_by_which_identity_its_terms_cancel(tmp_path: Path) -> No
 
 def test_a_lower_level_leaves_out_no_less() -> None:
     order = (OWN, TOLD, TAKEN_IN, LEFT_OUT)
-    assert [rule for rule, (brief, standard) in MANNERS.items() if order.index(brief) < order.index(standard)] == []
+    for *_, rule in records():
+        for brief, standard in ((rule.shown.brief, rule.shown.standard), *rule.shown.outcomes.values()):
+            assert order.index(brief) >= order.index(standard), rule.name
 
 
 def test_at_full_every_step_stands_on_its_own_with_every_line(block: Known) -> None:

@@ -15,15 +15,17 @@ from derive.page.theorems import Theorems, alone
 from derive.page.tree import Folded, Paragraph, PartPage
 from derive.page.wording import Math, Text, ToldIn, ToldOnce, phrases
 from derive.steps.record import recorded
+from derive.steps.rule import RULES
 from derive.steps.step import Level, Step
 from tests.courses import ROOT
 from tests.render.pages import WHOLE
+from tests.rules import records
 
 WORDS = phrases(ROOT / "templates")
 
 
 def a_step(rule: str, outcome: str = "generic", between: str = "coordinates") -> Any:
-    return SimpleNamespace(rule=rule, outcome=outcome, words=(("between", between),))
+    return SimpleNamespace(**RULES[rule].theorems(outcome, {"between": between}))
 
 
 @pytest.mark.parametrize("level", [Level.STANDARD, Level.FULL])
@@ -72,7 +74,7 @@ def test_each_theorem_has_its_sentence_and_each_sentence_its_theorem() -> None:
     assert {theorem.name for theorem in THEOREMS} == set(WORDS.theorems) == set(WORDS.theorems_again)
     for theorem in THEOREMS:
         assert "<<formula>>" in WORDS.theorems[theorem.name]
-        assert set(theorem.used_by) <= set(WORDS.rules)
+        assert any(quote.theorem is theorem for *_, rule in records() for quote in rule.quotes)
 
 
 def test_a_page_alone_has_each_theorem_as_a_paragraph_before_its_sentence() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 
 import pytest
 from sympy import Symbol
@@ -115,6 +116,18 @@ def test_a_theorem_is_used_in_its_outcomes_and_between_what_it_is_about() -> Non
 
 def test_an_outcome_may_be_shown_in_another_way_than_the_rule() -> None:
     shown = Shown(brief=Manner.LEFT_OUT, outcomes={"linear": (Manner.OWN, Manner.TOLD)})
-    assert shown.manner("other", Level.BRIEF) is Manner.LEFT_OUT
-    assert shown.manner("other", Level.STANDARD) is Manner.OWN
-    assert [shown.manner("linear", level) for level in (Level.BRIEF, Level.STANDARD)] == [Manner.OWN, Manner.TOLD]
+    plain, linear = (shown.of(SimpleNamespace(outcome=outcome)) for outcome in ("generic", "linear"))
+    assert [plain.manner(level) for level in (Level.BRIEF, Level.STANDARD)] == [Manner.LEFT_OUT, Manner.OWN]
+    assert [linear.manner(level) for level in (Level.BRIEF, Level.STANDARD)] == [Manner.OWN, Manner.TOLD]
+    assert plain.told_along and not linear.told_along
+
+
+def test_a_predicate_of_the_step_may_decide_that_it_is_taken_in() -> None:
+    shown = Shown(taken_in_if=lambda step: step.outcome == "plain")
+    assert shown.of(SimpleNamespace(outcome="plain")).manner(Level.STANDARD) is Manner.TAKEN_IN
+    assert shown.of(SimpleNamespace(outcome="generic")).manner(Level.STANDARD) is Manner.OWN
+
+
+def test_a_result_alone_is_shown_up_to_a_level() -> None:
+    of_brief = Shown(result_again=Level.BRIEF).of(SimpleNamespace(outcome="generic"))
+    assert [of_brief.shows_result_alone(level) for level in Level] == [True, False, False]

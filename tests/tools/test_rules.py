@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
+import runpy
 
 from tests.courses import ROOT
 
+MADE = runpy.run_path(str(ROOT / "tools" / "rules.py"))
+
 
 def test_the_pages_of_rules_are_up_to_date() -> None:
-    """In a process of its own, which has no rules that tests make up."""
-    source = (
-        "from tools.rules import *; assert document() == DOCUMENT.read_text(encoding='utf-8');"
-        "text = SOUNDNESS.read_text(encoding='utf-8'); assert soundness(text) == text"
-    )
-    found = subprocess.run([sys.executable, "-c", source], cwd=ROOT, capture_output=True, text=True)
-    assert found.returncode == 0, f"run `python -P -m tools.rules`\n{found.stderr}"
+    assert MADE["document"]() == MADE["DOCUMENT"].read_text(encoding="utf-8"), "run `python -P -m tools.rules`"
+    text = MADE["SOUNDNESS"].read_text(encoding="utf-8")
+    assert MADE["soundness"](text) == text, "run `python -P -m tools.rules`"
