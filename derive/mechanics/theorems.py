@@ -1,7 +1,8 @@
 """Theorems in their general form, which a page tells once, before the first step that uses one.
 
 Each is a formula of names and not a step, since it is not about a body or system of the problem; a step that uses it is
-checked itself. The rules of those steps quote it in their records. `tests/mechanics/test_theorems.py` puts bodies and motions into the formulas.
+checked itself. The rules of those steps quote it in their records. `tests/mechanics/test_theorems.py` puts bodies and
+motions into the formulas.
 """
 
 from __future__ import annotations

@@ -52,8 +52,8 @@ class Step:
     The result of a limit or a series has a letter of its own; `approximates` is the letter of the whole, or the key of
     an equation. `about` says that the step is derived from such a result, so that its letter is only about equal to
     its first line.
-    `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that it uses,
-    those among them that state its law, and the theorem that a page states before it for the steps that rest on it.
+    `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that it
+    uses, those that state its law, and the theorem that a page states before it for the steps that rest on it.
     """
 
     key: str

@@ -36,7 +36,10 @@ ZERO = Integer(0)
 
 MOMENTUM_JUMP = Rule(
     "impacts.momentum_jump",
-    source="Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz, *Mechanics*, section 7",
+    source=(
+        "Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, "
+        "Lifshitz, *Mechanics*, section 7"
+    ),
     outcomes={"struck": claims.is_struck(True), "free": claims.is_struck(False)},
     evidence={"particles": ROUTE},
     named={"coordinate": claims.momentum_of},

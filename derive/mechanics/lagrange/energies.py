@@ -370,7 +370,10 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
 
 MAGNETIC_TERM = Rule(
     "lagrange.magnetic_term",
-    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5; the gauge is that of Landau, Lifshitz, *The Classical Theory of Fields*, section 19",
+    source=(
+        "Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5; the gauge is that of Landau, Lifshitz, "
+        "*The Classical Theory of Fields*, section 19"
+    ),
     outcomes={"alone": claims.magnetic_term_alone, "several": claims.magnetic_term_several},
     evidence={"deflection": ROUTE},
 )

@@ -117,7 +117,9 @@ def _plain(value: Any, role: str, of: Quantity) -> Expr:
 
 CHANGE_UNDER_SHIFT = Rule(
     "lagrange.change_under_shift",
-    source="Landau, Lifshitz, *Mechanics*, sections 7 and 9; Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7",
+    source=(
+        "Landau, Lifshitz, *Mechanics*, sections 7 and 9; Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7"
+    ),
     outcomes={"none": claims.change_under_shift_none, "gain": claims.change_under_shift_gain},
     evidence={"places": ROUTE, "given_places": ROUTE},
     statements=[claims.shifted_as_told],

@@ -116,7 +116,10 @@ class Allowed:
 
 STABILITY_ON_CONSTRAINTS = Rule(
     "rest.stability_on_constraints",
-    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear Programming*, section 11.5",
+    source=(
+        "Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and "
+        "Nonlinear Programming*, section 11.5"
+    ),
     outcomes=claims.STABILITY_ON_CONSTRAINTS,
     evidence={"along_curves": ROUTE},
     named={

@@ -301,7 +301,10 @@ def _shorter(entry: Expr) -> Expr:
 
 PERPENDICULAR_AXES = Rule(
     "rotation.perpendicular_axes",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical Mechanics*, section 8.2",
+    source=(
+        "Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical "
+        "Mechanics*, section 8.2"
+    ),
     evidence={"particles": ROUTE, "quadrature": CHECK},
 )
 

@@ -163,7 +163,10 @@ def tidied_motion(motion: Expr) -> Expr:
 
 SUPERPOSITION = Rule(
     "vibrations.superposition",
-    source="Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*, section 6.3",
+    source=(
+        "Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical "
+        "Mechanics*, section 6.3"
+    ),
     outcomes={"generic": lasts, "zero": vanishes},
     evidence={"put_back": CHECK, "start": CHECK},
     statements=[claims.starts_as_all_are_told],
