@@ -33,9 +33,26 @@ class Place:
     cut: int = 0
 
 
+class Spelled(str):
+    """A help line in the spelling of a script, with what it is in a file that calls the same verb by its keys."""
+
+    in_file: str | None
+
+    def __new__(cls, script: str, in_file: str | None) -> Spelled:
+        made = super().__new__(cls, script)
+        made.in_file = in_file
+        return made
+
+    def __reduce__(self) -> tuple[type, tuple[str, str | None]]:
+        return type(self), (str(self), self.in_file)
+
+
 @dataclass(frozen=True)
 class Complaint:
-    """One fault: a stable code, a message that stands alone, where, why, and at most one help."""
+    """One error: a stable code, a message that can be read alone, where, why, and at most one help.
+
+    argument   of a verb, which is wrong: where a file calls the verb, the error is shown at the key of that argument
+    """
 
     code: str
     message: str
@@ -43,6 +60,7 @@ class Complaint:
     notes: tuple[str, ...] = ()
     help: str | None = None
     severity: str = "error"
+    argument: str = ""
 
     def shown(self) -> str:
         """The fault as rustc would print it: place and message, the line, a caret, notes, help."""

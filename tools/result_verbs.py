@@ -1,11 +1,12 @@
-"""Write the table of the verbs of `results:` in the documentation, from the table by which derive checks them."""
+"""Write the table of the verbs of `results:` in the documentation, from what the verbs say next to their functions."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from pathlib import Path
 
-from derive.stock.keys.result_verbs import VERBS, Verb
+import derive.stock.keys.results  # noqa: F401  which has the verb of bodies too
+from derive.mechanics.in_results import RESULT_VERBS, ResultKey, ResultVerb
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "yaml-alone.md"
 START, END = "<!-- the verbs, by tools/result_verbs.py -->\n", "<!-- the end of the verbs -->\n"
@@ -14,17 +15,18 @@ START, END = "<!-- the verbs, by tools/result_verbs.py -->\n", "<!-- the end of 
 def table() -> str:
     """A line for each verb: the keys that it needs, those that it may have, and what it yields."""
     lines = ["| verb | needs | may have | yields |\n", "|---|---|---|---|\n"]
-    return "".join([*lines, *(_line(name, verb) for name, verb in VERBS.items())])
+    return "".join([*lines, *(_line(RESULT_VERBS[name]) for name in sorted(RESULT_VERBS))])
 
 
-def _line(name: str, verb: Verb) -> str:
+def _line(verb: ResultVerb) -> str:
     several = [" or ".join(f"`{key}`" for key in verb.one_of)] if verb.one_of else []
-    needs = ", ".join([*_keys(verb.needs), *several])
-    return f"| `{name}` | {needs} | {', '.join(_keys(verb.uses))} | {verb.yields} |\n"
+    keys = verb.keys.values()
+    needs = ", ".join([*_keys(key for key in keys if key.needed), *several])
+    return f"| `{verb.name}` | {needs} | {', '.join(_keys(key for key in keys if not key.needed))} | {verb.yields} |\n"
 
 
-def _keys(keys: Mapping[str, str]) -> list[str]:
-    return [f"`{key}` ({holds})" if holds else f"`{key}`" for key, holds in keys.items()]
+def _keys(keys: Iterable[ResultKey]) -> list[str]:
+    return [f"`{key.name}` ({key.hint})" if key.hint else f"`{key.name}`" for key in keys]
 
 
 def updated(text: str) -> str:

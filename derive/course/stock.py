@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 from sympy import Expr
@@ -24,36 +25,11 @@ from derive.course.expression import Declared, read_expression
 from derive.course.given import Given, Measured, NumbersAsLetters
 from derive.course.schema import Record, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, Word
-from derive.errors import DeriveError, Faults, Place, rejected
+from derive.errors import DeriveError, Faults, Place, Spelled, rejected
 from derive.steps.known_numbers import DECIDES
 
 T = TypeVar("T")
-
-# what the verbs of scripts say, and what says so in a description
-HELP_IN_KEYS: Mapping[str, str | None] = {
-    'give one of their verbs `symbol="..."`': "give one of them another letter, under `symbols` or by `symbol`",
-    'use another letter, or give the verb `symbol="..."`': "use another letter",
-    'give another letter, `symbol="Omega"`': "use another letter",
-    'give them letters, `constraint(..., force="N")`': "give each a letter, `force: N`",
-    "a condition of rolling that cannot be integrated is kept by forces: `*rolling_constraint(...)`": (
-        "keep it by a force: add `force: F` under `rolling`"
-    ),
-    "give the equation of motion as `motion=...`": "add `results: motion_theta`, its equation of motion",
-    "to first order the equations of motion tell, `linear_stability(linearised(motion))`": "ask for `linearised`",
-    "give an equation of motion, a condition or a `let`": "name an equation of motion or a condition",
-    'name what varies with `coordinate("theta")`': "give what varies under `coordinates`",
-    'say `across="x"`, "y" or "z"': "say `across: x`, `y` or `z`",
-    "`solved_for` solves an equation for a letter": "`solve` under `results` solves an equation for a letter",
-    "give the interval with `within=(..., ...)`": "give the interval, `within: [0, pi/2]`",
-    "`conserved(L, phi)`": "no coordinate of this system is cyclic",
-    "`constraint(f, force=...)` is one": "write it under `constraints`",
-    "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`": (
-        "such a motion is steady: under `results`, `steady` gives its condition and `frequency` its stability"
-    ),
-    "put it somewhere with `.placed` or `.held`": "give its `centre`, or `held` and `on`",
-    "fractions are written `Rational(1, 2)`": "fractions are written `1/2`",
-    '`let("name", lambda: ..., kind="...")` makes a step of an expression': None,
-}
+NOWHERE: Mapping[str, Place] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -112,20 +88,20 @@ def stock_script(name: str) -> Stock:
 
 
 @contextmanager
-def told_at(place: Place | None) -> Iterator[None]:
-    """A verb knows no file: its complaint stands where it was asked for."""
+def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Iterator[None]:
+    """A verb does not know the file: its error is shown where it was asked for, or at the key of the wrong argument."""
     try:
         yield
     except DeriveError as error:
         told = (replace(c, help=in_keys(c.help)) for c in error.complaints)
-        raise type(error)(c if c.place else replace(c, place=place) for c in told) from error
+        raise type(error)(c if c.place else replace(c, place=places.get(c.argument, place)) for c in told) from error
 
 
 def in_keys(help_line: str | None) -> str | None:
     """What a verb says that a script should do, as what a file should say."""
     if help_line and help_line.startswith(DECIDES):
         return f"state it under `given:`, as `assume: [{help_line.removeprefix(DECIDES).strip()}]`"
-    return HELP_IN_KEYS.get(help_line, help_line) if help_line else None
+    return help_line.in_file if isinstance(help_line, Spelled) else help_line
 
 
 class InLetters:

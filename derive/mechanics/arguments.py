@@ -17,7 +17,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 from sympy import Basic, Expr, Integer, MatrixBase, Symbol
 
 from derive.algebra.expressions import as_expr, explicit
-from derive.errors import Complaint, OutOfTime, Rejected, Unverified
+from derive.errors import Complaint, OutOfTime, Rejected, Spelled, Unverified
 from derive.steps.record import current_run
 from derive.steps.step import Quantity
 
@@ -45,9 +45,9 @@ KEEPING = {
 }
 
 
-def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
-    """The verb, which first looks at what it is given."""
-    signature = inspect.signature(verb)
+def checked(verb: Callable[..., Any], called: str = "") -> Callable[..., Any]:
+    """The verb, which first looks at what it is given; `called` is its name in messages."""
+    signature, called = inspect.signature(verb), called or verb.__name__
     keeps = verb.__name__ in KEEPING
 
     @functools.wraps(verb)
@@ -56,14 +56,14 @@ def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
         try:
             arguments = signature.bind(*given, **named).arguments
         except TypeError as fault:
-            raise Rejected(Complaint("wrong-argument", f"`{verb.__name__}`: {fault}")) from None
+            raise Rejected(Complaint("wrong-argument", f"`{called}`: {fault}")) from None
         for name, value in arguments.items():
             parameter = signature.parameters[name]
             values = value if parameter.kind is parameter.VAR_POSITIONAL else (value,)
             if parameter.kind is parameter.VAR_KEYWORD or parameter.default is value:
                 continue
             for each in values:
-                _check(verb.__name__, name, each, wanted.get(name, Any))
+                _check(called, name, each, wanted.get(name, Any))
         run = current_run.get()
         try:
             if run is None or run.memory is None or keeps:
@@ -73,7 +73,7 @@ def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
                 return made
             return run.memory.result(verb, arguments, run, lambda: verb(*given, **named))
         except OutOfTime as late:
-            late.doing.append(_told_of_call(verb.__name__, arguments))
+            late.doing.append(_told_of_call(called, arguments))
             raise
 
     return wrapper
@@ -177,5 +177,5 @@ def _help(value: Any, wanted: Any) -> str | None:
     if isinstance(value, float):
         return "write numbers as fractions, `Rational(1, 2)`, or give them in the problem's file"
     if wanted is Quantity and isinstance(value, Expr | Integer):
-        return '`let("name", lambda: ..., kind="...")` makes a step of an expression'
+        return Spelled('`let("name", lambda: ..., kind="...")` makes a step of an expression', None)
     return None

@@ -33,7 +33,7 @@ from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.lowest_terms import factored
 from derive.algebra.ranges import never_vanishes_within
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.solving.presentation import LARGEST
 from derive.steps.record import assume
 from derive.steps.step import Fact, Quantity
@@ -125,7 +125,15 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
         return explicit(value)
     if not isinstance(value, Relation) or value.mark != "=":
         message = f"`{verb}` needs an equation, but `{equation.key}` is none"
-        raise Rejected(Complaint("wrong-argument", message, help="give an equation of motion, a condition or a `let`"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument",
+                message,
+                help=Spelled(
+                    "give an equation of motion, a condition or a `let`", "name an equation of motion or a condition"
+                ),
+            )
+        )
     return explicit(value).residual
 
 

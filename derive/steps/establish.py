@@ -26,7 +26,7 @@ from derive.algebra.equality import Compared, Evidence, Grade, equal
 from derive.algebra.expressions import Relation, bound, explicit
 from derive.algebra.singular import has_no_value
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected, Unverified
+from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.steps import record
 from derive.steps.chain import (
     approximation_evidence,
@@ -333,7 +333,16 @@ def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
         other = named.setdefault(quantity.symbol, quantity)
         if other.step != quantity.step:
             message = f"`{key}` needs `{other.key}` and `{quantity.key}`, but both are called {quantity.symbol}"
-            raise Rejected(Complaint("letter-clash", message, help='give one of their verbs `symbol="..."`'))
+            raise Rejected(
+                Complaint(
+                    "letter-clash",
+                    message,
+                    help=Spelled(
+                        'give one of their verbs `symbol="..."`',
+                        "give one of them another letter, under `symbols` or by `symbol`",
+                    ),
+                )
+            )
 
 
 def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) -> None:
@@ -345,7 +354,13 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
     if taken:
         name = min(taken)
         message = f"`{key}` is called {name}, but {name} already stands for something that is given"
-        raise Rejected(Complaint("letter-clash", message, help='use another letter, or give the verb `symbol="..."`'))
+        raise Rejected(
+            Complaint(
+                "letter-clash",
+                message,
+                help=Spelled('use another letter, or give the verb `symbol="..."`', "use another letter"),
+            )
+        )
 
 
 def check_can_hold(key: str, result: Any) -> None:

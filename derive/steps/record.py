@@ -16,7 +16,7 @@ from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, oo
 
 from derive.algebra.expressions import RATES, TIME, Relation, component_names, explicit, rate
 from derive.algebra.ranges import own_meaning
-from derive.errors import Complaint, Place, Rejected
+from derive.errors import Complaint, Place, Rejected, Spelled
 from derive.steps.step import Quantity, same_value, value_behind
 
 
@@ -272,7 +272,16 @@ def _check_one_meaning(
         if case_of is not None and (_is_the_same(other, case_of) or other.key in case_of.step.inputs):
             continue
         message = f"`{other.key}` and `{quantity.key}` are both called {symbol}, but they are different things"
-        raise Rejected(Complaint("letter-clash", message, help='give one of their verbs `symbol="..."`'))
+        raise Rejected(
+            Complaint(
+                "letter-clash",
+                message,
+                help=Spelled(
+                    'give one of their verbs `symbol="..."`',
+                    "give one of them another letter, under `symbols` or by `symbol`",
+                ),
+            )
+        )
 
 
 def _is_open(quantity: Quantity) -> bool:

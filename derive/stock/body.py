@@ -35,7 +35,7 @@ from derive.stock.answering.by_name import ByName
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn
-from derive.stock.keys.results import RESULTS, Result, ResultKeys
+from derive.stock.keys.results import RESULTS, Result, read_result
 
 AXES = "xyz"
 SIZES = ("length", "area", "volume")
@@ -73,7 +73,7 @@ class GivenBody(Questions):
     bodies: Mapping[Word, OneOfManyKeys] = key(
         "several bodies by name, in place of one", mapping_of(record_of(OneOfManyKeys, "a body", "a mapping"))
     )
-    results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
     found: list[Asked] = []
     with faults:
         found = _bodies(written, known)
-    made = tuple(r for name, keys in written.results.items() if (r := keys.read(name, known, faults)))
+    made = tuple(r for name, keys in written.results.items() if (r := read_result(keys, name, known, faults)))
     return DescribedBodies(
         made={result.name: result.uses for result in made},
         without=_without(written),
@@ -154,6 +154,17 @@ def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLett
     ]
     at, start, along, turns = each(readings)
     return Asked(body, at, start, along, turns)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """About which other point or axis an answer is wanted, and what it is called."""
+
+    key: str
+    about: Word | None
+    origin: Word | None
+    direction: Axis | None
+    symbol: str | None
 
 
 class Answers:
@@ -241,13 +252,13 @@ class Answers:
         central = inertia_tensor(self.body, "centre", key="central_tensor")
         return moved_from_centre(central, centre_of_mass(self.body, self.about), key="parallel_axes")
 
-    def called(self, name: Word, own: str, another: str, result: Result) -> Quantity:
+    def called(self, name: Word, own: str, another: str, asked: Elsewhere) -> Quantity:
         """The answer of that name under the name of a result; `another` is the letter of its tensor."""
-        depends = {"about": result.about, "origin": result.origin, "direction": result.direction}
+        depends = {"about": asked.about, "origin": asked.origin, "direction": asked.direction}
         for given in (given for given, value in depends.items() if value is not None):
             if not own.startswith(DEPENDING[given]):
-                rejected("unused-key", f"`{name}` does not depend on `{given}`", result.place, "leave it out")
-        key, letter, axis = str(result.name), result.symbol, own[-1]
+                rejected("unused-key", f"`{name}` does not depend on `{given}`", None, "leave it out")
+        key, letter, axis = asked.key, {"symbol": str(asked.symbol)} if asked.symbol else {}, own[-1]
         if own == "inertia_tensor":
             return inertia_tensor(self.body, self.about, **{"symbol": another, **letter}, key=key)
         if own == "centre_of_mass":
@@ -258,16 +269,16 @@ class Answers:
             moment = moment_of_inertia(self.body, axis, self.about, f"J_{axis}", f"{key}_moment")
             return radius_of_gyration(moment, key=key, **letter)
         if own == "moment_about":
-            self.inertia_tensor = self._tensor_of(result, another)
+            self.inertia_tensor = self._tensor_of(asked, another)
             return self.moment_about(key=key, **letter)
         known = "a tensor, a moment of inertia, a radius of gyration, or a centre of mass"
         rejected("wrong-argument", f"`answer` yields {known}, not `{name}`", name.place)
 
-    def _tensor_of(self, result: Result, another: str) -> Quantity:
+    def _tensor_of(self, asked: Elsewhere, another: str) -> Quantity:
         """About the point of a result, under a key of its own; else that which parts ask for."""
-        if not result.about:
+        if not asked.about:
             return inertia_tensor(self.body, self.about)
-        return inertia_tensor(self.body, self.about, symbol=another, key=f"{result.name}_tensor")
+        return inertia_tensor(self.body, self.about, symbol=another, key=f"{asked.key}_tensor")
 
     def asks(self) -> dict[str, Callable[[], object]]:
         """Every name that a part may ask by."""
@@ -328,19 +339,27 @@ def _by_name(described: DescribedBodies, of: Mapping[str, Answers]) -> ByName:
     )
 
 
-def _elsewhere(result: Result, of: Mapping[str, Answers]) -> Quantity:
+def _elsewhere(
+    wanted: Word,
+    key: str,
+    about: Word | None,
+    origin: Word | None,
+    direction: Axis | None,
+    symbol: str | None,
+    of: Mapping[str, Answers],
+) -> Quantity:
     """An answer about another point or axis than the one given."""
-    (wanted,) = result.of
     prefix = max((prefix for prefix in of if wanted.startswith(prefix)), key=len, default=None)
     if prefix is None:
         rejected("no-such-answer", f"`{wanted}` is not an answer of one of these bodies", wanted.place)
     asked = of[prefix].asked
-    about = asked.described.point(result.about) if result.about else asked.about
-    origin = asked.described.point(result.origin) if result.origin else asked.origin
-    there = Answers(replace(asked, about=about, origin=origin, direction=result.direction or asked.direction))
+    point = asked.described.point(about) if about else asked.about
+    start = asked.described.point(origin) if origin else asked.origin
+    there = Answers(replace(asked, about=point, origin=start, direction=direction or asked.direction))
     there.body = of[prefix].body
-    another = "I" if about == "centre" else "J" if asked.about == "centre" else "K"
-    return there.called(wanted, wanted.removeprefix(prefix), another, result)
+    another = "I" if point == "centre" else "J" if asked.about == "centre" else "K"
+    elsewhere = Elsewhere(key, about, origin, direction, symbol)
+    return there.called(wanted, wanted.removeprefix(prefix), another, elsewhere)
 
 
 def every(described: DescribedBodies) -> dict[str, tuple[Quantity, ...] | DeriveError]:

@@ -50,7 +50,7 @@ from derive.stock.answering.by_name import ByName
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn_free, drawn_turning
-from derive.stock.keys.results import RESULTS, Result, ResultKeys
+from derive.stock.keys.results import RESULTS, Result, read_result
 
 AXES = "xyz"
 CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their letters
@@ -88,7 +88,7 @@ class RotationKeys(Record):
         "the torque on a body that turns in any way, along its axes; by default none",
         list_of(SCALAR, "three torques", length=3),
     )
-    results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
     )
     with_components.numbers = known.numbers
     found["results"] = tuple(
-        r for name, keys in written.results.items() if (r := keys.read(name, with_components, faults))
+        r for name, keys in written.results.items() if (r := read_result(keys, name, with_components, faults))
     )
     return DescribedRotation(
         made={result.name: result.uses for result in found["results"]},

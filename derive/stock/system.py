@@ -56,8 +56,7 @@ from derive.stock.keys.places import (
     coordinate_letters,
     is_letter,
 )
-from derive.stock.keys.result_words import names
-from derive.stock.keys.results import RESULTS, Result, ResultKeys
+from derive.stock.keys.results import RESULTS, Result, names, read_result, written_in
 
 STATE = mapping_of(SCALAR)
 RELATIONS = as_written(one_or_more(SCALAR.schema), "a relation such as `l < r_0`, or a list of them")
@@ -118,7 +117,7 @@ class SystemKeys(Record):
         "rest by its name, `rest_3`; by default all of them",
         as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
     )
-    results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -199,7 +198,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     kind_of_lagrangian = given[1] if given is not None else "energy"
     with_own = InLetters({**_momenta(written.coordinates, letters, kind_of_lagrangian), **symbols, **own})
     with_own.numbers = known.numbers
-    results = tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults)))
+    results = tuple(r for name, keys in written.results.items() if (r := read_result(keys, name, with_own, faults)))
     assumed: list[Assumed] = []
     constants = {name: letter for name, letter in {**symbols, **own}.items() if name not in {*letters, *forces}}
     with faults:
@@ -297,9 +296,11 @@ def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: I
     """The letters of the rates of steady motions, in the order of the coordinates that have no value there."""
     found = {}
     for result in written.results.values():
-        if result.steady is not None:
-            turning = [q for q in written.coordinates if q in letters and q not in result.values]
-            for q, name in zip(turning, names(result.symbol), strict=False):
+        held = written_in(result)
+        if "steady" in held:
+            placed = {str(letter) for letter, _ in held["values"].items()} if "values" in held else set()
+            turning = [q for q in written.coordinates if q in letters and q not in placed]
+            for q, name in zip(turning, names(held.get("symbol")), strict=False):
                 known.unused(name, "leave it out of `symbols`, or give the rate another letter")
                 found[str(name)] = Declared(str(name), scalar(name, positive=True), kind_of_rate(letters[q].kind))
     return found

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import runpy
 
-from derive.stock.keys.result_verbs import VERBS
+import derive.stock.keys.results  # noqa: F401
+from derive.mechanics.in_results import RESULT_VERBS as VERBS
 from tests.courses import ROOT
 
 MADE = runpy.run_path(str(ROOT / "tools" / "result_verbs.py"))

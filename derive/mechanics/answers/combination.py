@@ -11,6 +11,7 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, bound, explicit, scalar
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
+from derive.mechanics.in_results import Formula, in_results
 from derive.solving.presentation import presented
 from derive.solving.unknowns import left_over, unknown_of
 from derive.steps.establish import Lines, Scope, establish
@@ -82,3 +83,14 @@ def _number(quantity: Quantity) -> Quantity | Expr:
         if not left_over(right, unknown_of("combination", value.left)):
             return right
     raise Rejected(Complaint("wrong-argument", f"`combination`: `{quantity.key}` is no number"))
+
+
+@in_results(
+    "value",
+    "the value of a formula of answers and of letters: `pi*rate/frequency`, `v - R*w`, `-S` of a force of "
+    "constraint; its terms must fit",
+    formula="value: a formula of answers by their names and of letters",
+    symbol="symbol",
+)
+def _in_results(formula: Formula, key: str, symbol: str | None = None) -> Quantity:
+    return combination(*formula, key=key, symbol=symbol)

@@ -16,6 +16,7 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
+from derive.mechanics.in_results import Letter, Value, in_results
 from derive.solving.relations import (
     TURNED,
     conditions_told,
@@ -44,6 +45,7 @@ WORDS = {
 }
 REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # the quantities that decide whether roots are real
 POINTS = 40
+ZERO = Integer(0)
 
 
 WHERE = Rule(
@@ -248,3 +250,19 @@ def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | No
 
 def _sign_of_number(value: Expr) -> int:
     return 0 if value == 0 else 1 if value > 0 else -1
+
+
+@in_results(
+    "where",
+    "the condition, solved for the letter",
+    excludes=(("results", "bound"),),
+    of="where: an answer",
+    letter="for: a letter",
+    mark="is: such as `'>'`, `'='` by default",
+    bound="bound: 0 by default",
+    other="results: an answer as the bound",
+)
+def _in_results(
+    of: Quantity, letter: Letter, key: str, mark: str = "=", bound: Value = ZERO, other: Quantity | None = None
+) -> Quantity:
+    return where(of, mark, bound if other is None else other, letter, key=key)

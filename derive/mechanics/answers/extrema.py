@@ -16,8 +16,9 @@ from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import ends_within, range_of, strict_sign_within
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.answers import claims
+from derive.mechanics.in_results import Ends, Letter, in_results
 from derive.solving.presentation import presented
 from derive.solving.unknowns import coordinates_of, kind_of_unknown, letter_of, unknown_of
 from derive.solving.zeros import Unsolved, positive, zeros_of
@@ -33,7 +34,14 @@ POINTS, BESIDE = 6, 9
 Within = tuple[Expr, Expr]
 
 
-def maximum(of: Quantity, letter: Any, within: Within | None = None, key: str = "maximum") -> tuple[Quantity, Quantity]:
+@in_results(
+    "maximum",
+    "where the answer is greatest, and how large then",
+    of="maximum: an answer",
+    letter="for: a letter",
+    within="within: two values, `[0, pi/2]`",
+)
+def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maximum") -> tuple[Quantity, Quantity]:
     """Where a result is greatest, and how great it is: f'(x) = 0 and f''(x) < 0.
 
     of       a scalar, any unit
@@ -47,7 +55,14 @@ def maximum(of: Quantity, letter: Any, within: Within | None = None, key: str = 
     return _extremum(of, letter, within, key, "maximum", -1)
 
 
-def minimum(of: Quantity, letter: Any, within: Within | None = None, key: str = "minimum") -> tuple[Quantity, Quantity]:
+@in_results(
+    "minimum",
+    "where the answer is least, and how small then",
+    of="minimum: an answer",
+    letter="for: a letter",
+    within="within: two values, `[0, pi/2]`",
+)
+def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minimum") -> tuple[Quantity, Quantity]:
     """Where a result is least, and how great it is there: f'(x) = 0 and f''(x) > 0.
 
     of       a scalar, any unit
@@ -135,7 +150,7 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
     """Why there is not one place."""
     many = "no place" if not count else f"{count} places"
     message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
-    help_line = "give the interval with `within=(..., ...)`"
+    help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any {x.name} that is allowed"
         help_line = f"the {verb} is at an end of the interval, or there is none: `put_in` gives the value at an end"

@@ -24,6 +24,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
 from derive.mechanics.answers.approximate import equation_in_limit
+from derive.mechanics.in_results import Letter, Value, in_results
 from derive.mechanics.motion.facts import ByEnergy
 from derive.mechanics.motion.turning_points import assume_reached
 from derive.solving.leading import beginnings, entry_by_entry, rest_vanishes, terms_by_arithmetic, to_that_order
@@ -59,8 +60,23 @@ LIMITING_CASE = Rule(
 )
 
 
+@in_results(
+    "limit",
+    "the limiting case; of an equation what is left of it, `{limit: motion_x, for: Omega, to: 0, order: 1}` to the "
+    "first order",
+    of="limit: an answer, or an equation",
+    letter="for: a letter",
+    to="to: a value or `infinity`, 0 by default",
+    order="order",
+    symbol="symbol",
+)
 def limiting_case(
-    of: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None, symbol: str | None = None
+    of: Quantity,
+    letter: Letter,
+    to: Value = 0,
+    order: int | None = None,
+    key: str | None = None,
+    symbol: str | None = None,
 ) -> Quantity:
     """What a result is in a limiting case, f = c_n e^n + ... with e what is small: x, 1/x or x - a.
 

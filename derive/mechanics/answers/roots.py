@@ -6,7 +6,7 @@ real or positive, the condition is told with it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from sympy import (
@@ -28,9 +28,10 @@ from sympy.polys.polyerrors import PolynomialError
 from derive.algebra.expressions import RATES, Relation, Terms, explicit, scalar
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.answers import claims
 from derive.mechanics.answers.quadratics import roots_together
+from derive.mechanics.in_results import Letter, Symbols, in_results
 from derive.solving.attainable import is_out_of_range
 from derive.solving.presentation import presented
 from derive.solving.root_of_factor import FOUR, RootOf
@@ -436,3 +437,56 @@ def _names(unknown: Expr, count: int, key: str | None) -> list[str]:
 
 def _assumed(unknown: Expr) -> dict[str, bool]:
     return {"positive": True} if unknown.is_positive else {}
+
+
+@in_results(
+    "roots",
+    "the roots of an equation; of another answer, where it vanishes",
+    equation="roots: an equation, or another answer",
+    letter="for: a letter, or `cos(theta)`",
+    root="root: one of several: `positive`, `negative`, `largest`, `smallest`, `2`",
+    symbols="symbol: one for each root",
+)
+def _in_results(
+    equation: Quantity, letter: Letter, key: str, root: str | None = None, symbols: Symbols = ()
+) -> tuple[Quantity, ...] | Quantity:
+    """Zeros are called as they were asked for, roots by the letter; all of them, or the one that is chosen."""
+    begins = None if isinstance(equation.value, Relation) else key
+    found = roots(equation, letter, symbols=tuple(symbols) or None, key=begins)
+    return found if root is None else _chosen(found, root)
+
+
+def _difference(one: Quantity, other: Quantity) -> int | None:
+    return sign_known(explicit(one.value) - explicit(other.value))
+
+
+CHOICES: Mapping[str, Callable[[Quantity, Sequence[Quantity]], bool]] = {
+    "positive": lambda root, every: sign_known(explicit(root.value)) == 1,
+    "negative": lambda root, every: sign_known(explicit(root.value)) == -1,
+    "largest": lambda root, every: all(_difference(root, each) == 1 for each in every if each is not root),
+    "smallest": lambda root, every: all(_difference(root, each) == -1 for each in every if each is not root),
+}
+
+
+def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
+    """The root that is meant, of those that there are."""
+    if any(isinstance(root.value, Relation) for root in found):
+        raise Rejected(Complaint("no-root", f"there is no root that could be `{which}`", argument="root"))
+    if which.isdigit():
+        if not 1 <= int(which) <= len(found):
+            raise _no_choice(which, f"there {'is' if len(found) == 1 else 'are'} {len(found)}", found)
+        return found[int(which) - 1]
+    if which not in CHOICES:
+        help_line = did_you_mean(which, CHOICES) or f"it is {', '.join(f'`{way}`' for way in CHOICES)}, or a number"
+        message = f"`{which}` does not say which root"
+        raise Rejected(Complaint("wrong-type", message, help=help_line, argument="root"))
+    fitting = [root for root in found if CHOICES[which](root, found)]
+    if len(fitting) != 1:
+        raise _no_choice(which, "none is known to be so" if not fitting else f"{len(fitting)} are so", found)
+    return fitting[0]
+
+
+def _no_choice(which: str, why: str, found: Sequence[Quantity]) -> Rejected:
+    values = ", ".join(str(explicit(root.value)) for root in found)
+    message = f"`root: {which}` does not say which root: {why}"
+    return Rejected(Complaint("no-root", message, help=f"the roots are {values}", argument="root"))

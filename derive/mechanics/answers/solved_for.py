@@ -11,6 +11,7 @@ from derive.algebra.expressions import Ratio, Relation
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
+from derive.mechanics.in_results import Letters, in_results
 from derive.solving.presentation import presented
 from derive.solving.unknowns import (
     coordinates_of,
@@ -187,3 +188,15 @@ def _key_of(unknown: Expr) -> str:
     if unknown.is_Pow:
         return f"{letter.name}_squared" if unknown.exp == 2 else f"{letter.name}_power_{unknown.exp}"
     return f"{unknown.func}_{letter.name}"
+
+
+@in_results(
+    "solve",
+    "the solution of linear equations",
+    equations="solve: equations",
+    unknowns="for: letters, rates, accelerations, forces",
+)
+def _in_results(equations: Sequence[Quantity], unknowns: Letters, key: str) -> tuple[Quantity, ...]:
+    """With the name alone where there is one unknown, else one for each."""
+    keys = [key] if len(unknowns) == 1 else [f"{key}_{i + 1}" for i in range(len(unknowns))]
+    return solved_for(tuple(equations), *unknowns, keys=keys)

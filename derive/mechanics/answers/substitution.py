@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
+from types import MappingProxyType
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Symbol
@@ -11,9 +12,10 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSy
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
 from derive.algebra.ranges import strict_sign_within
-from derive.errors import Complaint, Rejected, did_you_mean
+from derive.errors import Complaint, Rejected, Spelled, did_you_mean
 from derive.mechanics.answers import claims
 from derive.mechanics.hamilton.facts import Constant, SeenWith
+from derive.mechanics.in_results import Values, in_results
 from derive.mechanics.kinematics.coordinates import AtOneMoment, Coordinate, OfCoordinate
 from derive.mechanics.lagrange.facts import FromLagrangian, KeptMomentum, WithMomenta
 from derive.mechanics.motion.facts import ByEnergy
@@ -22,7 +24,7 @@ from derive.solving.defined import check_defined
 from derive.solving.presentation import presented
 from derive.solving.unknowns import ValueOf, coordinates_of, left_over, letter_of, meaning, unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.record import coordinates_in
+from derive.steps.record import coordinates_in, named_coordinates
 from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
@@ -191,7 +193,16 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
         target = None
     if target is None or left_over(value, target):
         message = f"`put_in`: `{quantity.key}` does not have one letter alone on its left"
-        raise Rejected(Complaint("wrong-argument", message, help="`solved_for` solves an equation for a letter"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument",
+                message,
+                help=Spelled(
+                    "`solved_for` solves an equation for a letter",
+                    "`solve` under `results` solves an equation for a letter",
+                ),
+            )
+        )
     return [*_of_rates(target, value, coordinates_of(of, quantity)), (target, value)]
 
 
@@ -237,7 +248,13 @@ def _plain(of: Quantity, target: Expr, at: Any) -> Expr:
         return Integer(at)
     if not isinstance(at, Expr) or at.is_Float:
         message = f"`put_in`: the value of {target} must be an expression"
-        raise Rejected(Complaint("wrong-argument", message, help="fractions are written `Rational(1, 2)`"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument",
+                message,
+                help=Spelled("fractions are written `Rational(1, 2)`", "fractions are written `1/2`"),
+            )
+        )
     return explicit(at)
 
 
@@ -374,3 +391,32 @@ def _key_for(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacemen
     if there:
         return f"{of.key}_at_" + "_".join(dict.fromkeys(letter_of(target).name for target, _ in there))
     return f"{of.key}_with_" + "_".join(quantity.key for quantity in rests)
+
+
+NONE: Mapping[str, Expr] = MappingProxyType({})
+
+
+@in_results(
+    "put_in",
+    "the answer with these substituted",
+    one_of=("results", "values"),
+    of="put_in: an answer",
+    results="results",
+    values="values: `{theta: 0}`",
+    symbol="symbol",
+)
+def _in_results(
+    of: Quantity,
+    key: str,
+    results: Sequence[Quantity] = (),
+    values: Values = NONE,
+    symbol: str | None = None,
+) -> Quantity:
+    """Of a state, which may say more than this answer needs, the values of what there is."""
+    there = {s.name for quantity in (of, *results) for s in explicit(quantity.value).free_symbols}
+    state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
+    for name in (name for name in values if name not in there | state):
+        message = f"`{of.key}` does not contain `{name}`, so its value has no effect"
+        raise Rejected(Complaint("unused-value", message, help="leave it out", argument=f"values.{name}"))
+    needed = {name: value for name, value in values.items() if name in there}
+    return put_in(of, *results, key=key, symbol=symbol, **(needed or values))

@@ -25,7 +25,7 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.kinds import KINDS
 from derive.algebra.tidy import size_and_rest, tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.answers import claims
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.rotation.facts import RateByParticles
@@ -280,7 +280,13 @@ def let(
             value = Integer(value) if isinstance(value, int) else None
         if not isinstance(value, Expr | Relation):
             message = f"`let` names one number or expression, but `{key}` would be {type(value).__name__}"
-            raise Rejected(Complaint("wrong-argument", message, help="fractions are written `Rational(1, 2)`"))
+            raise Rejected(
+                Complaint(
+                    "wrong-argument",
+                    message,
+                    help=Spelled("fractions are written `Rational(1, 2)`", "fractions are written `1/2`"),
+                )
+            )
         return value
 
     is_equation = isinstance(scalar_law(*(q.symbol for q in quantities)), Relation)

@@ -17,7 +17,7 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import TIME, as_expr, column, explicit
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.kinematics.places import Axes, Location, turn_about
 from derive.steps.record import coordinates_in
@@ -159,7 +159,11 @@ def _check_flat(body: Any, number: int) -> None:
     """The axis that nobody named is one along which the body does not reach, or all of its axes are alike."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
         message = f"{body.name} reaches along its own {XYZ[number]}, so that axis need not lie across the plane"
-        raise Rejected(Complaint("wrong-axis", message, help='say `across="x"`, "y" or "z"'))
+        raise Rejected(
+            Complaint(
+                "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
+            )
+        )
 
 
 def _across(body: Any, named: str | None) -> int:
@@ -172,7 +176,11 @@ def _across(body: Any, named: str | None) -> int:
     found = named or flat or straight or ("z" if getattr(body, "is_plane", False) or _is_isotropic(body) else None)
     if found is None:
         message = f"about which axis {body.name} turns in the plane is not clear"
-        raise Rejected(Complaint("wrong-axis", message, help='say `across="x"`, "y" or "z"'))
+        raise Rejected(
+            Complaint(
+                "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
+            )
+        )
     return XYZ.index(found)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, diff, sin
@@ -14,6 +14,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.hamilton import claims
 from derive.mechanics.hamilton.facts import PhaseSpace
+from derive.mechanics.in_results import Functions, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.lagrange.momenta import kind_of_momentum, letter_of_momentum
 from derive.mechanics.model.dalembert import Matter
@@ -202,3 +203,16 @@ def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Ex
     by_time = by_functions_of_time(bound(f, in_rates), moving)
     sums = [bound(diff(f, p), in_rates) * (matter.inertia_along(q) - matter.force_along(q)) for q, p in space.pairs]
     return bound(found + diff(f, TIME), in_rates), by_time - Add(*sums)
+
+
+@in_results(
+    "bracket",
+    "the Poisson bracket of two answers, or of formulas in coordinates and momenta `p_x`",
+    functions="bracket: two answers, or formulas of coordinates and their momenta `p_x`",
+    among="results: answers by whose letters it may be written",
+)
+def _in_results(
+    functions: Functions, key: str, coordinates: Mapping[str, Coordinate], among: Sequence[Quantity] = ()
+) -> Quantity:
+    f, g = functions
+    return poisson_bracket(f, g, *coordinates.values(), among=among, key=key)

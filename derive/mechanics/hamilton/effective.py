@@ -24,7 +24,7 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.hamilton import claims
 from derive.mechanics.hamilton.facts import Constant, ReducedMatter, SeenWith
 from derive.mechanics.hamilton.phase_space import rates_by_momenta
@@ -164,7 +164,13 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
     """
     if not constants:
-        raise Rejected(Complaint("wrong-argument", "`routhian` needs a conserved momentum", help="`conserved(L, phi)`"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument",
+                "`routhian` needs a conserved momentum",
+                help=Spelled("`conserved(L, phi)`", "no coordinate of this system is cyclic"),
+            )
+        )
     left = _put_aside(of, constants, "routhian")
     rates = rates_by_momenta(of, constants)
     put_in = {v.symbol: v.value for v in rates}

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, ClassVar
 
 from sympy import (
     Derivative,
@@ -27,6 +27,7 @@ from derive.algebra.expressions import RATES, TIME, TimeRate, explicit, rate, sc
 from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
 from derive.algebra.taylor import NoSeries, taylor
 from derive.errors import Complaint, Rejected
+from derive.mechanics.in_results import in_results
 from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, establish
 from derive.steps.record import coordinate_named
@@ -49,6 +50,7 @@ class Coordinate:
 
     symbol: Symbol
     kind: str
+    held_as: ClassVar[str] = "COORDINATE"  # by a key of `results:`
 
     def _sympy_(self) -> Symbol:
         return self.symbol
@@ -197,6 +199,7 @@ RATE_OF = Rule(
 )
 
 
+@in_results("rate", "how fast a motion that `solution` found, or another answer, changes", quantity="rate: an answer")
 def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion, dx/dt, by the chain rule: the sum of dx/dq q_dot.
 

@@ -17,7 +17,7 @@ from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, as_ex
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.normal_form import vanishes as vanishes_identically
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time
 from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
@@ -153,7 +153,13 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     problem = _problem("multipliers", equations, keeping)
     if not problem.constraints:
         message = "`multipliers` needs constraints that forces keep, but this system has none"
-        raise Rejected(Complaint("wrong-argument", message, help="`constraint(f, force=...)` is one"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument",
+                message,
+                help=Spelled("`constraint(f, force=...)` is one", "write it under `constraints`"),
+            )
+        )
     rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
     return tuple(_multiplier(problem, each, rates) for each in problem.constraints)
 

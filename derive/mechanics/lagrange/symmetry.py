@@ -15,6 +15,7 @@ from derive.algebra.expressions import Factors, Partial, Relation, Terms, TimeRa
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.in_results import Value, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, required
 from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.facts import FromLagrangian, Varied
@@ -197,3 +198,26 @@ def _times(derivative: Expr, factor: Expr) -> Expr:
     """The product, kept in its bracket where it would be multiplied out."""
     both = factor != 1 and (factor.is_Add or derivative.is_Add)
     return Factors(factor, derivative) if both else factor * derivative
+
+
+@in_results(
+    "noether",
+    "from the Lagrangian what is conserved by the symmetry",
+    of="noether: a Lagrangian",
+    values="values: the shift of each coordinate, `{x: -y, y: x}`",
+    gained="gained",
+    symbol="symbol",
+)
+def _in_results(
+    of: Quantity,
+    values: Values,
+    key: str,
+    coordinates: Mapping[str, Coordinate],
+    gained: Value = ZERO,
+    symbol: str = "Q",
+) -> Quantity:
+    strange = next((name for name in values if name not in coordinates), None)
+    if strange is not None:
+        message = f"`noether` shifts coordinates, but `{strange}` is not one"
+        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values.{strange}"))
+    return noether(of, {coordinates[name]: value for name, value in values.items()}, gained, symbol, key)

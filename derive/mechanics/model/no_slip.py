@@ -15,7 +15,7 @@ from derive.algebra.expressions import Relation, TimeRate, as_expr, column, expl
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected, Unverified
+from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.placed import PlacedBody, after
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.kinematics.places import Axes, Location
@@ -173,7 +173,13 @@ def _independent(
 def _check(body: Any, at: Location, ground: Ground | None) -> None:
     if not isinstance(body, PlacedBody):
         message = "`no_slip` needs a body that is placed or held"
-        raise Rejected(Complaint("wrong-argument", message, help="put it somewhere with `.placed` or `.held`"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument",
+                message,
+                help=Spelled("put it somewhere with `.placed` or `.held`", "give its `centre`, or `held` and `on`"),
+            )
+        )
     for place in (at, ground):
         if (
             place is not None

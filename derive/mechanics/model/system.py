@@ -16,7 +16,7 @@ from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Rat
 
 from derive.algebra.expressions import TIME, Factors, Relation, Terms, column, explicit, rate
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected, Unverified
+from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.kinematics.places import Location
@@ -219,7 +219,13 @@ class System:
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
         if not self.coordinates:
             message = "nothing in this `System` moves: its places depend on no coordinate"
-            raise Rejected(Complaint("wrong-argument", message, help='name what varies with `coordinate("theta")`'))
+            raise Rejected(
+                Complaint(
+                    "wrong-argument",
+                    message,
+                    help=Spelled('name what varies with `coordinate("theta")`', "give what varies under `coordinates`"),
+                )
+            )
         self._check_what_acts()
         check_what_is_acted_on(self)
         for condition in self.conditions:
@@ -227,7 +233,13 @@ class System:
         letters = [each.force.name for each in self.constraints]
         if len(set(letters)) < len(letters):
             message = "two constraints of this `System` have forces of one letter"
-            raise Rejected(Complaint("letter-clash", message, help='give them letters, `constraint(..., force="N")`'))
+            raise Rejected(
+                Complaint(
+                    "letter-clash",
+                    message,
+                    help=Spelled('give them letters, `constraint(..., force="N")`', "give each a letter, `force: N`"),
+                )
+            )
 
     def _check_what_acts(self) -> None:
         """Forces and constraints are those of what moves here, and of nothing else."""
@@ -320,7 +332,10 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
     found = condition.fact(KnownCoordinate)
     if found is None:
         message = f"`{condition.key}` does not give a coordinate by others, so it cannot be put into the energies"
-        help_line = "a condition of rolling that cannot be integrated is kept by forces: `*rolling_constraint(...)`"
+        help_line = Spelled(
+            "a condition of rolling that cannot be integrated is kept by forces: `*rolling_constraint(...)`",
+            "keep it by a force: add `force: F` under `rolling`",
+        )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return found.coordinate, found.function
 

@@ -14,7 +14,8 @@ from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Terms, Ti
 from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.swing import SwingTime, half_swing, quarter_swing
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
+from derive.mechanics.in_results import Ask, Value, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.motion import claims
@@ -163,7 +164,15 @@ def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> E
         left = matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
     else:
         message = f"`speed_from_energy`: `{energy.key}` does not say by which forces {q.symbol.name} moves"
-        raise Rejected(Complaint("wrong-argument", message, help="give the equation of motion as `motion=...`"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument",
+                message,
+                help=Spelled(
+                    "give the equation of motion as `motion=...`", "add `results: motion_theta`, its equation of motion"
+                ),
+            )
+        )
     factor = tidied(diff(left, q.acceleration))
     if factor == 0 or factor.has(q.acceleration):
         message = f"`speed_from_energy`: the motion does not give {q.acceleration.name}"
@@ -192,6 +201,13 @@ PERIOD_BY_ENERGY = Rule(
 )
 
 
+@in_results(
+    "period",
+    "the period, from such a squared rate",
+    squared="period: a squared rate, as `speed` finds it",
+    order="order: in the amplitude",
+    symbol="symbol",
+)
 def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = None, key: str = "period") -> Quantity:
     """Period of a swing to and fro, 4 times the integral of dq/q_dot from 0 to the amplitude A, in powers of A.
 
@@ -291,3 +307,29 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
 def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:
     """Whether the period is real there, and the force drives back."""
     return bool(found.subs(point).evalf().is_positive)
+
+
+@in_results(
+    "speed",
+    "its squared rate, from a conserved energy",
+    energy="speed: a conserved energy",
+    q="for: a coordinate",
+    start="start",
+    start_rate="start_rate: 0 by default",
+    motion="results: its equation of motion, where the energy alone does not suffice",
+)
+def _in_results(
+    energy: Quantity,
+    q: Coordinate,
+    start: Value,
+    key: str,
+    start_rate: Value = ZERO,
+    motion: Quantity | None = None,
+    ask: Ask | None = None,
+) -> Quantity:
+    """With the equation of motion, where the energy does not say by itself which forces act."""
+    matter = energy.fact(Matter)
+    says_all = matter is not None and tuple(matter.coordinates) == (q.symbol,)
+    if motion is None and not says_all and ask is not None:
+        motion = ask(f"motion_{q.symbol.name}")
+    return speed_from_energy(energy, q, start, start_rate, motion, key)

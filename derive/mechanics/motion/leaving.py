@@ -11,6 +11,7 @@ from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.in_results import Letter, Value, in_results
 from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import ByEnergy
 from derive.mechanics.motion.turning_points import condition_to_reach, part_of_the_way, squared_by_energy
@@ -52,7 +53,14 @@ LEAVES_CONTACT = Rule(
 )
 
 
-def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "leaves_contact") -> Quantity:
+@in_results(
+    "leaves",
+    "where a force of contact vanishes",
+    force="leaves: a force of contact",
+    letter="for: what specifies the place, such as `cos(theta)`",
+    start="start",
+)
+def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "leaves_contact") -> Quantity:
     """Where a contact that can only push is lost: the normal force vanishes, N = 0, solved for one letter.
 
     force    the normal force, positive while it pushes, N; or the tension of a string, which can only pull

@@ -7,6 +7,7 @@ Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Cla
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from sympy import Add, Dummy, Expr, Integer, Mul, Symbol
@@ -16,7 +17,8 @@ from derive.algebra.expressions import TIME, Partial, Relation, as_expr, bound, 
 from derive.algebra.ranges import never_vanishes_within, strict_sign_within
 from derive.algebra.taylor import slope
 from derive.errors import Complaint, Rejected
-from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.in_results import Symbols, Values, in_results
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, kind_of_rate, unknown
 from derive.mechanics.lagrange.applied_forces import ActedOn
 from derive.mechanics.lagrange.facts import WithMomenta
 from derive.mechanics.lagrange.lagrangian import coordinates_of
@@ -217,3 +219,36 @@ def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
 
 
 # --- small oscillations about it --------------------------------------------------------------------------------------
+
+
+NONE: Mapping[str, Expr] = MappingProxyType({})
+
+
+@in_results(
+    "steady",
+    "from the Lagrangian the condition of a steady motion, which `roots` solves",
+    of="steady: a Lagrangian",
+    values="values: `{r: r_0}`",
+    symbols="symbol: letters of the cyclic rates",
+)
+def _in_results(
+    of: Quantity, key: str, coordinates: Mapping[str, Coordinate], values: Values = NONE, symbols: Symbols = ()
+) -> Quantity | tuple[Quantity, ...]:
+    """With the places and the rates that have values; the other cyclic rates have letters."""
+    places = {coordinates[name]: value for name, value in values.items() if name in coordinates}
+    rates: dict[Coordinate, Any] = {
+        q: value for name, value in values.items() for q in coordinates.values() if q.rate.name == name
+    }
+    known = {*(q.symbol.name for q in places), *(q.rate.name for q in rates)}
+    strange = next((name for name in values if name not in known), None)
+    if strange is not None:
+        message = f"`steady` has values of coordinates and rates, but `{strange}` is neither"
+        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values.{strange}"))
+    held = explicit(of.value).free_symbols
+    turning = [q for q in coordinates.values() if q.symbol not in held and q not in rates]
+    if len(symbols) > len(turning):
+        message = f"`steady` has letters for the rates of {len(turning)} cyclic coordinates"
+        raise Rejected(Complaint("wrong-argument", message, argument="symbols"))
+    for q, letter in zip(turning, symbols, strict=False):
+        rates[q] = unknown(letter, kind_of_rate(q.kind) or "number", positive=True)
+    return steady_motion(of, rates, places, key=key)

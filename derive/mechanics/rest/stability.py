@@ -22,7 +22,7 @@ from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scal
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.hamilton.facts import SeenWith
 from derive.mechanics.rest import claims
 from derive.mechanics.rest.constrained_stability import OnConstraints, constraints_of
@@ -45,8 +45,13 @@ HIGHEST = 8  # the order to which a border is looked at
 FEW = 5  # coordinates of which every direction of zeros and ones is tried
 SHORT = 80  # operations of a curvature that is written down before a place is put in
 ZERO = Integer(0)
-BY_FIRST_ORDER = "to first order the equations of motion tell, `linear_stability(linearised(motion))`"
-STEADY = "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`"
+BY_FIRST_ORDER = Spelled(
+    "to first order the equations of motion tell, `linear_stability(linearised(motion))`", "ask for `linearised`"
+)
+STEADY = Spelled(
+    "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`",
+    "such a motion is steady: under `results`, `steady` gives its condition and `frequency` its stability",
+)
 
 
 @dataclass(frozen=True)

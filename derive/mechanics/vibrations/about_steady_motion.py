@@ -13,6 +13,7 @@ from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.hamilton.facts import ReducedMatter, SeenWith
+from derive.mechanics.in_results import Letter, in_results
 from derive.mechanics.kinematics.coordinates import OfCoordinate
 from derive.mechanics.lagrange.facts import KeptMomentum
 from derive.mechanics.model.dalembert import Matter
@@ -22,6 +23,7 @@ from derive.mechanics.rest.facts import RestOf, matter_behind
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.about_motion import About, alone, determinant_about, letter_of_value
 from derive.mechanics.vibrations.facts import SquareOf
+from derive.mechanics.vibrations.oscillations import frequency
 from derive.solving.presentation import presented
 from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import sign_where
@@ -196,3 +198,15 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
         return ways[0]
     value = presented(value)
     return min(ways, key=lambda way: (length(tidied(bound(value, way))), str(way)))
+
+
+@in_results(
+    "frequency",
+    "from the effective potential small oscillations about a steady motion",
+    of="frequency: an effective potential energy",
+    at="results: that motion",
+    without="for: the letter that its condition eliminates",
+    symbol="symbol",
+)
+def _in_results(of: Quantity, at: Quantity, key: str, without: Letter = None, symbol: str = "omega_0") -> Quantity:
+    return frequency(frequency_squared_about(of, at, without, symbol, f"{key}_squared"), key=key)

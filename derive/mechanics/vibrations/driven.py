@@ -9,6 +9,7 @@ from sympy import Abs, Add, Expr, Integer, Mul, Pow, atan, cos, diff, pi, sin, s
 from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
@@ -41,6 +42,13 @@ LAG = Rule(
 )
 
 
+@in_results(
+    "amplitude",
+    "the steady state of a driven oscillation",
+    equation="amplitude: a driven linear equation of motion",
+    q="for: a coordinate",
+    symbol="symbol",
+)
 def steady_amplitude(
     equation: Quantity, q: Coordinate, symbol: str = "A", key: str = "steady_amplitude"
 ) -> tuple[Quantity, Quantity]:

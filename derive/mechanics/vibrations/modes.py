@@ -29,7 +29,8 @@ from derive.algebra.expressions import Ratio, Relation, Terms, explicit, scalar,
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.squares import with_squares
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
+from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import Coordinate, T
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.damped import DampedModes
@@ -86,7 +87,11 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     letter = scalar(symbol if symbol and len(linear) > 1 else free)
     if letter.name in given:
         message = f"`normal_modes` would call the frequency {letter}, but {letter} stands for something that is given"
-        raise Rejected(Complaint("letter-clash", message, help='give another letter, `symbol="Omega"`'))
+        raise Rejected(
+            Complaint(
+                "letter-clash", message, help=Spelled('give another letter, `symbol="Omega"`', "use another letter")
+            )
+        )
     before = f"{key}_" if key else ""
     if turns:
         return TurningModes(linear, together, letter, before).found()
@@ -427,3 +432,17 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
         key=key,
         kind="angular speed",
     )
+
+
+@in_results(
+    "beats",
+    "how often the amplitude of one of two swings comes back, from two frequencies",
+    frequencies="beats: two frequencies, the slower first",
+    symbol="symbol",
+)
+def _in_results(frequencies: Sequence[Quantity], key: str, symbol: str = "omega_beat") -> Quantity:
+    if len(frequencies) != 2:
+        message = f"`beats` is about two frequencies, but these are {len(frequencies)}"
+        raise Rejected(Complaint("wrong-argument", message))
+    slow, fast = frequencies
+    return beats(slow, fast, symbol, key)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, cos, cosh, diff, factor_terms, sin, sinh
@@ -17,6 +18,7 @@ from derive.algebra.expressions import TIME, Relation, Terms, explicit
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.in_results import Value, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims, linear_motion
 from derive.mechanics.vibrations.facts import Linear, Mode
@@ -257,3 +259,57 @@ def _as_product(swings: Sequence[Swing], i: int) -> Expr | None:
     if is_zero(one - other):
         return 2 * one * cos(half[0]) * cos(half[1])
     return 2 * one * sin(half[0]) * sin(half[1]) if is_zero(one + other) else None
+
+
+NONE: Mapping[str, Expr] = MappingProxyType({})
+
+
+@in_results(
+    "solution",
+    "the motion, from a linear equation; from `normal_modes` the motion of all coordinates, of which `both_x_1` is "
+    "one if the result is called `both`",
+    one_of=("start", "values"),
+    excludes=(("values", "for"), ("values", "start"), ("values", "start_rate")),
+    motions="solution: a linear equation of motion, or `normal_modes`",
+    q="for: a coordinate",
+    start="start",
+    start_rate="start_rate: 0 by default",
+    values="values: from `normal_modes`, in place of these three: `{x_1: A, x_2_dot: v}`, all else zero",
+    case="case",
+)
+def _in_results(
+    motions: Sequence[Quantity],
+    key: str,
+    coordinates: Mapping[str, Coordinate],
+    q: Coordinate | None = None,
+    start: Value = None,
+    start_rate: Value = None,
+    values: Values = NONE,
+    case: str | None = None,
+) -> Quantity | tuple[Quantity, ...]:
+    """Of one coordinate from its start; of all of them by their modes, from their values."""
+    if start is None and len(motions) > 1:
+        return motions_by_modes(motions, *_start_by_name(values, coordinates), case, key)
+    for argument, name, value in (("q", "for", q), ("start", "start", start)):
+        if value is None:
+            message = f"`solution` of one equation needs `{name}`"
+            raise Rejected(Complaint("missing-key", message, argument=argument))
+    if len(motions) != 1:
+        message = f"`solution` is about one answer, but these are {len(motions)}"
+        raise Rejected(Complaint("wrong-argument", message))
+    assert q is not None
+    return linear_motion.solution(motions[0], q, start, start_rate, case, key)
+
+
+def _start_by_name(
+    values: Mapping[str, Expr], coordinates: Mapping[str, Coordinate]
+) -> tuple[dict[Coordinate, Expr], dict[Coordinate, Expr]]:
+    """The places and the rates at the start."""
+    places = {coordinates[name]: value for name, value in values.items() if name in coordinates}
+    rates = {q: value for name, value in values.items() for q in coordinates.values() if q.rate.name == name}
+    known = {*(q.symbol.name for q in places), *(q.rate.name for q in rates)}
+    strange = next((name for name in values if name not in known), None)
+    if strange is not None:
+        message = f"the start is given by values of coordinates and rates, but `{strange}` is neither"
+        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values.{strange}"))
+    return places, rates

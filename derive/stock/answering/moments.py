@@ -20,11 +20,11 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:
-        if result.verb == SOLUTION and len(result.unknowns) == 1 and result.start_rate is not None:
-            (q,) = result.unknowns
+        if result.verb.name == SOLUTION and {"q", "start_rate"} <= result.values.keys():
+            q = result.values["q"]
             if q in system.coordinates:
-                at.setdefault(q, result.start if result.start is not None else Integer(0))
-                rates.setdefault(q, result.start_rate)
+                at.setdefault(q, result.values.get("start", Integer(0)))
+                rates.setdefault(q, result.values["start_rate"])
     return Moment(at, rates) if rates else None
 
 

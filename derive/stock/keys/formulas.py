@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from sympy import Dummy, Expr
 
@@ -12,7 +13,6 @@ from derive.algebra.expressions import Relation, explicit
 from derive.course.expression import Declared, names_in, read_expression
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import rejected
-from derive.mechanics import combination
 from derive.steps.derivation import with_ancestors
 from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Quantity
@@ -49,12 +49,12 @@ class Formula:
         found = {str(name): name for name in names_in(self.node) if name not in given}
         return tuple(found.values())
 
-    def made(self, answers: Callable[[Word], Quantity], key: str, symbol: str | None) -> Quantity:
-        """The number that it is of those answers, once its terms are known to fit."""
+    def with_answers(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, dict[Any, Quantity]]:
+        """The expression with a mark for each answer, and the answers by their marks; its terms must fit."""
         found = {name: answers(name) for name in self.answers}
         marks = {name: self._mark(name, quantity) for name, quantity in found.items()}
         expression, _ = read_expression(self.node, {**self.letters, **{str(n): mark for n, mark in marks.items()}})
-        return combination(expression, {marks[name].symbol: found[name] for name in found}, key=key, symbol=symbol)
+        return expression, {marks[name].symbol: found[name] for name in found}
 
     def _mark(self, name: Word, quantity: Quantity) -> OfKnownDimension:
         """A letter for an answer, of its sign and dimension."""

@@ -69,7 +69,7 @@ def test_the_other_root_is_chosen(choice: str, tmp_path: Path) -> None:
     [
         ("3", "`root: 3` does not say which root: there are 2"),
         ("0", "`root: 0` does not say which root: there are 2"),
-        ("latest", "`latest` says nothing of a root"),
+        ("latest", "`latest` does not say which root"),
     ],
 )
 def test_a_choice_that_fits_no_root_is_told_at_its_place(choice: str, said: str, tmp_path: Path) -> None:

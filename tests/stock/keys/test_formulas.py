@@ -107,7 +107,7 @@ def test_what_cannot_be_meant_by_a_formula_is_told(made: str, said: str, tmp_pat
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("values: {r: r_0}", "values: {m: r_0}", "but `m` is none"),
+        ("values: {r: r_0}", "values: {m: r_0}", "but `m` is neither"),
         ("symbol: Omega", "symbol: [Omega, Xi]", "`steady` has letters for the rates of 1 cyclic"),
         ("symbol: Omega", "symbol: r_0", "`r_0` stands for something else already"),
         ("results: orbit, for: Omega", "for: Omega", "`frequency` needs `results`"),
@@ -158,7 +158,7 @@ def test_brackets_of_formulas_in_coordinates_and_momenta(tmp_path: Path) -> None
         ("[x**2, p_x]", "[x**2, equations_of_motion]", "`equations_of_motion` stands for 3 answers"),
         ("[x**2, p_x]", "[x**2, p_w]", "there is no answer `p_w`"),
         ("[x**2, p_x]", "[x_dot, p_x]", "but x_dot holds x_dot"),
-        ("{x: -y, y: x}", "{x: -y, m: x}", "`noether` shifts coordinates, but `m` is none"),
+        ("{x: -y, y: x}", "{x: -y, m: x}", "`noether` shifts coordinates, but `m` is not one"),
         ("{x: -y, y: x}", "{x: y, y: x}", "the shift is no symmetry"),
     ],
 )

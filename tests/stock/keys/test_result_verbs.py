@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import ast
-import inspect
 import json
 from pathlib import Path
 
@@ -12,8 +10,7 @@ from jsonschema import Draft7Validator
 
 from derive.course.editors import problem_schema
 from derive.course.schema import keys_of
-from derive.stock.keys import results
-from derive.stock.keys.result_verbs import VERBS
+from derive.mechanics.in_results import RESULT_VERBS as VERBS
 from derive.stock.keys.results import ResultKeys
 from tests.stock.described import PENDULUM, complaints, edited
 
@@ -22,7 +19,6 @@ HOLDS = {
     "results": "kinetic_energy", "values": "{l: l}", "within": "[0, pi]", "for": "theta", "symbol": "u", "order": "1",
     "is": "'>'", "case": "overdamped", "direction": "x", "about": "tip", "origin": "tip", "root": "2",
 }  # fmt: skip
-READ_AS = {"unknowns": "for", "letter": "for", "coordinate": "for", "symbols": "symbol", "relation": "is"}
 SPARE = [(verb, key) for verb in VERBS for key in KEYS if key not in VERBS[verb].keys]
 
 
@@ -67,29 +63,6 @@ def test_a_key_that_a_verb_needs_is_asked_for(verb: str, key: str, tmp_path: Pat
 def test_keys_that_do_not_go_together_are_an_error(made: str, said: str, tmp_path: Path) -> None:
     (complaint,) = complaints(tmp_path, problem(made))
     assert said in complaint.message
-
-
-@pytest.mark.parametrize("verb", [verb for verb in VERBS if not (VERBS[verb].of_formulas or VERBS[verb].asks)])
-def test_a_verb_reads_the_keys_of_the_table_and_no_others(verb: str) -> None:
-    module = ast.parse(inspect.getsource(results))
-    functions = {node.name: node for node in ast.walk(module) if isinstance(node, ast.FunctionDef)}
-    made = functions[results._MAKERS[verb].__name__]
-    called = {node.func.id for node in ast.walk(made) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
-    bodies = [made, *(functions[name] for name in called if name == "_started")]
-    read = {
-        node.attr
-        for body in bodies
-        for node in ast.walk(body)
-        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "result"
-    }
-    keys = {READ_AS.get(attribute, attribute) for attribute in read}
-    arguments = [argument.arg for argument in made.args.args]
-    names = {node.id for statement in made.body for node in ast.walk(statement) if isinstance(node, ast.Name)}
-    if arguments[2] in names:
-        keys.add("results")
-    if verb == "solve":
-        keys.add("for")  # by `keys`, which names what is found
-    assert keys & set(KEYS) == set(VERBS[verb].keys)
 
 
 @pytest.mark.parametrize("verb", VERBS)

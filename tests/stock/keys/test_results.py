@@ -64,8 +64,8 @@ def test_a_letter_may_be_given_to_what_is_found(tmp_path: Path) -> None:
     [
         ("{where: acceleration_x, is: '>', for: m_1, symbol: a}", "`symbol` has no effect on `where`"),
         ("{put_in: acceleration_x, values: {m_2: m_1}, symbol: [a, b]}", "`put_in` finds one thing, with one letter"),
-        ("{for: m_2}", "`made` needs one of `solve`, `put_in`"),
-        ("{limit: acceleration_x, put_in: acceleration_y}", "`made` needs one of `solve`"),
+        ("{for: m_2}", "`made` needs one of `amplitude`, `answer`"),
+        ("{limit: acceleration_x, put_in: acceleration_y}", "`made` needs one of `amplitude`"),
         ("{limit: acceleration_z, for: m_2, to: 0}", "there is no answer `acceleration_z`"),
         ("{limit: made, for: m_2, to: 0}", "`made` is made of itself"),
         ("{limit: acceleration_x, to: 0}", "`limit` needs `for`"),

@@ -1,0 +1,155 @@
+"""How `results:` of a file calls a verb: by which name, with which keys, and what each of them holds.
+
+    @in_results("limit", "the limiting case", of="limit", letter="for: a letter", to="to: a value or `infinity`")
+    def limiting_case(of: Quantity, letter: Letter, to: Value = 0, ...) -> Quantity: ...
+
+The decorator names the key of each argument, and what the manual says of it. The signature says the rest: an argument
+without default is a key that the verb needs, and its annotation is what the key holds. The reader of files, the schema
+for editors, the manual and the errors follow from these two.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum, auto
+from functools import cached_property
+from inspect import Parameter, signature
+from types import UnionType
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from sympy import Expr
+
+from derive.mechanics.arguments import checked
+from derive.steps.step import Quantity
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+class Holds(Enum):
+    """What a key of a verb holds."""
+
+    ANSWER = auto()  # the name of one answer
+    ANSWERS = auto()  # the names of one or several
+    NAME = auto()  # the name of an answer that the verb itself asks for
+    LETTER = auto()  # a letter, a rate, or such as `cos(theta)`
+    LETTERS = auto()
+    COORDINATE = auto()
+    VALUE = auto()  # an expression or infinity
+    VALUES = auto()  # values by the names of letters, coordinates and rates
+    ENDS = auto()  # a lower and an upper value
+    ORDER = auto()  # a whole number
+    WORD = auto()
+    SYMBOL = auto()  # the letter of what is found
+    SYMBOLS = auto()  # or one for each of several
+    FORMULA = auto()  # an expression in letters and answers: it, and the answers by their marks
+    FUNCTIONS = auto()  # two answers or expressions
+    AXIS = auto()  # a direction
+
+
+Letter = Annotated[Any, Holds.LETTER]
+Letters = Annotated[Sequence[Any], Holds.LETTERS]
+Value = Annotated[Any, Holds.VALUE]
+Values = Annotated[Mapping[str, Expr], Holds.VALUES]
+Ends = Annotated[Any, Holds.ENDS]
+Functions = Annotated[Sequence[Any], Holds.FUNCTIONS]
+Formula = Annotated[tuple[Expr, Mapping[Any, Quantity]], Holds.FORMULA]
+Name = Annotated[str, Holds.NAME]
+Axis = Annotated[Any, Holds.AXIS]
+Symbols = Annotated[Sequence[str], Holds.SYMBOLS]
+Ask = Callable[[str], Quantity]  # an argument `ask` is not a key: it asks for a further answer by its name
+
+
+@dataclass(frozen=True)
+class ResultKey:
+    """One key of a verb: its name, what it holds, what the manual says of it, and whether the verb needs it."""
+
+    name: str
+    holds: Holds
+    hint: str
+    needed: bool
+
+
+@dataclass(frozen=True)
+class ResultVerb:
+    """A verb of `results:`.
+
+    name       the key that names it, which holds its first argument
+    yields     what it finds, for the manual
+    function   which is called with what the keys hold, and with the name of the result as `key`
+    called     argument -> its key, and after a colon what the manual says of it
+    one_of     keys of which it needs at least one
+    excludes   pairs of keys of which the second has no effect next to the first
+    """
+
+    name: str
+    yields: str
+    function: Callable[..., Any]
+    called: Mapping[str, str]
+    one_of: tuple[str, ...] = ()
+    excludes: tuple[tuple[str, str], ...] = ()
+
+    @cached_property
+    def arguments(self) -> dict[str, ResultKey]:
+        """The key of each argument that has one."""
+        hints = get_type_hints(self.function, include_extras=True)
+        parameters = signature(self.function).parameters
+        found = {}
+        for argument, written in self.called.items():
+            name, _, hint = written.partition(": ")
+            needed = parameters[argument].default is Parameter.empty and name not in self.one_of
+            found[argument] = ResultKey(name, _holds(argument, hints[argument]), hint, needed)
+        return found
+
+    @property
+    def keys(self) -> dict[str, ResultKey]:
+        """The keys in addition to the one that names the verb, those that it needs first."""
+        others = [key for key in self.arguments.values() if key.name != self.name]
+        return {key.name: key for needed in (True, False) for key in others if key.needed is needed}
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        return tuple(name for name, key in self.keys.items() if key.needed)
+
+    @property
+    def own(self) -> ResultKey:
+        """The key that names the verb."""
+        return next(key for key in self.arguments.values() if key.name == self.name)
+
+    def takes(self, argument: str) -> bool:
+        """Whether the function has an argument of this name that is not a key."""
+        return argument in signature(self.function).parameters
+
+
+RESULT_VERBS: dict[str, ResultVerb] = {}  # by name, as the modules of the verbs are loaded
+
+
+def in_results(
+    name: str,
+    yields: str,
+    *,
+    one_of: tuple[str, ...] = (),
+    excludes: tuple[tuple[str, str], ...] = (),
+    **called: str,
+) -> Callable[[F], F]:
+    """Say how `results:` calls a function; `called` has the key of each argument, "for: a letter"."""
+
+    def declared(function: F) -> F:
+        RESULT_VERBS[name] = ResultVerb(name, yields, checked(function, name), called, one_of, excludes)
+        return function
+
+    return declared
+
+
+def _holds(argument: str, hint: Any) -> Holds:
+    """What a key of an argument with this annotation holds."""
+    if get_origin(hint) is Annotated:
+        return next(each for each in get_args(hint)[1:] if isinstance(each, Holds))
+    if argument in ("symbol", "symbols"):
+        return Holds.SYMBOL if argument == "symbol" else Holds.SYMBOLS
+    if get_origin(hint) in (Union, UnionType):
+        return _holds(argument, next(each for each in get_args(hint) if each is not type(None)))
+    if get_args(hint) and get_args(hint)[0] is Quantity:
+        return Holds.ANSWERS
+    known = {Quantity: Holds.ANSWER, int: Holds.ORDER, str: Holds.WORD}
+    return known[hint] if hint in known else Holds[hint.held_as]
