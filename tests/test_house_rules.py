@@ -127,6 +127,45 @@ def test_imports_point_down(name: str) -> None:
     assert {module for module in imported(name) if room(module) not in allowed} == set()
 
 
+# The chapters of mechanics, from the ground up: each imports from those before it.
+RECORDS = list(records())
+CHAPTERS = (
+    "kinematics",
+    "bodies",
+    "rotation",
+    "model",
+    "lagrange",
+    "hamilton",
+    "rest",
+    "motion",
+    "vibrations",
+    "answers",
+    "impacts",
+)
+
+
+@pytest.mark.parametrize("name", VERB_MODULES)
+def test_a_chapter_of_mechanics_imports_from_those_before_it(name: str) -> None:
+    *_, chapter, _ = ("", *name.split("."))
+    if chapter == "mechanics":  # what all chapters share
+        assert not any(module.startswith("mechanics.") and module.count(".") > 1 for module in imported(name))
+        return
+    allowed = CHAPTERS[: CHAPTERS.index(chapter) + 1]
+    others = {module for module in imported(name) if module.startswith("mechanics.") and module.count(".") > 1}
+    assert {module for module in others if module.split(".")[1] not in allowed} == set()
+
+
+SHARED_BY_CLAIMS = {"mechanics.kinematics.coordinates"}  # coordinates as functions of time
+CLAIMS = [name for name in VERB_MODULES if name.endswith(".claims")]
+
+
+@pytest.mark.parametrize("name", CLAIMS)
+def test_predicates_share_no_code_with_the_verbs_next_to_them(name: str) -> None:
+    """They may read what a result hands on, its facts, and what bodies and systems are."""
+    makers = {module for module, _, rule in RECORDS if module.startswith("mechanics.")}
+    assert imported(name) & makers - SHARED_BY_CLAIMS == set()
+
+
 def test_imports_go_in_no_circle() -> None:
     graph = {name: {module for module in imported(name) if module in MODULES} for name in MODULES}
     while leaves := {name for name, needs in graph.items() if not needs & set(graph)}:
@@ -245,7 +284,6 @@ def test_a_verb_is_named_for_what_it_yields() -> None:
 
 # --- rules ---
 
-RECORDS = list(records())
 MARK = re.compile(f"{AND}.*|{AFTER}.*")
 
 

@@ -417,6 +417,6 @@ def _in_results(
     state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
     for name in (name for name in values if name not in there | state):
         message = f"`{of.key}` does not contain `{name}`, so its value has no effect"
-        raise Rejected(Complaint("unused-value", message, help="leave it out", argument=f"values.{name}"))
+        raise Rejected(Complaint("unused-value", message, help="leave it out", argument=f"values:{name}"))
     needed = {name: value for name, value in values.items() if name in there}
     return put_in(of, *results, key=key, symbol=symbol, **(needed or values))

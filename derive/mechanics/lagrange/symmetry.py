@@ -219,5 +219,5 @@ def _in_results(
     strange = next((name for name in values if name not in coordinates), None)
     if strange is not None:
         message = f"`noether` shifts coordinates, but `{strange}` is not one"
-        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values.{strange}"))
+        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values:{strange}"))
     return noether(of, {coordinates[name]: value for name, value in values.items()}, gained, symbol, key)

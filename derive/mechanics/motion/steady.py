@@ -243,7 +243,7 @@ def _in_results(
     strange = next((name for name in values if name not in known), None)
     if strange is not None:
         message = f"`steady` has values of coordinates and rates, but `{strange}` is neither"
-        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values.{strange}"))
+        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values:{strange}"))
     held = explicit(of.value).free_symbols
     turning = [q for q in coordinates.values() if q.symbol not in held and q not in rates]
     if len(symbols) > len(turning):

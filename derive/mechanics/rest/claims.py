@@ -36,10 +36,9 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate
-from derive.algebra.ranges import fulfilling, has_meaning, rational_in_range
+from derive.algebra.ranges import fulfilling, has_meaning, range_of, rational_in_range
 from derive.algebra.samples import NoNumber, SamplePoint, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
-from derive.mechanics.rest.counting import is_countable
 from derive.mechanics.rest.facts import DerivativeOf, LowestOrder, Shape, StableWhere
 from derive.mechanics.rest.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
 from derive.mechanics.rest.on_constraints import signs_on_constraints
@@ -140,10 +139,16 @@ def under_its_condition(facts: Judged) -> bool:
     return all(holds == real for holds, real in tried) and {holds for holds, _ in tried} == {True, False}
 
 
+def _can_be_counted(sought: Sequence[Symbol]) -> bool:
+    """Whether each equilibrium is a change of sign of one force, that of a coordinate which reaches no end of its range."""
+    known = range_of(sought[0])
+    return len(sought) == 1 and not (known is not None and any(known.closed))
+
+
 def all_are_told(facts: Judged) -> bool:
     """Of several coordinates no place without a force is left out; of one all are counted by a route."""
     sought = facts.inputs["sought"]
-    if is_countable(sought):
+    if _can_be_counted(sought):
         return True
     forces = tuple(_force(facts, i) for i in range(len(sought)))
     return none_is_missing(forces, sought, facts.inputs["angles"], facts.inputs["states"])

@@ -311,5 +311,5 @@ def _start_by_name(
     strange = next((name for name in values if name not in known), None)
     if strange is not None:
         message = f"the start is given by values of coordinates and rates, but `{strange}` is neither"
-        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values.{strange}"))
+        raise Rejected(Complaint("no-such-coordinate", message, argument=f"values:{strange}"))
     return places, rates

@@ -355,7 +355,7 @@ class Result:
     """One quantity that is computed from answers.
 
     values   argument of the verb -> what its key holds, in letters
-    places   argument, and `values.x`, -> where it is written
+    places   argument, and `values:x`, -> where it is written
     """
 
     name: Word
@@ -415,7 +415,7 @@ def read_result(written: Record, name: Word, letters: InLetters, faults: Faults)
         ]
         values = dict(each(readings))
         places = {argument: written.values_at[key.name] for argument, key in verb.arguments.items() if key.name in held}
-        places |= {f"values.{letter}": letter.place for letter in values.get("values", ()) if isinstance(letter, Word)}
+        places |= {f"values:{letter}": letter.place for letter in values.get("values", ()) if isinstance(letter, Word)}
         return Result(name, verb, values, places, name.place)
     return None
 
