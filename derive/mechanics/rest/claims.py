@@ -140,7 +140,7 @@ def under_its_condition(facts: Judged) -> bool:
 
 
 def _can_be_counted(sought: Sequence[Symbol]) -> bool:
-    """Whether each equilibrium is a change of sign of one force, that of a coordinate which reaches no end of its range."""
+    """Whether each equilibrium is a change of sign of one force, of a coordinate that reaches no end of its range."""
     known = range_of(sought[0])
     return len(sought) == 1 and not (known is not None and any(known.closed))
 
