@@ -5,11 +5,13 @@ from __future__ import annotations
 import sys
 import textwrap
 from collections.abc import Iterable
+from inspect import getdoc, isfunction, signature, unwrap
 from itertools import groupby
 from pathlib import Path
 
 import derive.mechanics
-import derive.steps.numeric  # noqa: F401
+import derive.steps.numeric
+from derive.mechanics.in_results import RESULT_VERBS
 from derive.steps.rule import CHECK, ROUTE, Rule
 
 DOCS = Path(__file__).parent.parent / "docs"
@@ -31,9 +33,24 @@ def rules() -> list[Rule]:
     return sorted(found, key=lambda rule: rule.name)
 
 
+def verbs() -> str:
+    """A row for each verb that a script can call, with what it yields."""
+    public = {name: each for name, each in vars(derive.mechanics).items() if isfunction(each) and name[0] != "_"}
+    asked: dict[str, str] = {}
+    for name, verb in RESULT_VERBS.items():
+        function = unwrap(verb.function)
+        asked |= dict.fromkeys(({function.__name__, *function.__code__.co_names} & public.keys()), name)
+    lines = ["\n## Verbs\n\n| verb | under `results:` | yields |\n|---|---|---|\n"]
+    for name, each in sorted(public.items()):
+        if "Quantity" in str(signature(each).return_annotation):
+            yields = " ".join((getdoc(each) or "").partition("\n\n")[0].split())
+            lines.append(f"| `{name}` | {f'`{asked[name]}`' if name in asked else ''} | {yields} |\n")
+    return "".join(lines)
+
+
 def document() -> str:
-    """A section for each folder, with a row for each of its rules."""
-    parts = [HEAD]
+    """The verbs, and a section for each folder, with a row for each of its rules."""
+    parts = [HEAD, verbs()]
     for folder, own in groupby(rules(), key=lambda rule: rule.name.partition(".")[0]):
         parts.append(
             f"\n## {folder.capitalize()}\n\n| rule | outcomes | routes | checks | source |\n|---|---|---|---|---|\n"

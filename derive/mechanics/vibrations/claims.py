@@ -97,6 +97,17 @@ def loses(wanted: bool) -> Predicate:
     return lambda facts: is_zero(facts.inputs["loss"]) != wanted
 
 
+def dies_away(manner: str) -> Predicate:
+    """How a free displacement dies away, by the exponents s of a s^2 + b s + c = 0."""
+    signs = {"oscillating": -1, "critical": 0, "creeping": 1, "unknown": None}
+
+    def is_so(facts: Judged) -> bool:
+        mass, loss, stiff = (facts.inputs[role] for role in ("mass", "loss", "stiff"))
+        return sign_known(loss**2 - 4 * mass * stiff) == signs[manner]
+
+    return is_so
+
+
 def in_step(*signs: int | None) -> Predicate:
     """Without loss, with the force or against it by the sign of what is left of the stiffness."""
     return lambda facts: is_zero(facts.inputs["loss"]) and sign_known(facts.inputs["stiff"]) in signs

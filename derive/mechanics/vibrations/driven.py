@@ -1,10 +1,10 @@
-"""The forced oscillation that is left once the free motion has died away: its amplitude and its lag."""
+"""The forced oscillation that is left once the free motion has died away, and the quality factor of the oscillator."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, Pow, atan, cos, diff, pi, sin, sqrt, tan
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, atan, cos, diff, expand, integrate, pi, sin, sqrt, tan
 
 from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar, stand_in
 from derive.algebra.tidy import common_factor, tidied
@@ -18,11 +18,13 @@ from derive.solving.zeros import check_no_resonance, different_from_zero, positi
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assume
-from derive.steps.rule import CHECK, Rule
+from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Level, Quantity
 
-__all__ = ["steady_amplitude"]
+__all__ = ["quality_factor", "steady_amplitude"]
 
+
+HALF = Rational(1, 2)
 
 STEADY_AMPLITUDE = Rule(
     "vibrations.steady_amplitude",
@@ -160,3 +162,74 @@ def _one_swing(linear: Linear, equation: Quantity) -> tuple[Expr, Expr]:
         message = f"`steady_amplitude`: `{equation.key}` is not driven by one F cos(omega t)"
         raise Rejected(Complaint("unknown-driving", message))
     return outside, inside.args[0]
+
+
+QUALITY_FACTOR = Rule(
+    "vibrations.quality_factor",
+    source="Taylor, *Classical Mechanics*, section 5.6; French, *Vibrations and Waves*, chapter 3",
+    outcomes={
+        "oscillates": claims.dies_away("oscillating"),
+        "critical": claims.dies_away("critical"),
+        "creeps": claims.dies_away("creeping"),
+        "depends": claims.dies_away("unknown"),
+    },
+    evidence={"resonance": ROUTE, "energy": ROUTE},
+)
+
+
+@in_results(
+    "quality_factor",
+    "the quality factor of a damped oscillator",
+    equation="quality_factor: a linear equation of motion with damping",
+    q="for: a coordinate",
+    symbol="symbol",
+)
+def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: str = "quality_factor") -> Quantity:
+    """Quality factor of a damped oscillator, Q = omega_0/(2 beta) = sqrt(a c)/b.
+
+    equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
+    q          the coordinate
+    Second route: driven at omega_0 = sqrt(c/a) by F cos(omega_0 t), q = Q (F/c) sin(omega_0 t) satisfies the equation;
+    and of that oscillation, 2 pi times its energy over the work of the damping in one period is Q.
+    Outcomes: oscillates (Q > 1/2: the free motion swings), critical (Q = 1/2), creeps (Q < 1/2), depends (on letters).
+    Errors: the equation is not linear with constant coefficients; nothing is lost, or nothing restores.
+    Source: Taylor, *Classical Mechanics*, section 5.6; French, *Vibrations and Waves*, chapter 3.
+    """
+    linear = linear_equation(equation, q)
+    for value, what in ((linear.a, "inertia"), (linear.b, "damping"), (linear.c, "restoring force")):
+        if sign_known(value) != 1:
+            message = f"`quality_factor`: `{equation.key}` has no positive {what}"
+            raise Rejected(Complaint("wrong-argument", message, help="give the equation of a damped oscillator"))
+    force, w = stand_in("F", positive=True), sqrt(linear.c / linear.a)
+
+    def resonance(found: Expr) -> tuple[Any, Any]:
+        driven = put_back(equation, q, found * force / linear.c * sin(w * TIME)) - put_back(equation, q, Integer(0))
+        return expand(driven - _sense(equation, linear, q) * force * cos(w * TIME)), Integer(0)
+
+    def energy(found: Expr) -> tuple[Any, Any]:
+        """Of the unit oscillation cos(omega_0 t): its energy, and the work of b q_dot along one period."""
+        whole = linear.c / 2
+        work = integrate(linear.b * diff(cos(w * TIME), TIME) ** 2, (TIME, 0, 2 * pi / w))
+        return found, 2 * pi * whole / work
+
+    def outcome(found: Expr) -> str:
+        return {1: "oscillates", 0: "critical", -1: "creeps", None: "depends"}[sign_known(found - HALF)]
+
+    return establish(
+        QUALITY_FACTOR,
+        scalar(symbol),
+        lambda *_: Ratio(sqrt(linear.a * linear.c), linear.b),
+        {"equation": equation, "q": q.symbol},
+        lines=Lines(put_in=None, arranged=presented),
+        routes={"resonance": resonance, "energy": energy},
+        outcome=outcome,
+        phrase_data=PhraseData(outcome_data={"mass": linear.a, "loss": linear.b, "stiff": linear.c}),
+        key=key,
+        kind="number",
+    )
+
+
+def _sense(equation: Quantity, linear: Linear, q: Coordinate) -> int:
+    """1 where the equation was found with the signs of its coefficients here, -1 where all are turned."""
+    unit = put_back(equation, q, Integer(1)) - put_back(equation, q, Integer(0))
+    return 1 if tidied(unit - linear.c) == 0 else -1
