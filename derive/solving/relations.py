@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Expr, Integer, Mul, sqrt
+from sympy import Expr, Mul, sqrt
 
 from derive.algebra.expressions import Relation
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.solving.attainable import reached
+from derive.solving.isolation import isolated
 from derive.solving.presentation import presented
 from derive.solving.unknowns import left_over, mark_for, unknown_of, with_unknown, without_factors_beside
 from derive.steps.known_numbers import sign_known
@@ -62,22 +63,16 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
     factors = Mul.make_args(written)
     core = Mul(*(f for f in factors if f.has(u) and strict_sign_within(f.xreplace({u: unknown})) != 1))
     outside = Mul(written / core, *beside).xreplace({u: unknown})
-    polynomial = core.as_numer_denom()[0].as_poly(u)
-    below = core.as_numer_denom()[1]
-    powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
-    if powers in ([1], [2]):
-        powers = [*powers, 0]
-    if powers not in ([1, 0], [2, 0]) or below.has(u):
+    found, below = isolated(core, u), core.as_numer_denom()[1]
+    if found is None or found.power > 2 or below.has(u):
         raise unsolvable(of, unknown)
-    leading = polynomial.all_coeffs()[0]
-    rest = polynomial.as_expr().xreplace({u: Integer(0)})
-    divided = leading * outside / below
+    divided = found.leading * outside / below
     rising = sign_known(divided)
     if not rising and mark not in ("=", "!="):
         raise unsolvable(of, unknown, _without_sign(divided))
-    solved = presented(-rest / leading)
+    solved = presented(found.value)
     turned = mark if rising != -1 else TURNED[mark]
-    if powers[0] == 1:
+    if found.power == 1:
         return unknown, solved, turned
     if unknown.is_nonnegative and solved.is_nonnegative:
         return unknown, presented(sqrt(solved)), turned

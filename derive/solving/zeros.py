@@ -39,6 +39,7 @@ from derive.algebra.expressions import Relation
 from derive.algebra.ranges import never_vanishes_within, settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.solving.isolation import isolated
 from derive.solving.signs import sign_by_factors
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume
@@ -228,14 +229,11 @@ def different_from_zero(value: Expr) -> Relation | None:
 
 
 def _solved(core: Expr, letter: Symbol) -> Relation | None:
-    polynomial = core.as_poly(letter)
-    if polynomial is None or len(polynomial.terms()) != 2 or polynomial.terms()[1][0] != (0,):
+    found = isolated(core, letter)
+    sign = sign_by_factors(found.leading) if found is not None and found.value != 0 else None
+    if found is None or sign is None or found.power % 2 == 0 and found.power != 2:
         return None
-    ((power,), leading), (_, rest) = polynomial.terms()
-    sign = sign_by_factors(leading)
-    if sign is None or power % 2 == 0 and power != 2:
-        return None
-    return Relation(letter**power, ">" if sign == 1 else "<", spread(tidied(-rest / leading)))
+    return Relation(letter**found.power, ">" if sign == 1 else "<", spread(tidied(found.value)))
 
 
 def _roots(factor: Expr, x: Expr) -> list[Expr]:

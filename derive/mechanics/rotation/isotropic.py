@@ -11,6 +11,7 @@ from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.principal import PrincipalOf, lone_moment
+from derive.solving.isolation import isolated
 from derive.solving.signs import of_the_size
 from derive.steps.establish import Lines, establish
 from derive.steps.rule import CHECK, Rule
@@ -112,12 +113,10 @@ def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
     """The one positive root, and the power of the letter that it is found by; nothing if there is not just one."""
     core = difference.as_numer_denom()[0]
     parts = [part for part in Mul.make_args(factor(core)) if part.has(letter) and not part.is_positive]
-    polynomial = parts[0].as_base_exp()[0].as_poly(letter) if len(parts) == 1 else None
-    powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
-    if not polynomial or powers not in ([1, 0], [2, 0]):
+    found = isolated(parts[0].as_base_exp()[0], letter) if len(parts) == 1 else None
+    if found is None or found.power > 2 or found.value == 0:
         return None
-    leading, *_, rest = polynomial.all_coeffs()
-    root = tidied((-rest / leading) ** Rational(1, powers[0]))
+    root = tidied(found.value ** Rational(1, found.power))
     is_of_square = is_zero(core - core.subs(letter, -letter))
     return (root, 2 if is_of_square else 1) if root.is_positive else None
 

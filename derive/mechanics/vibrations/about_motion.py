@@ -8,15 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Symbol, expand, sqrt
+from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Symbol, expand
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import bound, explicit, rate
 from derive.algebra.taylor import slope
-from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.hamilton.facts import ReducedMatter
 from derive.mechanics.model.dalembert import Matter
+from derive.solving.isolation import solved_for_letter
 from derive.solving.presentation import presented
 from derive.steps.step import Quantity, is_zero
 
@@ -55,7 +55,7 @@ class About:
         """The same with a rate by the letter of a momentum: s = w - Omega cos(alpha) of w = s + Omega cos(alpha)."""
         for momentum, value in self.momenta.items():
             for turning in self.rates.values():
-                found = alone(momentum - value, turning) if isinstance(turning, Symbol) else None
+                found = solved_for_letter(momentum - value, turning) if isinstance(turning, Symbol) else None
                 if found is not None and momentum in self.potential.value.free_symbols - self.letter.keys():
                     yield replace(self, instead={turning: found})
 
@@ -64,24 +64,11 @@ def letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity
     """What the letter is by which a momentum was given: w = s + Omega cos(alpha) of C w = C (s + Omega cos(alpha))."""
     known = explicit(lagrangian.value).free_symbols | value.free_symbols
     for letter in sorted(given.free_symbols - known, key=str):
-        if (found := alone(given - value, letter)) is not None:
+        if (found := solved_for_letter(given - value, letter)) is not None:
             return {letter: presented(found)}
     message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, but in the steady motion it is {value}"
     help_line = "give the momentum by a letter of its own, or none"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
-
-
-def alone(condition: Expr, s: Symbol) -> Expr | None:
-    """The letter by the condition, in which it stands in the first degree, or in the second alone."""
-    polynomial = condition.as_numer_denom()[0].as_poly(s)
-    powers = [n for (n,) in polynomial.monoms()] if polynomial is not None else []
-    if powers == [1, 0]:
-        a, b = polynomial.all_coeffs()
-        return tidied(-b / a)
-    if powers == [2, 0] and s.is_positive:
-        a, _, b = polynomial.all_coeffs()
-        return tidied(sqrt(tidied(-b / a)))
-    return None
 
 
 def determinant_about(about: About, found: Expr) -> Expr:

@@ -21,9 +21,10 @@ from derive.mechanics.motion.facts import Steady
 from derive.mechanics.motion.steady import ZERO
 from derive.mechanics.rest.facts import RestOf, matter_behind
 from derive.mechanics.vibrations import claims
-from derive.mechanics.vibrations.about_motion import About, alone, determinant_about, letter_of_value
+from derive.mechanics.vibrations.about_motion import About, determinant_about, letter_of_value
 from derive.mechanics.vibrations.facts import SquareOf
 from derive.mechanics.vibrations.oscillations import frequency
+from derive.solving.isolation import solved_for_letter
 from derive.solving.presentation import presented
 from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import sign_where
@@ -188,10 +189,14 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
     if is_zero(condition):
         return {}
     letters = [without] if without is not None else sorted(condition.free_symbols, key=str)
-    ways = [{s: found} for s in letters if isinstance(s, Symbol) and (found := alone(condition, s)) is not None]
+    ways = [
+        {s: found} for s in letters if isinstance(s, Symbol) and (found := solved_for_letter(condition, s)) is not None
+    ]
     if not ways:
         message = f"`frequency_squared_about`: `{at.key}` cannot be solved for {without or 'any letter'}"
-        others = [s.name for s in sorted(condition.free_symbols, key=str) if alone(condition, s) is not None]
+        others = [
+            s.name for s in sorted(condition.free_symbols, key=str) if solved_for_letter(condition, s) is not None
+        ]
         help_line = f"it can be for {' or '.join(others)}" if others else None
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if len(ways) == 1:
