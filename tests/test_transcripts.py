@@ -1,12 +1,15 @@
-"""The plain-text page of each pinned problem, whole, as a reviewer reads it.
+"""The plain-text page of each pinned problem, as a reviewer reads it; of its variants only the lines that differ.
 
-After a change that is meant, `python -P -m tests.test_transcripts` writes them anew: read the difference first.
+So a sentence that all pages share is in one file. After an intended change, `python -P -m tests.test_transcripts`
+writes the files again: read the difference first.
 """
 
 from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterator
+from difflib import SequenceMatcher
 from pathlib import Path
 
 import pytest
@@ -85,14 +88,45 @@ def page(name: str, folder: Path) -> str:
     return rendered_once(course_in(folder, edits, problem=problem), f"hw9/{problem}", detail).texts["text"]
 
 
+def differences(base: str, variant: str) -> str:
+    """The lines that a variant has in place of others, place by place, and how many those others are."""
+    before, after = base.splitlines(), variant.splitlines()
+
+    def places() -> Iterator[str]:
+        for change, i, j, k, l in SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
+            if change != "equal":
+                gone = [f"- {j - i} lines\n"] if j > i else []
+                yield "".join([*gone, *(f"+ {line}".rstrip() + "\n" for line in after[k:l])])
+
+    return "\n".join(places())
+
+
+def pinned(name: str, folder: Path) -> str:
+    """What the file of a page holds."""
+    base = name.partition("-")[0]
+    made = page(name, folder / name)
+    return made if base == name else differences(page(base, folder / base), made)
+
+
 @pytest.mark.parametrize("name", PAGES)
 def test_the_page_reads_as_its_transcript(name: str, tmp_path: Path) -> None:
-    expected = (FOLDER / f"{name}.txt").read_text(encoding="utf-8")
-    assert page(name, tmp_path) == expected
+    assert pinned(name, tmp_path) == (FOLDER / f"{name}.txt").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("base", "variant", "expected"),
+    [
+        ("a\nb\nc\n", "a\nB\nc\n", "- 1 lines\n+ B\n"),
+        ("a\nb\nc\n", "b\nc\nd\n", "- 1 lines\n\n+ d\n"),
+        ("a\n", "a\n", ""),
+    ],
+)
+def test_only_lines_that_differ_are_kept(base: str, variant: str, expected: str) -> None:
+    assert differences(base, variant) == expected
 
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as temporary:
         os.environ["XDG_STATE_HOME"] = temporary
         for each in PAGES:
-            (FOLDER / f"{each}.txt").write_text(page(each, Path(temporary) / each), encoding="utf-8")
+            (FOLDER / f"{each}.txt").write_text(pinned(each, Path(temporary) / f"of-{each}"), encoding="utf-8")
