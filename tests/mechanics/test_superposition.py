@@ -153,4 +153,4 @@ def test_it_is_asked_for_in_yaml_alone(tmp_path: Path) -> None:
     assert equal(steps["both_q"].value, Q * (cos(slow * t) + cos(fast * t)) / 2)
     assert equal(steps["both_u"].value, Q * (cos(slow * t) - cos(fast * t)) / 2)
     strange = messages(tmp_path, TWO.replace("{q: Q}", "{L_1: Q}"))
-    assert any("is none" in said for said in strange), strange
+    assert any("is neither" in said for said in strange), strange
