@@ -390,7 +390,7 @@ def test_a_flat_body_is_drawn_by_its_edge_and_a_straight_wire_by_its_ends() -> N
 )
 def test_what_would_be_drawn_wrong_has_no_outline(body: Any) -> None:
     assert seen_outline(body) == []
-    with pytest.raises(Rejected, match="there is no outline"):
+    with pytest.raises(Rejected, match="the outline of a"):
         outline(body)
 
 

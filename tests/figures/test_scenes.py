@@ -57,7 +57,7 @@ def test_a_name_that_could_not_be_a_file_is_refused(name: str) -> None:
 
 
 def test_what_is_no_vector_is_refused() -> None:
-    with pytest.raises(Rejected, match="needs a vector or a place here, but `kinetic_energy` is none"):
+    with pytest.raises(Rejected, match="needs a vector or a place here, but `kinetic_energy` is not one"):
         arrow(known_block()["kinetic_energy"])
     with pytest.raises(Rejected, match="but it is a int"):
         point_mark(3)
