@@ -1,7 +1,7 @@
 """The Newton-Euler equations, numerically: the accelerations and multipliers of a described system in any state.
 
 Each place X is differentiated by the coordinates and along the motion by complex steps. With the Jacobians J and the
-accelerations c at zero second rates, virtual work gives
+accelerations c at constant rates, virtual work gives
 
     sum of W J^T J a + sum of W J^T c = sum of J^T F + A^T lambda,    A a + b = 0,
 
@@ -184,7 +184,7 @@ class Dynamics:
                     yield spread[i, k], one, other
 
     def _matter(self, at: Placed) -> tuple[Reals, Reals]:
-        """The mass matrix and the forces of masses: the weight, minus the inertial forces at zero second rates."""
+        """The mass matrix and the forces of masses: the weight, minus the inertial forces at constant rates."""
         matrix, forces = np.zeros((self.count, self.count)), np.zeros(self.count)
         for weight, one, other in self._pairs_of_matter(at):
             matrix += weight * one.jacobian.T @ other.jacobian

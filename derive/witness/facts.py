@@ -13,7 +13,7 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class Rest(Fact):
-    """An equilibrium: the values of the coordinates, and its condition; an omitted coordinate may have any value."""
+    """An equilibrium: the values of the coordinates, and when it exists; an omitted coordinate may have any value."""
 
     missing = "is not an equilibrium"
     values: Mapping[Symbol, Expr]

@@ -217,7 +217,7 @@ def solution(claim: Claim) -> Verdict | None:
         for each in run.states:
             (stated,) = formula.at(each)
             if not abs(stated - each.q[i]) <= FOLLOWED * size:
-                return claim.refuted("the described motion from this start is different", trial, each)
+                return claim.refuted("the described motion from this start is a different one", trial, each)
         count += 1
     return seen(count, "motions")
 

@@ -295,7 +295,9 @@ def motion(claim: Claim) -> Verdict | None:
         stated = np.array([formula.at(replace(near.state, t=float(t)))[0] for t in times])
         size = max(float(np.max(np.abs(found))), float(np.max(np.abs(begin))), 1e-3)
         if not np.max(np.abs(stated - found)) <= FREQUENCY * 10 * size:
-            return claim.refuted("a small motion of the described system from this start is different", near.trial)
+            return claim.refuted(
+                "a small motion of the described system from this start is a different one", near.trial
+            )
         count += 1
     return seen(count, "motions")
 

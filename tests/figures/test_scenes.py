@@ -63,7 +63,7 @@ def test_what_is_no_vector_is_refused() -> None:
         point_mark(3)
     with pytest.raises(Rejected, match="no view"):
         drawing("one", point_mark(column(0, 0, 0)), view="side")
-    with pytest.raises(Rejected, match="no outline of a Symbol"):
+    with pytest.raises(Rejected, match="outline of a Symbol"):
         outline(a)
 
 
