@@ -26,8 +26,8 @@ PHASE = 2  # bits below those of the symbols
 class Coefficient(NamedTuple):
     """The coefficient of a product of powers, and its number of terms.
 
-    If it is a factor without angles times a factor of angles only: `angles` is the second factor, and `written` returns
-    the product of the first, a number and the rewritten second, with common factors in front.
+    If it is a factor without angles times a factor of angles only, `angles` is the second factor. `written` then
+    returns the product of the first factor, a number and the rewritten second, with common factors in front.
     """
 
     whole: Callable[[], Expr]
@@ -37,7 +37,7 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front; `is_prime` is true if no product is known to be shorter."""
+    """A sum with the common factors of its terms in front; `is_prime` means that no product can be shorter."""
 
     value: Expr
     is_prime: bool

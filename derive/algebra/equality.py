@@ -197,9 +197,9 @@ def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
 def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
     """The values of both sides at points at which both are defined.
 
-    Where neither is real, as sqrt(g/l - k/m) for a strong spring, the values have no meaning, and two forms of one
-    expression may be on different branches: such points count only if there are no others. Points at which the
-    whole problem has no meaning are left out.
+    Where neither is real, as sqrt(g/l - k/m) for a strong spring, the values have no meaning. Two forms of one
+    expression may then be on different branches, so such points count only if there are no others. Points at which
+    the whole problem has no meaning are left out.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
@@ -417,8 +417,8 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
-    """The ratio of the derivatives by a symbol, if it is the ratio of the whole expressions: if one of these contains
-    sin(2 x) or a fractional power, common factors are not visible."""
+    """The ratio of the derivatives by a symbol, if it is the ratio of the whole expressions. It helps if sin(2 x) or a
+    fractional power hides a common factor."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:

@@ -2,7 +2,8 @@
 
     f = N/D, each expanded in a Taylor series in the small symbol, and one series divided by the other
 
-The leading power may be negative or half-integer. SymPy's own `series` is not used; other functions are rejected.
+The leading power may be negative or half-integer. SymPy's own `series` is not used. Functions without such an expansion
+are rejected.
 Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.6.22 (quotient of power series).
 """
 
@@ -35,7 +36,7 @@ from derive.algebra.length import length
 from derive.algebra.node import DimensionOf, Node, ScalarNode, TextOf, explicit
 from derive.algebra.tidy import tidied
 
-HIGHEST = 10  # order of derivative that is taken
+HIGHEST = 10  # highest order of a derivative
 LARGEST = 4000  # number of operations of an expression that is expanded
 SMALL = Dummy("epsilon", positive=True)
 SPOILT = (nan, zoo, oo, -oo, AccumBounds)

@@ -1,4 +1,4 @@
-"""The written length of an expression: its signs, fraction bars, powers and functions, as SymPy's `count_ops` counts.
+"""The written length of an expression: its signs, fraction bars, powers and functions, counted like `count_ops`.
 
 Lengths of parts are cached, because different forms of one value have most of their parts in common.
 """

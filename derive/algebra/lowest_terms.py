@@ -241,8 +241,8 @@ def _numbers(places: Sequence[int]) -> dict[int, int]:
 def _have_no_letter_in_common(top: Terms, bottom: Terms, places: list[int]) -> bool:
     """Whether both have no common factor that contains a symbol, as far as their images modulo a prime show.
 
-    A common factor of degree d in x leaves a common factor of degree d in the images, in which the other symbols are
-    replaced by numbers, unless the leading coefficient of an image vanishes.
+    In the images, all symbols except x are replaced by numbers. A common factor of degree d in x leaves one of degree d
+    in the images, unless the leading coefficient of an image vanishes.
     Source: von zur Gathen, Gerhard, *Modern Computer Algebra*, section 6.5.
     """
     numbers = _numbers(places)

@@ -1,7 +1,7 @@
 """Assumed relations between symbols, l < r_0 or v_0^2 < g R, and what follows from them for signs and for numbers.
 
-A symbol is replaced by its value from the relation, r_0 = l + u with u > 0, so that the sign of a polynomial in l and
-r_0 can be read from its coefficients. Relations are applied one after another: a < b < c gives c = a + u + w.
+A symbol is replaced by its value from the relation, r_0 = l + u with u > 0. The sign of a polynomial in l and r_0 can
+then be read from its coefficients. Relations are applied one after another: a < b < c gives c = a + u + w.
 """
 
 from __future__ import annotations

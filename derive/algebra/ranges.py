@@ -66,7 +66,7 @@ _POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
 
 @contextmanager
 def own_meaning() -> Iterator[None]:
-    """Forget after the `with` block what was assumed positive inside it."""
+    """Forget, after the `with` block, all assumptions of positivity that were made inside it."""
     token = _POSITIVE.set(())
     try:
         yield
@@ -169,7 +169,7 @@ def sign_within(expr: Expr) -> int | None:
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The same; None if the range of a symbol includes an end, because the value may vanish there."""
+    """The same sign; None if the range of a symbol includes an end, because the value may vanish there."""
     if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
         return None
     return sign_within(expr)
@@ -251,7 +251,7 @@ def _sign_by_squares(total: Add) -> int | None:
 
 
 def _sign_of_function(function: Expr) -> int | None:
-    """The sign of a function, if its angle stays within one half turn, or one quarter turn for tan."""
+    """The sign of a sine, cosine or tangent, if its angle stays within a range in which this sign is constant."""
     ends = _ends(function.args[0])
     if ends is None or not (ends[0].is_finite and ends[1].is_finite):
         return None

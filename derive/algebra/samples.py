@@ -146,7 +146,7 @@ def _shrinks(before: Any, now: Any) -> bool:
 
 
 def value_at(expr: Expr, point: SamplePoint) -> Expr:
-    """The value of an expression at a point, with digits that a second precision confirms: more if much cancels.
+    """The value of an expression at a point, confirmed by a second precision; more digits are used if much cancels.
 
     Zero if the value shrinks as digits are added. Raises `Undefined`, or `NoNumber` if no precision confirms another.
     """

@@ -1,8 +1,8 @@
 """Taylor series of a formula along a motion: each symbol has its own series, and these are added and multiplied.
 
-No derivatives are computed: if x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
-x_j y_(k-j), those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s, those of y = x^a from
-x y' = a x' y, and those of an exponential from y' = u' y.
+No derivatives are computed. If x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
+x_j y_(k-j). Those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s; those of y = x^a follow
+from x y' = a x' y, and those of an exponential from y' = u' y.
 
 Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).
 """
@@ -84,14 +84,14 @@ def series_along(
 def arithmetic_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
-    """The same by the rules of this module, also for 0/0; raises `NoSeries` if they are not enough."""
+    """The same coefficients by the rules of this module, also for 0/0; raises `NoSeries` if no rule applies."""
     paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
     found = taylor(expr, paths, order)
     return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
 
 
 def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
-    """The same for a quotient whose numerator and denominator both vanish at the place."""
+    """The same coefficients for a quotient whose numerator and denominator both vanish at the place."""
     above, below = together(expr).as_numer_denom()
     lowest, under = next(_beginnings(below, paths, order), (None, ()))
     if lowest is None:

@@ -1,6 +1,6 @@
 """Polynomials in letters and in sines and cosines of angles, in a normal form: equal forms mean equal polynomials.
 
-Each angle q that occurs is represented by z = exp(i q), so that cos q = (z + 1/z)/2 and sin q = (z - 1/z)/(2 i): sums
+Each angle q that occurs is represented by z = exp(i q), with cos q = (z + 1/z)/2 and sin q = (z - 1/z)/(2 i). Then sums
 and multiples of angles are products of powers of such z, and sin^2 + cos^2 = 1 needs no extra rule. A divisor is
 represented by an additional letter, which is eliminated again before a form is compared with zero.
 

@@ -135,9 +135,9 @@ class AxisOfRotation(Mark):
 
 @dataclass(frozen=True)
 class LengthMark(_Between):
-    """A dimension line between two points, moved aside in a direction, or to the left in the drawing without one, by
-    the length `clear`, by a fixed distance that does not depend on the scale, and by `beyond` in points, which makes
-    room for inner dimension lines. A length of zero is not drawn.
+    """A dimension line between two points, shifted in the direction `aside`, by default to the left in the drawing.
+    The shift is the length `clear`, plus a fixed number of points for any scale, plus `beyond` points, which make room
+    for inner dimension lines. A length of zero is not drawn.
     """
 
     aside: Position | None

@@ -62,7 +62,7 @@ def outline(body: Any, about: str | None = None, named: bool = True, sliced: boo
 
 
 def seen_outline(body: Body, about: str | None = None, named: bool = True) -> list[Mark]:
-    """The same; empty for a body whose outline is unknown."""
+    """The outline of a body; an empty list if it is unknown."""
     point: Point = body.point(about or body.reference)
     if isinstance(body, EdgedBody):
         return _with_edges(body, point, named)

@@ -80,7 +80,7 @@ def _conditions_are_seen(
 
 
 def _energies_are_seen(system: System) -> bool:
-    """Whether no separate potential energy couples parts or acts on a body, as springs would that are not drawn."""
+    """Whether no separate potential energy couples parts or acts on a body: springs for it would not be drawn."""
     charged = len([each for each in system.charges if any(each.electric)])
     own = system.stored[: len(system.stored) - charged]
     many = len(system.particles) + len(system.bodies) > 1 or system.bodies

@@ -32,8 +32,8 @@ _DRAWING_NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 
 @dataclass(frozen=True, kw_only=True)
 class Mark:
-    """Base class of all marks: a label, which is a name or an expression, and the keys of the steps that the mark uses,
-    so that no drawing shows an answer too early.
+    """Base class of all marks: a label, which is a name or an expression, and the keys of the steps that it uses.
+    The keys ensure that no drawing shows an answer too early.
     """
 
     label: Any = field(default=None, metadata=BESIDE)

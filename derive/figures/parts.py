@@ -1,7 +1,7 @@
 """The parts of machines: particles, rods, ropes, springs, blocks, carts, wheels and wedges.
 
-Parts without a size in the problem have a size in points, so that they are visible in drawings of any scale: particles,
-blocks and wheels without given lengths, and the width of a spring.
+Particles, blocks and wheels without given lengths, and the width of a spring, have a size in points. So they are
+visible in drawings of any scale.
 """
 
 from __future__ import annotations

@@ -81,8 +81,8 @@ class InNumbers(Protocol):
 
 @dataclass(frozen=True)
 class Paper(ABC):
-    """Everything that a mark needs to be drawn: numbers, the viewing direction, points per unit of length, the size,
-    centre and outermost places of the bodies, and outlines of surfaces, which hide marks behind them.
+    """Everything that a mark needs to be drawn: numbers, the viewing direction, points per unit of length, and the
+    size, centre and outermost places of the bodies. It draws the outlines of surfaces, which hide marks behind them.
     """
 
     numbers: InNumbers

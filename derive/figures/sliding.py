@@ -42,7 +42,7 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 
 ZERO = Integer(0)
-PAST = Rational(8, 5)  # length of a slope beyond the sliding block, relative to its coordinate
+PAST = Rational(8, 5)  # length of a slope, relative to the coordinate of the block on it
 
 
 class Sliding:

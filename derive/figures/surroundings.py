@@ -150,7 +150,7 @@ class WayMark(Surface):
 
 @dataclass(frozen=True)
 class AngleBetween(Mark):
-    """The arc from one line to another at a vertex, shorter than both; `dashed` draws the first line, if no mark does.
+    """The arc from one line to another at a vertex, shorter than both; `dashed` also draws the first line.
 
     a, b   vectors from the vertex, whose lengths limit the arc
     """

@@ -32,8 +32,8 @@ CENTRE = "C"
 
 
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
-    """For a body with precession, nutation and spin: arrows round the vertical and round its axis, for the precession
-    and spin angles, and for a symmetric body the axes that follow it without its spin.
+    """For a body with precession, nutation and spin, arrows round the vertical and its axis for the precession and spin
+    angles. For a symmetric body, also the axes that follow it without its spin.
 
     end   the end of its axis
     """
@@ -80,7 +80,7 @@ def following_axes(placed: Any) -> list[ImmutableDenseMatrix]:
 
 
 def seen_upright(mark: Mark) -> Mark:
-    """The angle as one that does not affect the view, because the body is already rotated to face the viewer."""
+    """The angle as a mark that does not affect the view, because the body is already rotated to face the viewer."""
     return UprightAngle(**{f.name: getattr(mark, f.name) for f in fields(mark)}) if type(mark) is AngleBetween else mark
 
 

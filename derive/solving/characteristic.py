@@ -152,8 +152,8 @@ class Pencil:
         return [Root(OrderedRoot(coefficients, n + 1, name), (), 1) for n, name in enumerate(names)]
 
     def _are_positive(self, coefficients: Sequence[Expr]) -> bool:
-        """Whether all roots of that factor are positive: they are real if M is positive definite, and by Descartes'
-        rule no real root is negative or zero if the signs of the coefficients alternate."""
+        """Whether all roots of that factor are positive. They are real if M is positive definite; by Descartes' rule,
+        no real root is negative or zero if the signs of the coefficients alternate."""
         signs = [sign_by_factors(tidied(each)) for each in coefficients]
         alternate = None not in signs and 0 not in signs and all(u == -v for u, v in pairwise(signs))  # type: ignore[operator]
         return alternate and self._has_positive_minors(self.mass)
