@@ -206,7 +206,7 @@ REFUSED: dict[str, list[tuple[str, int, str]]] = {
         ("unused-key", 10, "`bound` has no effect on `roots`"),
     ],
     "nan-put-in": [("no-value", 11, "for alpha = pi/2, tan(alpha) in `motion_r` is infinite")],
-    "proj_fake2": [("contradicts-motion", 11, "the described motion from this start has another speed")],
+    "proj_fake2": [("contradicts-motion", 11, "the described motion from this start has a different speed")],
     "res_put": [("no-value", 11, "for Omega = sqrt(k)/sqrt(m), the denominator Omega**2*m - k of `s` vanishes")],
     "roll_wrong_contact": [("no-contact", 7, "does not reach (x, -R)")],
     "satellite_stability_unverified": [("unverified", 32, "whether l < r_0 is not known")],

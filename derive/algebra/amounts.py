@@ -10,7 +10,7 @@ from sympy.core.symbol import Str
 from derive.algebra.dimensions import Dimension
 from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, Value, explicit
 
-IN_DEGREES = frozenset({"deg", "degree", "degrees", "\u00b0"})  # a unit of angles that stays as it was written
+IN_DEGREES = frozenset({"deg", "degree", "degrees", "\u00b0"})  # units of angle that are kept as written
 
 
 class Amount(ScalarNode):
@@ -23,7 +23,7 @@ class Amount(ScalarNode):
         return explicit(self.args[0]) * self.args[2]
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        return None  # its unit is told to the reader, and checked where it is read
+        return None  # its unit is shown to the reader, and checked when it is read
 
     def lowered(self, text: TextOf) -> str:
         return f"({text(self.args[0])}*{text(self.args[2])})"

@@ -1,6 +1,6 @@
 """Nodes for equations in several unknowns: a column of amplitudes, and the determinant that must vanish.
 
-Amplitudes of one mode may be lengths and angles side by side, so that neither node asks for entries of one dimension.
+The amplitudes of one mode may include both lengths and angles, so neither node requires entries of one dimension.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from derive.errors import during
 
 
 class Amplitudes(MatrixNode):
-    """A column, one entry for each coordinate. Only the ratios of its entries mean anything."""
+    """A column, one entry for each coordinate. Only the ratios of its entries have a meaning."""
 
     @property
     def shape(self) -> tuple[Any, Any]:
@@ -47,7 +47,7 @@ class Determinant(ScalarNode):
         return determinant_of(explicit(self.args[0]))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """That of a product of entries, one of each row: all such products that do not vanish have the same."""
+        """The dimension of a product of entries, one of each row: all such nonzero products have the same dimension."""
         matrix = self.args[0]
         for entry in matrix:
             of(entry)
@@ -59,9 +59,9 @@ class Determinant(ScalarNode):
 
 
 def determinant_of(matrix: MatrixBase) -> Expr:
-    """Worked out in the ring of the letters of its entries, where nothing is divided; multiplied out.
+    """Compute the determinant, multiplied out, in the polynomial ring of the symbols of its entries, without division.
 
-    Functions and roots are letters too: SymPy has no ring for them, and would cancel after each step.
+    Functions and roots count as symbols too: SymPy has no ring for them, and would cancel after each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
@@ -72,14 +72,14 @@ def determinant_of(matrix: MatrixBase) -> Expr:
 
 
 def expanded_by_rows(matrix: MatrixBase) -> Expr:
-    """The determinant by its definition: along the first row, with each minor of the rows below worked out once.
+    """The determinant by its definition: expanded along the first row, with each minor of the rows below computed once.
 
-    Source: Axler, *Linear Algebra Done Right*, section 9C; it shares nothing with `determinant_of`, but for the ring.
+    Source: Axler, *Linear Algebra Done Right*, section 9C; it shares nothing with `determinant_of` except the ring.
     """
     ring, entries = sring(list(matrix))
     size = matrix.shape[0]
     known: dict[tuple[int, ...], Any] = {(): ring.one}
-    for row in reversed(range(size)):  # columns that the rows from here on stand in -> their minor
+    for row in reversed(range(size)):  # columns used by this row and the rows below it -> their minor
         own = entries[size * row : size * (row + 1)]
         minors: dict[tuple[int, ...], Any] = {}
         for columns, minor in known.items():
@@ -94,7 +94,7 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
 
 
 def _places(matrix: MatrixBase, row: int, taken: tuple[int, ...]) -> tuple[int, ...]:
-    """A column for each row such that no entry there vanishes."""
+    """Return a column for each row, all different, such that no entry there vanishes."""
     if row == matrix.shape[0]:
         return taken
     free = (j for j in range(matrix.shape[1]) if j not in taken and matrix[row, j] != 0)

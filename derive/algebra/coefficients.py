@@ -1,6 +1,6 @@
-"""The coefficients of a sum by the powers of some of its letters, multiplied out without building its terms one by one.
+"""The coefficients of a sum by powers of some of its symbols, multiplied out without building its terms one by one.
 
-Functions stand as letters here: cos(a - b) is one, and what it has to do with cos a is another module's business.
+Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is left to another module.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from derive.algebra.sparse_polynomials import WIDTH, Form, Outside, Ring, Terms
 __all__ = ["Coefficient", "Expanded", "Outside", "coefficients", "is_linear_in_some_letter", "is_multiplied_out"]
 
 ONES = (1 << WIDTH) - 1
-PHASE = 2  # bits below those of the letters
+PHASE = 2  # bits below those of the symbols
 
 
 class Coefficient(NamedTuple):
-    """What multiplies a product of powers, and of how many terms it is the sum.
+    """The coefficient of a product of powers, and its number of terms.
 
-    Where it is a product of what has no angles and what has nothing else: `angles`, and how the first is written with a
-    number and with what became of the angles, its common factors in front.
+    If it is a factor without angles times a factor of angles only, `angles` is the second factor. `written` then
+    returns the product of the first factor, a number and the rewritten second, with common factors in front.
     """
 
     whole: Callable[[], Expr]
@@ -37,16 +37,16 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front, and whether it is known that no product is shorter."""
+    """A sum with the common factors of its terms in front; `is_prime` means that no product can be shorter."""
 
     value: Expr
     is_prime: bool
 
 
 def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The powers of the letters that occur together, the highest first, each with what multiplies them.
+    """The powers of the symbols that occur together, the highest first, each with its coefficient.
 
-    Raises `Outside` for what is no polynomial, or one that is too large.
+    Raises `Outside` if the value is not a polynomial, or is too large.
     """
     ring = _Kept.ring = Expanded() if _Kept.ring.is_full else _Kept.ring
     form = ring.form(value)
@@ -63,7 +63,7 @@ def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int
 
 
 def is_multiplied_out(value: Expr) -> bool:
-    """Whether it is a sum of products of powers of letters and of functions."""
+    """Whether the value is a sum of products of powers of symbols, sines and cosines."""
     return all(_is_power(factor) for term in Add.make_args(value) for factor in Mul.make_args(term))
 
 
@@ -74,7 +74,7 @@ def _is_power(factor: Expr) -> bool:
 
 
 class Expanded(Ring):
-    """What is multiplied out: letters, and functions of what is multiplied out; nothing is divided by."""
+    """The ring of multiplied-out polynomials in symbols, sines and cosines, without division."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -116,7 +116,7 @@ class Expanded(Ring):
         )
 
     def _as_product(self, terms: Terms) -> tuple[Terms, Terms] | None:
-        """Where all parts without angles are multiplied by the same sum of sines and cosines."""
+        """Split into two factors, if all parts without angles multiply the same sum of sines and cosines."""
         by_rest: dict[int, Terms] = {}
         for monomial, coefficient in terms.items():
             angles = monomial & self._angles
@@ -134,7 +134,7 @@ class Expanded(Ring):
         return rest, turning
 
     def factored(self, terms: Terms, number: Rational, other: Expr = S.One) -> Factored:
-        """The common factors of the terms in front, with a number and one factor more."""
+        """The sum times a number and one more factor, with the common factors of the terms in front."""
         if number < 0:
             terms, number = {monomial: -coefficient for monomial, coefficient in terms.items()}, -number
         lowest, content, rest = _in_front(terms)
@@ -147,7 +147,7 @@ class Expanded(Ring):
         return Factored(found, is_prime)
 
     def product_in_front(self, terms: Terms, power: int = 1) -> Product:
-        """The common factors of the terms, and the sum of what is left of them; or the same below the line."""
+        """The common factors of the terms, and the sum of the remaining terms, each raised to the power 1 or -1."""
         lowest, content, rest = _in_front(terms)
         powers = {letter: power * n for letter, n in self._letters(lowest)}
         if len(rest) > 1:
@@ -162,7 +162,7 @@ class Expanded(Ring):
         return found
 
     def _term(self, coefficient: Rational, monomial: int) -> Expr:
-        """As `Mul` has it, which need not look for powers of one letter here."""
+        """The same as `Mul` gives, without its search for powers of one symbol, which is not needed here."""
         factors = [letter ** Integer(power) for letter, power in self._letters(monomial)]
         if not all(factor.is_Symbol or factor.is_Pow and factor.base.is_Symbol for factor in factors):
             return Mul(coefficient, *factors)
@@ -173,7 +173,7 @@ class Expanded(Ring):
         return (letter ** Integer(power) for letter, power in self._letters(monomial))
 
     def _letters(self, monomial: int) -> Iterator[tuple[Expr, int]]:
-        """The letters of a monomial, from the first: the places are whole numbers of `WIDTH` bits above the lowest."""
+        """The symbols of a monomial, from the first: each place is a multiple of `WIDTH` bits above the lowest."""
         monomial >>= PHASE
         place = PHASE
         while monomial:
@@ -187,7 +187,7 @@ class Expanded(Ring):
 
 
 def _sum(terms: list[Expr]) -> Expr:
-    """As `Add` has it, which need not look for terms that are alike here."""
+    """The same as `Add` gives, without its search for like terms, which is not needed here."""
     if any(not (term.is_Mul or term.is_Atom or term.is_Pow) for term in terms) or not terms:
         return Add(*terms)
     numbers = [term for term in terms if term.is_Number]
@@ -197,14 +197,14 @@ def _sum(terms: list[Expr]) -> Expr:
 
 
 def _in_front(terms: Terms) -> tuple[int, int, Terms]:
-    """What the terms have in common, letters and number, and what is left of them."""
+    """The common symbols and the common number of the terms, and the remaining terms."""
     lowest = reduce(_common, terms)
     content = gcd(*terms.values()) * (-1 if all(coefficient < 0 for coefficient in terms.values()) else 1)
     return lowest, content, {monomial - lowest: coefficient // content for monomial, coefficient in terms.items()}
 
 
 def _common(one: int, other: int) -> int:
-    """The letters that two monomials share, in the lower of their powers."""
+    """The symbols that two monomials share, each in the lower of its two powers."""
     shared, place = 0, PHASE
     while one >> place and other >> place:
         shared += min((one >> place) & ONES, (other >> place) & ONES) << place
@@ -213,7 +213,7 @@ def _common(one: int, other: int) -> int:
 
 
 def is_linear_in_some_letter(terms: Terms) -> bool:
-    """Whether a letter stands in one term alone, in its first power: then only common factors divide the sum."""
+    """Whether a symbol appears in one term only, in its first power: then only common factors divide the sum."""
     place, every = PHASE, reduce(int.__or__, terms)
     while every >> place:
         powers = [power for monomial in terms if (power := (monomial >> place) & ONES)]
@@ -224,6 +224,6 @@ def is_linear_in_some_letter(terms: Terms) -> bool:
 
 
 class _Kept:
-    """The ring that goes from one sum to the next."""
+    """The ring that is reused from one sum to the next."""
 
     ring = Expanded()

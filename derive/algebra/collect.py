@@ -1,4 +1,4 @@
-"""What a line about a motion is made of: each product of rates with what multiplies it in one bracket."""
+"""Collect the terms of a line about a motion: each product of rates, with its coefficient in one bracket."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from derive.algebra.tidy import tidied
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """The terms gathered by accelerations, and by squares and products of rates; each with one factor in front."""
+    """Collect the terms by accelerations, and by squares and products of rates, each with one factor in front."""
     return by_rates(value, moving, 2)
 
 
 def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bool = False) -> Expr:
-    """The terms gathered by the rates that they contain; `halves` writes (1/2)(...) q_dot^2."""
+    """Collect the terms by the rates that they contain; `halves` writes (1/2)(...) q_dot^2."""
     if (directed := _by_directions(value)) is not None:
         plain, turning = directed
         return Add(*Add.make_args(by_rates(plain, moving, highest, halves)), *turning, evaluate=plain == 0)
@@ -44,7 +44,7 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     for powers, c in gathered:
         part = _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
         part = part if any(powers) else _level(part, part, moving)
-        # Terms without rates stand side by side.
+        # Terms without rates stay separate.
         level = Add.make_args(_with_differences(part, moving)) if not any(powers) else ()
         parts += [_with_short_sums(term, moving) for term in level] if not any(powers) else [part]
     parts = [part for part in parts if part != 0]  # sin^2 + cos^2 - 1 is seen to vanish only here
@@ -52,7 +52,7 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
 
 
 def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
-    """Terms that differ by a number as one of them, in their order."""
+    """Add up terms that differ only by a numerical factor, in their order."""
     numbers: dict[Expr, Expr] = {}
     for term in terms:
         number, rest = term.as_coeff_Mul()
@@ -61,9 +61,9 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 
 
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
-    """k u - k l u/|u| as the part without directions and the terms with one, u/|u|; None where |u| divides nothing.
+    """Split k u - k l u/|u| into the part without directions u/|u| and the terms with one; None if no |u| is a divisor.
 
-    With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so that only the first power of each s is left.
+    With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
     """
     powers = {power for power in value.atoms(Pow) if isinstance(power.base, Abs) and power.exp.is_Integer}
     if not any(power.exp.is_negative for power in powers):
@@ -87,13 +87,13 @@ def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
 
 
 def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """l^2/(m r^3) - G M m/r^2, not (l^2 - G M m^2 r)/(m r^3): no common denominator that holds a coordinate."""
+    """l^2/(m r^3) - G M m/r^2, not (l^2 - G M m^2 r)/(m r^3): no common denominator with a coordinate in it."""
     below = found.as_numer_denom()[1]
     return by_terms(value.expand()) if below.has(*moving) and not below.has(sin, cos) else found
 
 
 def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """k (y - l) - m g, not k y - m g - k l: a coordinate with the constant from which it is counted."""
+    """k (y - l) - m g, not k y - m g - k l: a coordinate with the constant from which it is measured."""
     terms = list(Add.make_args(value))
     for q in moving:
         for term in [each for each in terms if each.has(q) and not (each / q).has(*moving, TIME)]:
@@ -106,8 +106,8 @@ def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
-    """(1/2) m (r_dot^2 + r^2 phi_dot^2): a kinetic energy with what all its terms have in common in front, if masses or
-    moments of inertia are in it; else the terms together that have all constants in common.
+    """(1/2) m (r_dot^2 + r^2 phi_dot^2): a kinetic energy with the common constants of all its terms in front, if these
+    include a mass or moment of inertia; else terms with exactly the same constants are put in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -131,7 +131,7 @@ def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collec
 
 
 def with_constants_together(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """The terms that have one function of the coordinates together: -2 (M + m) g l cos(theta)."""
+    """Collect the terms with the same function of the coordinates: -2 (M + m) g l cos(theta)."""
     gathered: dict[Expr, list[Expr]] = {}
     for term in Add.make_args(value):
         number, constants, others = _apart(term, moving)
@@ -140,7 +140,7 @@ def with_constants_together(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def _with_short_sums(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """l ((M + m) g - m l omega^2 cos(theta)) sin(theta): the constants in its sums together, where that is shorter."""
+    """l ((M + m) g - m l omega^2 cos(theta)) sin(theta): constants collected in each sum, if that is shorter."""
 
     def together(sum_of: Expr) -> Expr:
         return min((sum_of, with_constants_together(sum_of, moving)), key=length)
@@ -162,7 +162,7 @@ def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], l
 
 
 def _common_number(numbers: Sequence[Expr]) -> Expr | None:
-    """1/2 of 1/2, 1 and 3/2; nothing where numbers would have to be put on one denominator, 1/2 and 3/4."""
+    """1/2 for 1/2, 1 and 3/2; None if the numbers would need a new common denominator, such as 1/2 and 3/4."""
     below = ilcm(*(n.q for n in numbers))
     if below > 2 and len({n.q for n in numbers}) > 1:
         return None
@@ -170,7 +170,7 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """Products of powers of the letters, the highest first, with what multiplies them; none if it is no polynomial."""
+    """Products of powers of the letters, the highest first, with their coefficients; empty if not a polynomial."""
     try:
         return coefficients(value, letters)
     except Outside:
@@ -181,7 +181,7 @@ def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, .
 
 
 def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
-    """Such as the force of a stretched spring, a term of its own: on one denominator with others nobody can read it."""
+    """Whether the term has a root of a coordinate, as the force of a stretched spring: it stays a separate term."""
     return any(root.base.has(*moving) for root in _roots_in(term))
 
 
@@ -193,9 +193,9 @@ def _roots_in(expr: Expr) -> frozenset[Pow]:
 
 
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """The terms gathered by rates and by products of the coordinates; a difference before a product is subtracted.
+    """Collect the terms by rates and by products of the coordinates; a difference as coefficient is subtracted.
 
-    I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and round.
+    I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and cyclic permutations.
     """
     rates = [rate(q, n) for n in (2, 1) for q in moving]
     present = [s for s in (*rates, *moving) if value.has(s)]
@@ -214,7 +214,7 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
-    """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
+    """(1/2)(I + M R^2/4) q_dot^2: write half a mass before its squared rate, and no denominator before a sum."""
     powers = [s**n for s, n in rates]
     if halves and any(n == 2 for _, n in rates) and coefficient.terms > 1:
         inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
@@ -231,7 +231,7 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """What has no angles, and one function of the angles, each for itself if the second is no sum."""
+    """Tidy the factor without angles and the factor of angles separately, if the second contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):
@@ -244,7 +244,7 @@ def _shortest(found: Factored) -> Expr:
 
 
 def _has_fractions_inside(value: Expr) -> bool:
-    """A product with a sum in it of which one term is a mere fraction: m (cos^2 a/4 + 1/20)."""
+    """Whether the value is a product with a sum in it, one of whose terms is a fraction: m (cos^2 a/4 + 1/20)."""
     sums = [f for f in Mul.make_args(value) if f.is_Add] if value.is_Mul else []
     return any(term.is_Rational and not term.is_Integer for f in sums for term in f.args)
 
@@ -255,9 +255,9 @@ def _shorter_as_product(value: Expr) -> Expr:
 
 
 def spread(value: Expr) -> Expr:
-    """I + M a^2/4, not (4 I + M a^2)/4: a number below a sum is put into it where that leaves a term without one.
+    """I + M a^2/4, not (4 I + M a^2)/4: a denominator is moved into the sum if a term is then left without one.
 
-    (3 g - 2 l omega^2)/6 stays, for g/2 - l omega^2/3 is no simpler.
+    (3 g - 2 l omega^2)/6 is kept, because g/2 - l omega^2/3 is not simpler.
     """
     return _spread(tidied(value))
 
@@ -274,7 +274,7 @@ def _spread(value: Expr) -> Expr:
 
 
 def by_terms(value: Expr) -> Expr:
-    """A sum with each of its terms tidy, not over one denominator; a denominator that is a power is written as one."""
+    """Tidy each term of a sum, without a common denominator; a denominator that is a power is written as a power."""
     return Add(*(_shorter(tidied(term)) for term in Add.make_args(value)))
 
 
@@ -284,7 +284,7 @@ def _shorter(term: Expr) -> Expr:
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
-    """One product, or a sum of tidy terms, whichever is shorter to write; a sum if angles stand in a denominator."""
+    """One product or a sum of tidy terms, whichever is shorter; a sum if a denominator contains angles."""
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]

@@ -10,7 +10,7 @@ from sympy import Expr, ImmutableDenseMatrix, MatrixBase
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.tidy import tidied
 
-Sign = Callable[[Expr], int | None]  # 1, 0 or -1; None where it depends on the letters
+Sign = Callable[[Expr], int | None]  # 1, 0 or -1; None if it depends on the values of the symbols
 
 
 def is_positive_definite(matrix: MatrixBase, sign: Sign) -> bool:
@@ -24,10 +24,10 @@ def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
 
 
 def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
-    """The least sign that the quadratic form takes: 1 where it is positive definite, 0 where it is semidefinite, -1
-    where it is negative in some direction; None where the letters decide.
+    """The least sign that the quadratic form takes: 1 if it is positive definite, 0 if it is semidefinite, -1 if it is
+    negative in some direction; None if this depends on the values of the symbols.
 
-    Semidefinite needs all principal minors, not the leading ones alone.
+    The semidefinite case needs all principal minors, not only the leading ones.
     """
     if is_positive_definite(matrix, sign):
         return 1
@@ -40,7 +40,7 @@ def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
 
 
 def principal_minors(matrix: MatrixBase) -> Iterator[Expr]:
-    """Those of one row and column, then of two, and so on."""
+    """The principal minors of one row and column, then of two, and so on."""
     size = matrix.shape[0]
     for n in range(1, size + 1):
         yield from (_minor(matrix, rows) for rows in combinations(range(size), n))

@@ -1,6 +1,6 @@
 """Partial derivatives of sums, products, whole powers, sines and cosines, in the form that SymPy gives them.
 
-The derivative of a distance |u| along a line is u/|u| times that of u, where u is not zero.
+The derivative of a distance |u| along a line is u/|u| times the derivative of u, where u is not zero.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ ZERO, ONE = Integer(0), Integer(1)
 
 
 def derivative(expr: Any, *by: Symbol | int) -> Any:
-    """The partial derivative by each letter in turn, as often as a number after it says; of a matrix entry by entry."""
+    """The partial derivative by each symbol in turn; a number after it is the order. A matrix goes entry by entry."""
     if isinstance(expr, MatrixBase):
         return expr.applyfunc(lambda entry: derivative(entry, *by))
     for s in _in_turn(by):
@@ -32,7 +32,7 @@ def _in_turn(by: Sequence[Symbol | int]) -> list[Symbol]:
     return letters
 
 
-@lru_cache(maxsize=16384)  # a Lagrangian is differentiated by each of its letters, and most of its parts have few
+@lru_cache(maxsize=16384)  # a Lagrangian is differentiated by each of its symbols, and most of its parts have few
 def _letters(expr: Expr) -> frozenset[Symbol]:
     if expr.is_Symbol:
         return frozenset((expr,))
@@ -47,7 +47,7 @@ def _derivative(expr: Expr, s: Symbol) -> Expr:
     return _derivative_by_parts(expr, s) if s in _letters(expr) else ZERO
 
 
-@lru_cache(maxsize=16384)  # a force, a momentum and an equation of motion differentiate what has most parts in common
+@lru_cache(maxsize=16384)  # forces, momenta and equations of motion are derivatives of mostly common parts
 def _derivative_by_parts(expr: Expr, s: Symbol) -> Expr:
     if expr.is_Add:
         return Add(*(_derivative(term, s) for term in expr.args))
@@ -67,7 +67,7 @@ def _derivative_by_parts(expr: Expr, s: Symbol) -> Expr:
 
 
 def _along_distances(expr: Expr, s: Symbol) -> Expr:
-    """What SymPy differentiates, with u/|u| for the sign of u."""
+    """The derivative by SymPy, with u/|u| for the sign of u."""
     found = diff(expr, s)
     return found.replace(sign, lambda u: u / Abs(u)) if found.has(sign) else found
 

@@ -27,7 +27,7 @@ class Dimension:
 
     @property
     def powers(self) -> dict[str, Fraction]:
-        """By the letters that physics has for them."""
+        """The exponents by the usual letters of physics."""
         return {"M": self.mass, "L": self.length, "T": self.time, "I": self.current}
 
     def __mul__(self, other: Dimension) -> Dimension:
@@ -44,7 +44,7 @@ class Dimension:
         return self == NUMBER
 
 
-@lru_cache(maxsize=1024)  # there are few, and every line of a page is checked
+@lru_cache(maxsize=1024)  # there are few dimensions, and every line of a page is checked
 def _multiplied(one: Dimension, other: Dimension) -> Dimension:
     return Dimension(*(a + b for a, b in zip(one.powers.values(), other.powers.values(), strict=True)))
 

@@ -1,4 +1,4 @@
-"""A direction as an instructor gives it: by name, or by components."""
+"""A direction as the author gives it: by name, or by components."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Direction:
-    """Either a name that the body knows (`diagonal`, `x`) or three components along the body's axes."""
+    """Either a name that the body defines (`diagonal`, `x`) or three components along the body's axes."""
 
     name: str | None = None
     components: tuple[Expr, Expr, Expr] | None = None

@@ -1,6 +1,6 @@
-"""An expression as nested lists, and back, unchanged: `["Mul", ["Rational", 13, 12], ["Symbol", "M", ...]]`.
+"""Encode an expression as nested lists and decode it unchanged: `["Mul", ["Rational", 13, 12], ["Symbol", ...]]`.
 
-Reading back builds objects of the listed classes only; nothing is evaluated from text.
+Decoding builds objects of the listed classes only; nothing is evaluated from text.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": 
 
 
 def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
-    """A tree of lists, strings and integers; letters that equal no other letter go by a name, where there is one."""
+    """A tree of lists, strings and integers; `name` gives a name for a dummy symbol, which equals no other symbol."""
     if expr is None:
         return ["None"]
     if name and isinstance(expr, Dummy):
@@ -56,9 +56,9 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
     return [kind, *(encoded(arg, name) for arg in expr.args)]
 
 
-@lru_cache(maxsize=4096)  # a derivation has a few letters, and each of its lines has most of them
+@lru_cache(maxsize=4096)  # a derivation has a few symbols, and each of its lines has most of them
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """The fewest assumptions that make an equal symbol: SymPy does not tell apart how they were first written."""
+    """The fewest assumptions that give an equal symbol: SymPy does not record how they were first written."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
         if Symbol(symbol.name, **assumptions) == symbol:
@@ -67,20 +67,20 @@ def _assumptions(symbol: Symbol) -> dict[str, bool]:
 
 
 def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
-    """The expression that `encoded` wrote; ValueError for anything else, whatever it is."""
+    """Return the expression that `encoded` wrote; any other data is a ValueError."""
     left = [MAX_NODES]
 
     def made(tree: Any, depth: int) -> Any:
         left[0] -= 1
         if depth > MAX_DEPTH or left[0] < 0 or not isinstance(tree, list) or not tree or not isinstance(tree[0], str):
-            raise ValueError("this is no expression, or too large a one")
+            raise ValueError("this is not an expression, or it is too large")
         name, *args = tree
         if name in _PLAIN:
             return _plain(name, args)
         if name == "Matrix":
             rows, columns, entries = args
             if not (_is_small(rows) and _is_small(columns) and isinstance(entries, list)):
-                raise ValueError("this is no matrix")
+                raise ValueError("this is not a valid matrix")
             return ImmutableDenseMatrix(rows, columns, [made(entry, depth + 1) for entry in entries])
         if name in _CONSTANTS:
             return _CONSTANTS[name]
@@ -89,14 +89,14 @@ def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
         kind = _CLASSES.get(name) or NODES.get(name)
         if kind is None:
             raise ValueError(f"{name} has no encoding")
-        as_written = {"evaluate": False} if name in {"Add", "Mul", "Pow"} else {}  # else 2(a + b) is multiplied out
+        as_written = {"evaluate": False} if name in {"Add", "Mul", "Pow"} else {}  # else SymPy multiplies out 2(a + b)
         return kind(*(made(arg, depth + 1) for arg in args), **as_written)
 
     return made(data, 0)
 
 
 def _plain(name: str, args: list[Any]) -> Any:
-    """What is made of words and whole numbers alone."""
+    """Decode an object that consists of strings and whole numbers only."""
     match name, args:
         case "None", []:
             return None
@@ -110,7 +110,7 @@ def _plain(name: str, args: list[Any]) -> Any:
             return Str(word)
         case "MatrixSymbol", [str(letter), rows, columns] if _is_small(rows) and _is_small(columns):
             return MatrixSymbol(letter, rows, columns)
-    raise ValueError(f"this is no {name}")
+    raise ValueError(f"this is not a valid {name}")
 
 
 def _is_bounded(number: int) -> bool:
@@ -125,7 +125,7 @@ def _is_small(size: Any) -> bool:
 
 
 def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
-    """Lists, mappings and plain values for records of these classes, by name, and for what they hold."""
+    """Encode records of these classes, and the values in them, as lists, mappings and plain values."""
     if isinstance(value, Basic | MatrixBase):
         return {"expr": encoded(value)}
     if isinstance(value, tuple | list):
@@ -141,7 +141,7 @@ def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
 
 
 def from_data(data: Any, classes: Mapping[str, Any]) -> Any:
-    """What `as_data` was given, with tuples for lists; nothing but these classes is built."""
+    """Return the value that `as_data` encoded, with tuples for lists; only these classes are built."""
     if isinstance(data, list):
         return tuple(from_data(each, classes) for each in data)
     if not isinstance(data, dict):

@@ -1,13 +1,13 @@
-"""Are two expressions equal, two relations equivalent, and how do we know?
+"""Whether two expressions are equal or two relations equivalent, and how this was decided.
 
     proved          decided exactly, by `derive.algebra.normal_form`
-    sampled         agrees at random exact points, but no exact method decided it
-    refuted         differs at a point, which is named
-    definition      nothing to compare: the line says what a symbol means
+    sampled         both agree at random exact points, but no exact method decided it
+    refuted         both differ at a point, which is named
+    definition      nothing to compare: the line defines a symbol
     approximation   a rounded value or a series, itself checked
 
-What is a polynomial in letters, sines and cosines is decided at once. Else points come first: they are cheap and refute
-at once. A sample never counts as a proof.
+Polynomials in symbols, sines and cosines are decided directly. For all others, points are tried first, because they are
+cheap and can refute quickly. A sample never counts as a proof.
 """
 
 from __future__ import annotations
@@ -59,12 +59,12 @@ from derive.algebra.samples import (
 )
 from derive.algebra.trig_polynomials import monomial_ratio
 
-MANY = 20  # times as many points are drawn where nothing has a meaning at most of them
-FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
-TURNS = 400  # points among which a side is sought that none has been on
-FEWEST = 8  # points at which both sides have values, or nothing is believed
+MANY = 20  # times as many points are drawn if most of them have no physical meaning
+FIRST, POINTS = 2, 26  # points before an exact decision is tried, and after it found nothing
+TURNS = 400  # points among which one on the other side of a sign change is sought
+FEWEST = 8  # points at which both sides must have values
 UNTOLD = "undefined wherever it was tried"
-LETTERS = 6  # by which slopes are compared
+LETTERS = 6  # symbols by which derivatives are compared
 UNDEFINED = (nan, zoo, oo, -oo)
 
 
@@ -80,7 +80,7 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """What was compared: two lines, the result with another route, a test or the followed motion, or nothing."""
+    """What was compared: two lines, the result and another derivation, test or simulated motion, or nothing."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -91,7 +91,7 @@ class Compared(StrEnum):
 
 @dataclass(frozen=True)
 class Evidence:
-    """One claim about a step, what was compared for it, how it was decided, and what is needed to look again."""
+    """One claim about a step, what was compared for it, how it was decided, and the details to check it again."""
 
     claim: str
     compared: Compared
@@ -101,7 +101,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; `point` refutes when the grade is `refuted`."""
+    """The outcome of a comparison; `point` is where the sides differ if the grade is `refuted`."""
 
     grade: Grade
     detail: str = ""
@@ -114,19 +114,19 @@ class Verdict:
 def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
-    A matrix is as sure as its least sure entry. Relations are equal when each follows from the other; `nonzero` are
-    factors that may be divided out because they are known not to vanish (in an inequality, to be positive).
+    A matrix is as certain as its least certain entry. Relations are equal if each follows from the other; `nonzero`
+    lists factors that may be divided out because they are known not to vanish (in an inequality, to be positive).
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is no expression")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is not an expression")
     try:
         left, right = settled(explicit(left)), settled(explicit(right))
     except (TypeError, ValueError, AttributeError, NotImplementedError) as error:  # an integral that SymPy cannot do
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: {error}")
     try:
         return _compared(left, right, nonzero)
-    except (TypeError, ValueError, NotImplementedError) as error:  # SymPy gives up on what is hardly an expression
+    except (TypeError, ValueError, NotImplementedError) as error:  # SymPy cannot handle a malformed expression
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: {error}")
 
 
@@ -158,7 +158,7 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
     if left == right:
         return Verdict(Grade.PROVED, "identical")
     if not (isinstance(left, Expr) and isinstance(right, Expr) and left.is_commutative and right.is_commutative):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is no number")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is not a number")
     left, right = _stripped(left, right)
     if is_identity(left, right):
         return Verdict(Grade.PROVED, "polynomial normal form")
@@ -177,15 +177,15 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
     if apart is not None:
         return _refutation(apart)
     if len(seen) < FEWEST and letters_of(difference) or not seen:
-        return Verdict(Grade.REFUTED, f"of all points that were tried {len(seen)} tell" if seen else UNTOLD)
+        return Verdict(Grade.REFUTED, f"both sides have values at {len(seen)} points only" if seen else UNTOLD)
     if not letters_of(difference):
-        # No letters to vary: one number, computed to many digits, is still only a sample.
+        # No symbols to vary: one number, computed to many digits, is still only a sample.
         return Verdict(Grade.SAMPLED, f"to {DIGITS} digits")
     return Verdict(Grade.SAMPLED, f"{len(seen)} points to {DIGITS} digits")
 
 
 def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
-    """acos(u) and acos(v) agree exactly if u and v do: take off what is one-to-one."""
+    """Remove one-to-one functions from both sides: acos(u) equals acos(v) exactly if u equals v."""
     while left.func == right.func and left.func.__name__ in {"acos", "asin", "atan"} and len(left.args) == 1:
         left, right = left.args[0], right.args[0]
     return left, right
@@ -195,11 +195,11 @@ def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
 
 
 def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
-    """What both sides are at points at which both are defined.
+    """The values of both sides at points at which both are defined.
 
-    Where neither is real, as sqrt(g/l - k/m) for a strong spring, what is compared has no meaning, and two ways to
-    write it may be on different branches: such points count only where there are no others. Points at which nothing
-    of the problem has a meaning are left out.
+    Where neither is real, as sqrt(g/l - k/m) for a strong spring, the values have no meaning. Two forms of one
+    expression may then be on different branches, so such points count only if there are no others. Points at which
+    the whole problem has no meaning are left out.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
@@ -226,7 +226,7 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 
 
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
-    """A point at which they differ, on the side of an absolute value or a sign on which none of the others was."""
+    """A point where both sides differ, at which an argument of `Abs` or `sign` has a sign not seen at other points."""
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
         sides = {side for point in seen if (side := _side(inside, point)) is not None}
@@ -244,7 +244,7 @@ def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]
 
 
 def _side(inside: Expr, point: SamplePoint) -> bool | None:
-    """Whether it is positive there; nothing where it is neither that nor negative."""
+    """Whether the expression is positive at the point; None if it is neither positive nor negative."""
     try:
         value = value_at(inside, point)
     except (Undefined, NoNumber):
@@ -253,7 +253,7 @@ def _side(inside: Expr, point: SamplePoint) -> bool | None:
 
 
 def _is_imaginary(sample: Sample) -> bool:
-    """Whether both sides have imaginary parts though all letters are real."""
+    """Whether both sides have imaginary parts although all symbols are real."""
     letters_real = all(value.is_real for value in sample.point.values())
     return letters_real and all(abs(side.imag) > 1e-20 * abs(side) for side in (sample.left, sample.right))
 
@@ -269,7 +269,7 @@ _TURNED = {"=": "=", "!=": "!=", "<": ">", ">": "<", "<=": ">=", ">=": "<="}
 
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
-    """Whether two equations, or two inequalities, say the same: their residuals differ by a factor of known sign."""
+    """Whether two equations or inequalities are equivalent: their residuals differ by a factor of known sign."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
@@ -284,14 +284,14 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return _equal_scalars(left.residual, right.residual)
     whole = _seen_ratio(left, right)
     if whole is not None and _is_borne(left.mark, right.mark, _without_factors(whole, nonzero)):
-        if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 say nothing
+        if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 never hold
             return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}, both sides being the same")
         return Verdict(
             Grade.PROVED, f"multiples of each other by {whole}" if whole**2 != 1 else "polynomial normal form"
         )
     if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
-    if left.mark == right.mark == "=" and not nonzero:  # a point tells sooner than what their sides have in common
+    if left.mark == right.mark == "=" and not nonzero:  # a point is found faster than a common factor
         apart = _counterexample(left.residual, right.residual)
         if apart is not None:  # a refutation is false as a truth value
             return apart
@@ -312,7 +312,7 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
 
 
 def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
-    """By what the sides of the one are those of the other, where that is a number and powers of letters."""
+    """The factor between the two residuals, if it is a number times powers of symbols."""
     found = monomial_ratio(left.residual, right.residual)
     if found is None:
         signs = (Integer(sign) for sign in (1, -1) if _same_mark(left.mark, right.mark, sign))
@@ -321,13 +321,13 @@ def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
 
 
 def _is_borne(left: str, right: str, factor: Expr) -> bool:
-    """Whether a relation with the one mark says the same as its multiple with the other."""
+    """Whether a relation with one mark is equivalent to its multiple with the other mark."""
     sign = _known_sign(factor)
     return _same_mark(left, right, sign or 0) and (sign is not None or _never_vanishes(factor))
 
 
 def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
-    """Equations between matrices: the same, or with their sides exchanged."""
+    """Compare equations between matrices, directly or with the sides of one exchanged."""
     shapes = {getattr(side, "shape", None) for side in (*left.sides, *right.sides)}
     if left.mark != right.mark or left.mark != "=" or len(shapes) > 1:
         return Verdict(Grade.REFUTED, f"`{left}` against `{right}`")
@@ -336,7 +336,7 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
-    """Strict inequalities n/d > 0 as n d > 0, which says the same: neither holds where d vanishes."""
+    """Strict inequalities n/d > 0 as n d > 0, which is equivalent: neither holds where d vanishes."""
     strict = {left.mark, right.mark} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):
@@ -346,18 +346,18 @@ def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | Non
 
 
 def _known_sign(factor: Expr) -> int | None:
-    """1 or -1 where the letters show that the factor has that sign wherever they may be; else None."""
+    """1 or -1 if the factor has that sign for all allowed values of its symbols; else None."""
     above, below = (strict_sign_within(part) for part in factor.as_numer_denom())
     return above * below if above and below else None
 
 
 def _never_vanishes(factor: Expr) -> bool:
-    """Whether the letters show that the factor is nowhere zero, and nowhere undefined."""
+    """Whether the factor is nowhere zero and nowhere undefined, by the allowed values of its symbols."""
     return all(part.is_nonzero or never_vanishes_within(part) for part in factor.as_numer_denom())
 
 
 def _counterexample(left: Expr, right: Expr) -> Verdict | None:
-    """A point at which the second equation holds and the first does not: solved for a letter that it holds linearly."""
+    """A point where the second equation holds and the first does not; the second is solved for a linear symbol."""
     drawn = points(letters_of(left) | letters_of(right), seed_of(left, right))
     for letter in sorted(right.free_symbols, key=lambda s: (not str(s).endswith("dot"), str(s))):
         slope = right.diff(letter)
@@ -385,14 +385,14 @@ def _short(value: Any) -> str:
 
 
 def _same_mark(left: str, right: str, sign: int) -> bool:
-    """An equation bears any factor, an inequality keeps its mark under a positive one and is turned by a negative."""
+    """Any factor keeps an equation; a positive factor keeps an inequality's mark, and a negative one reverses it."""
     if left in {"=", "!="} or right in {"=", "!="}:
         return left == right
     return bool(sign) and left == (right if sign > 0 else _TURNED[right])
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """x^2 > y^2, or a positive multiple of it, says the same as x > y when neither x nor y is negative."""
+    """x^2 > y^2, or a positive multiple of it, is equivalent to x > y if neither x nor y is negative."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative for side in roots.sides):
@@ -403,9 +403,9 @@ def _both_squared(left: Relation, right: Relation) -> bool:
 
 
 def _ratio(above: Expr, below: Expr) -> Expr:
-    if above.has(Float) or below.has(Float):  # what is not exact is not cancelled
+    if above.has(Float) or below.has(Float):  # inexact numbers are not cancelled
         return above / below
-    for turn in (Integer(1), Integer(-1)):  # where some points show that, cancelling could take a minute to find it
+    for turn in (Integer(1), Integer(-1)):  # a few points show a ratio of 1 or -1; cancelling could take a minute
         samples = list(_samples(above, turn * below, FIRST))
         if samples and all(sample.agree for sample in samples):
             return turn
@@ -417,8 +417,8 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
-    """That of the slopes by a letter, if it is that of the whole: where sin(2 x) or a fractional power stands in one of
-    them, common factors do not show."""
+    """The ratio of the derivatives by a symbol, if it is the ratio of the whole expressions. It helps if sin(2 x) or a
+    fractional power hides a common factor."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:
@@ -430,7 +430,7 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
 
 
 def _by_cosines(expr: Expr) -> Expr:
-    """Multiplied out, with the squares of sines written by those of cosines, so that common factors show."""
+    """Multiply out, with squares of sines replaced by squares of cosines, so that common factors are visible."""
     return TR5(expr.expand(), max=8) if expr.has(sin) else expr
 
 
@@ -439,7 +439,7 @@ def _without_factors(expr: Expr, known: Sequence[Expr]) -> Expr:
 
 
 def _without_factor(expr: Expr, known: Expr) -> Expr:
-    """The expression without a factor, in whatever power, that is known to be positive or not to vanish."""
+    """The expression without any power of a factor that is known to be positive or not to vanish."""
     left: list[Expr] = []
     for factor in Mul.make_args(together(expr)):
         base, power = factor.as_base_exp()

@@ -1,8 +1,9 @@
-"""The first terms of an expression where a letter is small, large, or near a value: by derivatives, term by term.
+"""The first terms of an expression for a small or large symbol, or near a value: by derivatives, term by term.
 
-    f = N/D, each expanded by Taylor in the small letter, and the quotient of the two series divided out
+    f = N/D, each expanded in a Taylor series in the small symbol, and one series divided by the other
 
-The leading power may be negative, or a half. SymPy's own `series` is not asked: what has no such expansion is refused.
+The leading power may be negative or half-integer. SymPy's own `series` is not used. Functions without such an expansion
+are rejected.
 Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.6.22 (quotient of power series).
 """
 
@@ -35,8 +36,8 @@ from derive.algebra.length import length
 from derive.algebra.node import DimensionOf, Node, ScalarNode, TextOf, explicit
 from derive.algebra.tidy import tidied
 
-HIGHEST = 10  # derivatives that are taken at most
-LARGEST = 4000  # operations of an expression that is expanded
+HIGHEST = 10  # highest order of a derivative
+LARGEST = 4000  # number of operations of an expression that is expanded
 SMALL = Dummy("epsilon", positive=True)
 SPOILT = (nan, zoo, oo, -oo, AccumBounds)
 
@@ -48,13 +49,13 @@ class NoExpansion(Exception):
 
 
 class BeginsBeyond(NoExpansion):
-    """It begins with a higher power than was asked for, up to which it is zero."""
+    """The expansion begins with a higher power than was requested: it is zero up to the requested power."""
 
 
 class Expansion(ScalarNode):
-    """The terms of f up to a power of what is small. Arguments: f, the letter, where it goes to, the highest power.
+    """The terms of f up to a power of the small quantity. Arguments: f, the symbol, its limit, the highest power.
 
-    Small is x itself where x goes to 0, 1/x where it grows without bound, x - a near a.
+    The small quantity is x if x goes to 0, 1/x if x goes to infinity, and x - a near a.
     """
 
     def doit(self, **hints: object) -> Expr:
@@ -74,7 +75,7 @@ class Expansion(ScalarNode):
 
 
 class Approach(Node):
-    """Where a letter or a ratio goes to, S -> oo. Arguments: what goes, and where to."""
+    """The limit of a symbol or a ratio, S -> oo. Arguments: the symbol or ratio, and its limit."""
 
     def _evaluated(self, what: Expr, to: Expr) -> Expr:
         return Approach(what, to)
@@ -87,9 +88,9 @@ class Approach(Node):
 
 
 class FirstOrder(ScalarNode):
-    """What is of first order in some letters that are small together. Arguments: f, which vanishes with them, and they.
+    """The first-order part of f in several small symbols. Arguments: f, which vanishes with them, and these symbols.
 
-    It is shown as f: the line of a chain before the higher orders are dropped.
+    It is displayed as f: the line of a chain before the higher orders are dropped.
     """
 
     def _evaluated(self, f: Expr, *small: Expr) -> Expr:
@@ -104,7 +105,7 @@ class FirstOrder(ScalarNode):
 
 
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
-    """The terms up to that power of what is small; only the leading one where no power is given."""
+    """The terms up to that power of the small quantity; only the leading term if no power is given."""
     written = in_small(f, x, to)
     if written.count_ops() > LARGEST:
         raise NoExpansion(f)
@@ -119,16 +120,16 @@ def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Ser
 
 
 def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
-    """The expression in terms of what is small."""
+    """The expression in terms of the small quantity."""
     if to in (oo, -oo):
         return tidied(_without_what_dies(f.subs(x, (1 if to == oo else -1) / SMALL)))
     return tidied(f.subs(x, to + SMALL))
 
 
 def _without_what_dies(f: Expr) -> Expr:
-    """Without exponentials that go to zero faster than any power: of 1 - exp(-k t) only 1 is left for long times.
+    """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t).
 
-    What grows is one over what dies, and both are powers of one exponential, which is put to zero.
+    A growing exponential is one over a decaying one, and both are powers of one exponential, which is set to zero.
     """
     f = f.replace(lambda e: isinstance(e, sinh | cosh | tanh) and e.has(SMALL), lambda e: e.rewrite(exp))
     rates = {e: (e.args[0] * SMALL).expand() for e in f.atoms(exp) if e.has(SMALL)}
@@ -147,18 +148,18 @@ def _without_what_dies(f: Expr) -> Expr:
 
 
 def small_of(x: Symbol, to: Expr) -> Expr:
-    """What is small."""
+    """The small quantity."""
     return 1 / x if to == oo else -1 / x if to == -oo else x - to
 
 
 def tidied_terms(series: Series, x: Symbol, to: Expr) -> Expr:
-    """The terms added up, each tidy."""
+    """The sum of the tidied terms."""
     small = small_of(x, to)
     return Add(*(tidied(c) * small**n for n, c in sorted(series.items())))
 
 
 def in_ascending_powers(series: Series, x: Symbol, to: Expr) -> Expr:
-    """The terms as written, the leading one first, with its factors in front where that is shorter."""
+    """The terms in ascending powers, with the factors of the leading term in front if that is shorter."""
     small = small_of(x, to)
     terms = [(n, tidied(c)) for n, c in sorted(series.items())]
     plain = Terms(*(c * small**n for n, c in terms))
@@ -193,7 +194,7 @@ def _quotient(f: Expr, power: Rational | None) -> Series:
 
 
 def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
-    """The coefficients at least up to that power, and the lowest power that there is."""
+    """The coefficients at least up to that power, and the lowest power that occurs."""
     found: dict[int, Expr] = {}
     derivative, factorial = f, Integer(1)
     for n in range(HIGHEST + 1):

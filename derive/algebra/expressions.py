@@ -1,8 +1,8 @@
-"""Names, and the unevaluated forms in which mechanics is written down.
+"""Names, and the unevaluated forms in which mechanics is written.
 
 A *name* is what a formula calls something: a SymPy `Symbol` for a scalar, a `MatrixSymbol` of shape (3, 1) for a
-vector and (3, 3) for a tensor. A *node* is an operation that is shown before it is carried out: `Dot(omega, L)`.
-`explicit()` carries everything out. Nodes know no notation; `derive.render` does.
+vector and (3, 3) for a tensor. A *node* is an operation that is shown before it is evaluated: `Dot(omega, L)`.
+`explicit()` evaluates everything. Nodes contain no notation; that is in `derive.render`.
 """
 
 from __future__ import annotations
@@ -62,21 +62,21 @@ DURATION = dimension_of_kind("time")
 
 
 def scalar(name: str, **assumptions: bool) -> Symbol:
-    """A real scalar by name; more is assumed of it only when said."""
+    """A real scalar by name, with further assumptions only if they are given."""
     return Symbol(name, **{"real": True, **assumptions})
 
 
 def stand_in(name: str, **assumptions: bool) -> Symbol:
-    """A letter of a check alone, under a name that no problem can give: a mark would be the only other way to keep the
-    letters of a problem out of it."""
+    """A symbol that only a check uses, with a prime in its name: no problem can use such a name, so the symbol differs
+    from all symbols of a problem."""
     return scalar(f"{name}\u2032", **assumptions)
 
 
-PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign that is either: its square is 1, so b + PLUS_MINUS*c is b +- c
+PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign, + or -: its square is 1, so b + PLUS_MINUS*c is b +- c
 
-BLANK = scalar("?")  # what is sought, where a page does not tell it
+BLANK = scalar("?")  # the unknown, where a page does not show it
 
-TIME = scalar("t")  # there is one time: what contains it changes as it passes
+TIME = scalar("t")  # the only time symbol: an expression that contains it depends on time explicitly
 
 RATES = ("", "_dot", "_ddot", "_dddot")
 
@@ -98,12 +98,12 @@ def tensor(name: str) -> MatrixSymbol:
 
 
 def component_names(name: str) -> tuple[Symbol, Symbol, Symbol]:
-    """The scalars that stand for a vector's components: `omega` -> omega_x, omega_y, omega_z."""
+    """The symbols for a vector's components: `omega` -> omega_x, omega_y, omega_z."""
     x, y, z = (scalar(f"{name}_{axis}") for axis in AXES)
     return x, y, z
 
 
-@lru_cache(maxsize=4096, typed=True)  # the same places and velocities are written down by each verb that needs them
+@lru_cache(maxsize=4096, typed=True)  # each verb builds the same positions and velocities
 def column(*components: Any) -> ImmutableMatrix:
     return ImmutableDenseMatrix(3, 1, list(components))
 
@@ -158,12 +158,12 @@ class Cross(VectorNode):
 
 
 class CarriedRate(VectorNode):
-    """dA/dt in space of a vector A that turns with angular velocity omega. Arguments: A, omega, and the coordinates
-    that move; without any, A is constant in the body.
+    """dA/dt in space of a vector A that rotates with angular velocity omega. Arguments: A, omega, and the coordinates
+    that move; without coordinates, A is constant in the body.
 
-    Evaluated by carrying A round and differentiating, not by omega x A: A(t) = R(t) A, where the columns of R(t) are
-    the body's axes after the time t. The rotation is Euler's: rotate about z and y until omega lies along z, turn by
-    |omega| t, rotate back.
+    Evaluated by rotating A and differentiating, not as omega x A: A(t) = R(t) A, where the columns of R(t) are the
+    body's axes after the time t. The rotation is built from Euler rotations: rotate about z and y until omega lies
+    along z, rotate by |omega| t, rotate back.
     """
 
     def _evaluated(self, a: Matrix, omega: Matrix, *moving: Symbol) -> ImmutableMatrix:
@@ -171,10 +171,10 @@ class CarriedRate(VectorNode):
         rate = sqrt(sum((w**2 for w in omega), Integer(0)))
         if rate == 0:
             return ImmutableDenseMatrix(in_body)
-        t = Dummy("t", real=True)  # counted from now: A and omega are those of this moment
+        t = Dummy("t", real=True)  # measured from now: A and omega are the values at this instant
         to_z = _rotation_onto_z(omega / rate)
         turn = Matrix([[cos(rate * t), -sin(rate * t), 0], [sin(rate * t), cos(rate * t), 0], [0, 0, 1]])
-        # The turn alone depends on that time, so it alone is differentiated.
+        # Only this rotation depends on t, so only it is differentiated.
         return ImmutableDenseMatrix(in_body + to_z.T * diff(turn, t).subs(t, 0) * to_z * Matrix(a))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
@@ -195,7 +195,7 @@ def _rotation_onto_z(n: Matrix) -> Matrix:
 
 
 class BodyRate(VectorNode):
-    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; without any, A is constant there."""
+    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; without these, A is constant there."""
 
     def _evaluated(self, a: Matrix, *moving: Symbol) -> ImmutableMatrix:
         return column(*(explicit(TimeRate(component, *moving)) for component in a))
@@ -223,7 +223,7 @@ class Component(ScalarNode):
 
 
 class Group(ScalarNode):
-    """A value kept together in its bracket: the `(6 a^3 rho)` that is about to become M."""
+    """A value kept together in brackets, such as the `(6 a^3 rho)` that the next line replaces by M."""
 
     def __new__(cls, inner: Expr) -> Expr:
         return inner if isinstance(inner, Group) else super().__new__(cls, inner)
@@ -253,7 +253,7 @@ class Factors(ScalarNode):
 
 
 class Terms(ScalarNode):
-    """Terms as written, in that order, none collected: `8a^5 + 18a^5`."""
+    """Terms as written, in that order, without collecting: `8a^5 + 18a^5`."""
 
     def _evaluated(self, *terms: Expr) -> Expr:
         result: Expr = Integer(0)
@@ -269,7 +269,7 @@ class Terms(ScalarNode):
 
 
 class Ratio(ScalarNode):
-    """A fraction as written, nothing cancelled."""
+    """A fraction as written, without cancelling."""
 
     def _evaluated(self, numerator: Expr, denominator: Expr) -> Expr:
         return numerator / denominator
@@ -283,8 +283,8 @@ class Ratio(ScalarNode):
 
 
 class Root(ScalarNode):
-    """A root as written, nothing drawn out of it: a square root unless its index is given. Arguments: what is under
-    it, the index."""
+    """A root as written, without extracting factors; a square root unless its index is given. Arguments: the radicand,
+    the index."""
 
     @property
     def index(self) -> int:
@@ -302,7 +302,7 @@ class Root(ScalarNode):
 
 
 class Bracket(ScalarNode):
-    """[F(x)] between two limits: an antiderivative, before the limits are put in. Arguments F, x, lower, upper."""
+    """[F(x)] between two limits: an antiderivative before its limits are inserted. Arguments: F, x, lower, upper."""
 
     def doit(self, **hints: Any) -> Expr:
         antiderivative, x, lower, upper = self.args
@@ -342,7 +342,7 @@ class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
     Evaluated by the chain rule: each coordinate, and each of its rates, contributes its partial derivative times the
-    next rate, and where the time itself occurs there is the partial derivative by it.
+    next rate; the partial derivative by time is added.
     """
 
     def doit(self, **hints: Any) -> Expr:
@@ -377,7 +377,7 @@ class Slope(ScalarNode):
 
 
 class At(ScalarNode):
-    """The value of a function at one place. Arguments: f, the variable, its value."""
+    """The value of a function at one point. Arguments: f, the variable, its value."""
 
     def doit(self, **hints: Any) -> Expr:
         f, x, place = self.args
@@ -391,7 +391,7 @@ class At(ScalarNode):
 
 
 class Truncated(ScalarNode):
-    """A series that breaks off: the polynomial, its variable, the place it is about, the order up to which it holds."""
+    """A truncated series. Arguments: the polynomial, its variable, the expansion point, the highest order included."""
 
     def doit(self, **hints: Any) -> Expr:
         return explicit(self.args[0])
@@ -418,7 +418,7 @@ class Outer(MatrixNode):
 
 
 def _entries(vector: Value, text: TextOf) -> str:
-    """A vector that SymPy can take to its entries, be it a name."""
+    """A vector as text from which SymPy can take entries, also if it is a name."""
     return text(vector) if isinstance(vector, MatrixBase) else f"Matrix({text(vector)})"
 
 
@@ -433,5 +433,5 @@ def scaled(factor: Expr, v: Value) -> MatMul:
 
 
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:
-    """The expression with names replaced by what they stand for."""
+    """The expression with names replaced by their values."""
     return expr.xreplace(dict(values)) if values else expr

@@ -1,7 +1,7 @@
-"""One fraction of a sum of fractions, each sum with what its terms have in common in front; nothing is multiplied out.
+"""Write a sum of fractions as one fraction, with common factors in front of each sum; nothing is multiplied out.
 
-A product is kept as its number and its powers, (1/24, {u: 2, 13 u + 10 v: 1}), so that sums are put on one line and
-looked through for common factors by comparing powers.
+A product is stored as its number and its powers, (1/24, {u: 2, 13 u + 10 v: 1}), so that a common denominator and
+common factors are found by comparing powers.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ Terms = dict[frozenset[tuple[Expr, int]], Rational]
 
 
 class Product(NamedTuple):
-    """A number times powers, negative ones too; a sum among them has no common factor."""
+    """A number times powers, which may be negative; no base is a sum with a common factor."""
 
     number: Rational
     powers: Powers
 
 
 def in_front(value: Expr) -> Expr:
-    """Common factors of the terms in front: 13/24 u + 10/24 v is (13 u + 10 v)/24."""
+    """Take common factors of the terms to the front: 13/24 u + 10/24 v is (13 u + 10 v)/24."""
     return written(product_of(value))
 
 
@@ -39,7 +39,7 @@ def written(product: Product) -> Expr:
 
 
 def fraction_of(product: Product) -> tuple[Expr, Expr]:
-    """The numerator and the denominator; in each sum below the line the terms with a plus are in the majority."""
+    """The numerator and the denominator; at least half of the terms of each sum in the denominator are positive."""
     number, powers = product
     above, below = [], []
     for base, power in powers.items():
@@ -53,7 +53,7 @@ def fraction_of(product: Product) -> tuple[Expr, Expr]:
 
 
 def as_product(product: Product) -> Expr:
-    """The product with a number before a sum as it stands, (u + v)/2, not u/2 + v/2; each letter in one power."""
+    """The product with its number in front of a sum, (u + v)/2, not u/2 + v/2; each symbol in one power only."""
     exponents: dict[Expr, Expr] = {}
     for factor, power in product.powers.items():
         base, exponent = factor.as_base_exp()
@@ -76,7 +76,7 @@ def _power(base: Expr, power: int) -> Expr:
 
 @lru_cache(maxsize=4096)
 def product_of(value: Expr) -> Product:
-    """The number and the powers of which the value is the product, the common factors of its sums among them."""
+    """Split the value into its number and its powers, including the common factors of its sums."""
     if value.is_Rational:
         return Product(value, {})
     if value.is_Add:
@@ -97,7 +97,7 @@ def product_of(value: Expr) -> Product:
 
 
 def _function(value: Function) -> Product:
-    """A function of fractions in this form; the angle 2 a + 2 b stays as it is."""
+    """A function with its arguments in this form, except angles such as 2 a + 2 b, which are unchanged."""
     args = [in_front(arg) if isinstance(arg, Expr) and not _is_of_letters(arg) else arg for arg in value.args]
     found = value if args == list(value.args) else value.func(*args)
     return _root(found, 1) if isinstance(found, Function) else product_of(found)
@@ -108,7 +108,7 @@ def _is_of_letters(angle: Expr) -> bool:
 
 
 def _root(value: Expr, sign: int) -> Product:
-    """A power that is no whole one: x^(3/2) is the third power of the root of x."""
+    """A power with a fractional exponent: x^(3/2) is the third power of the root of x."""
     if value.is_Rational:
         return Product(value**sign, {})
     base, power = decompose_power(value)
@@ -128,7 +128,7 @@ def times(products: Iterable[Product]) -> Product:
 
 def _sum(products: list[Product]) -> Product:
     front, terms = _apart(products)
-    while any(_is_one_sum(powers) for powers in terms):  # 2 (a + b) is no product beside other terms
+    while any(_is_one_sum(powers) for powers in terms):  # 2 (a + b) next to other terms is split into its terms
         inner = [(Product(number, {}), each) for powers, number in terms.items() for each in _terms_of(powers)]
         more, terms = _apart([times(pair) for pair in inner])
         front = times((front, more))
@@ -151,7 +151,7 @@ def _is_one_sum(powers: frozenset[tuple[Expr, int]]) -> bool:
 
 
 def _apart(products: list[Product]) -> tuple[Product, Terms]:
-    """What the terms of a sum have in common, and what is left of them."""
+    """The common factor of the terms of a sum, and the remaining terms."""
     terms: Terms = {}
     for number, powers in products:
         key = frozenset(powers.items())

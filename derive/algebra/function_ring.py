@@ -1,11 +1,11 @@
-"""Polynomials in letters and angles, and in roots, absolute values, exponential and other functions.
+"""Polynomials in symbols and angles, and in roots, absolute values, exponential and other functions.
 
-A root and an absolute value are taken apart into those of irreducible factors, as far as the signs of these allow, each
-of which is a letter with the relation that it satisfies: r^q = p, |p|^2 = p^2. A power is one of each term of its
-exponent, exp(u + v) = exp u exp v. Of any other function, equal arguments give equal values, and that is all.
+A root or an absolute value is split into those of irreducible factors, as far as the signs of the factors allow. Each
+is a new letter that satisfies a relation: r^q = p, |p|^2 = p^2. A power is a product with one factor for each term of
+its exponent, exp(u + v) = exp u exp v. For any other function, only equal arguments are known to give equal values.
 
-Such letters may depend on one another, so that a form which has terms may be zero: what has none is zero, provided that
-nothing in it is divided by zero.
+Such letters may depend on one another, so a form with terms may still be zero; a form without terms is zero, provided
+that it contains no division by zero.
 
 Source: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms modulo relations).
 """
@@ -52,7 +52,7 @@ from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.sparse_polynomials import ONE, Form, Outside, Terms
 from derive.algebra.trig_polynomials import ONES, TrigRing, terms_of_angle
 
-HIGHEST = 500  # power of a sum, and multiple of an angle
+HIGHEST = 500  # highest power of a sum, and highest multiple of an angle
 PRIMES = 2**15  # up to which a number under a root is factored
 _QUOTIENTS = {tan: (sin, cos), cot: (cos, sin), tanh: (sinh, cosh)}
 _INVERSES = {sec: cos, csc: sin}
@@ -72,17 +72,17 @@ class FunctionRing(TrigRing):
         self._angles: dict[Expr, Expr] = {}
 
     def is_zero(self, form: Form) -> bool:
-        """Whether it is shown to be zero, if nothing is divided by zero."""
+        """Whether the form is shown to be zero, provided that it contains no division by zero."""
         terms = self.cleared(form).terms
         return not terms or self.has_parts_of_pi(terms) and self.is_zero_by_roots_of_one(terms)
 
     def is_nonzero(self, form: Form) -> bool:
-        """Whether it is shown to be something: there are terms, and none of their letters depend on one another."""
+        """Whether the form is shown to be nonzero: it has terms, and their letters do not depend on one another."""
         terms = self.cleared(form).terms
         return bool(terms) and not self.letters_in(terms) & self._dependent and not self.has_parts_of_pi(terms)
 
     def is_unsure(self, terms: Terms) -> bool:
-        return False  # what is divided by is looked at in the end
+        return False  # divisors are checked at the end
 
     def function(self, expr: Expr) -> Form:
         kind = type(expr)
@@ -110,7 +110,7 @@ class FunctionRing(TrigRing):
     # --- letters ------------------------------------------------------------------------------------------------
 
     def _letter_of_power(self, key: object, order: int, of: Form, n: int = 1) -> Form:
-        """A power of the letter of which that power is known."""
+        """The n-th power of a letter, whose power of this order equals the form `of`."""
         place = self.related_letter(key, order, of)
         self._dependent |= ONES << place
         return Form({n << place: 1}, 1, abs(n), of.cost)
@@ -121,7 +121,7 @@ class FunctionRing(TrigRing):
         return place
 
     def _opaque(self, expr: Expr) -> Form:
-        """A function of which nothing is known but that equal arguments give equal values."""
+        """A function about which only one thing is known: equal arguments give equal values."""
         if expr.is_infinite or expr is S.NaN:
             raise Outside
         if isinstance(expr, AppliedUndef | Derivative):
@@ -135,7 +135,7 @@ class FunctionRing(TrigRing):
         return letter
 
     def _agree(self, a: Any, b: Any) -> bool:
-        """Whether two arguments are equal; what is no expression, such as a piece of a `Piecewise`, if written so."""
+        """Whether two arguments are equal; other objects, such as a piece of a `Piecewise`, must be identical."""
         return bool(a == b) or isinstance(a, Expr) and isinstance(b, Expr) and self._are_equal(a, b)
 
     def _are_equal(self, a: Expr, b: Expr) -> bool:
@@ -145,7 +145,7 @@ class FunctionRing(TrigRing):
             return False
 
     def angle(self, angle: Expr) -> Expr:
-        """Of equal angles the first one that was met."""
+        """The first of all equal angles that have occurred."""
         try:
             return super().angle(angle)
         except Outside:
@@ -158,7 +158,7 @@ class FunctionRing(TrigRing):
     # --- powers -------------------------------------------------------------------------------------------------
 
     def _exponential(self, exponent: Expr) -> Form:
-        """A product over the terms of the exponent: of an imaginary one the letter of its angle."""
+        """A product over the terms of the exponent; an imaginary term gives the letter of its angle."""
         powers = 0
         for number, term in terms_of_angle(exponent):
             if I in Mul.make_args(term):
@@ -228,7 +228,7 @@ class FunctionRing(TrigRing):
         return self.product(front, self._letter_of_power(key, q, of, rest)) if rest else front
 
     def _absolute(self, inside: Expr) -> Form:
-        """|p| as a product over irreducible factors f: f itself where its sign is known, else g with g^2 = f^2."""
+        """|p| as a product over irreducible factors f: f itself if its sign is known, else g with g^2 = f^2."""
         product = ONE
         for factor, power in _irreducible_factors(inside):
             factor = -factor if factor.could_extract_minus_sign() else factor
@@ -247,17 +247,17 @@ class FunctionRing(TrigRing):
 
 
 def _number_in_front(form: Form) -> tuple[Rational, Form]:
-    """The positive number that all terms have in common, and the sum of what is left of them."""
+    """The positive common number of all terms, and the sum of the remaining terms."""
     content = gcd(*form.terms.values())
     terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
     return Rational(content, form.below), form._replace(terms=terms, below=1)
 
 
-# --- what stands under a root ----------------------------------------------------------------------------------------
+# --- radicands -------------------------------------------------------------------------------------------------------
 
 
 def _denested(base: Expr) -> Expr | None:
-    """The number of square root sqrt(2) + sqrt(3) for 5 + 2 sqrt(6): its square is the base and it is not negative."""
+    """The square root sqrt(2) + sqrt(3) of 5 + 2 sqrt(6): its square is the base and it is not negative."""
     found = sqrtdenest(sqrt(base))
     if isinstance(found, Pow) or found.is_nonnegative is not True:
         return None
@@ -268,7 +268,7 @@ def _denested(base: Expr) -> Expr | None:
 def factors_under_a_root(base: Expr, q: int) -> tuple[tuple[Expr, int], ...]:
     """Irreducible factors of the radicand with their powers.
 
-    Only factors that are known to be non-negative may leave a common root; the others stay together.
+    Only factors that are known to be non-negative may be taken out of a common root; the others stay together.
     """
     found: list[tuple[Expr, int]] = []
     unsure: Expr = Integer(1)

@@ -1,11 +1,11 @@
-"""Definite integrals of the few kinds that solids need, done exactly and at once.
+"""Definite integrals of the few kinds that solids need, evaluated exactly and fast.
 
-    powers              x^q, 1/x among them
+    powers              x^q, including 1/x
     with powers         x^n sin(m x), x^n cos(m x), x^n exp(m x), by parts
     sines and cosines   sin(m x), cos(n x) and their products, over any limits
-    chords              y^m (w^2 - y^2)^(k/2) from -w to w: what a disc of radius w gives in Cartesian coordinates
+    chords              y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
 
-SymPy's own integrator is slow for the first two and wrong or silent for the third. What is of no such kind gives
+SymPy's own integrator is slow for the first two and wrong or without result for the third. Any other integral gives
 None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 4.3.127 and 6.2.1 (powers of sine and cosine).
 """
 
@@ -20,15 +20,15 @@ from sympy.simplify.fu import TR8
 
 Limits = Sequence[tuple[Symbol, Expr, Expr]]
 HALF = Rational(1, 2)
-MOST_PARTS = 12  # the power beyond which nothing is integrated by parts
+MOST_PARTS = 12  # the highest power that is integrated by parts
 
 
 def definite(value: Expr, limits: Limits) -> Expr | None:
-    """The integral of an explicit expression, limits innermost first, or None where a term is of no known kind."""
+    """The integral of an explicit expression, limits innermost first; None if a term is of an unknown kind."""
     return _definite(value, tuple(tuple(limit) for limit in limits))
 
 
-@lru_cache(maxsize=1024)  # what is written down is carried out, checked and compared
+@lru_cache(maxsize=1024)  # an integral is evaluated, checked and compared
 def _definite(value: Expr, limits: Limits) -> Expr | None:
     for i, (x, lower, upper) in enumerate(limits):
         terms = [_term(outside, inside, x, lower, upper, limits[i + 1 :]) for outside, inside in _terms(value, x)]
@@ -39,13 +39,13 @@ def _definite(value: Expr, limits: Limits) -> Expr | None:
 
 
 def antiderivative(value: Expr, x: Symbol) -> Expr | None:
-    """A function whose derivative is the value, term by term; None where a term is of no known kind."""
+    """A function whose derivative is the value, term by term; None if a term is of an unknown kind."""
     found = [(outside, _antiderivative_of_factor(inside, x)) for outside, inside in _terms(value, x)]
     return None if any(whole is None for _, whole in found) else Add(*(outside * whole for outside, whole in found))
 
 
 def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
-    """The terms of a sum, each as what does not hold x and what does; products of sines and cosines of x as sums."""
+    """The terms, each split into a factor without x and one with x; products of sines and cosines of x become sums."""
     found = []
     for term in Add.make_args(_expanded(value)):
         outside, inside = _apart(term, x)
@@ -57,7 +57,7 @@ def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
     return found
 
 
-@lru_cache(maxsize=1024)  # the entries of a tensor have few of them
+@lru_cache(maxsize=1024)  # the entries of a tensor have few different products
 def _by_sums(product: Expr) -> Expr:
     return TR8(product).expand()
 
@@ -67,7 +67,7 @@ def _expanded(value: Expr) -> Expr:
 
 
 def _is_product(term: Expr) -> bool:
-    """Whether nothing in it is to be multiplied out."""
+    """Whether nothing in the term needs to be multiplied out."""
     factors = (factor.as_base_exp() for factor in Mul.make_args(term))
     return all(
         (base.is_Atom or isinstance(base, sin | cos) and base.args[0].is_Atom) and exponent.is_Number
@@ -76,7 +76,7 @@ def _is_product(term: Expr) -> bool:
 
 
 def _apart(term: Expr, x: Symbol) -> tuple[Expr, Expr]:
-    """The product of the factors that do not hold x, and of those that do."""
+    """The product of the factors without x, and the product of those with x."""
     factors: tuple[list[Expr], list[Expr]] = [], []
     for factor in Mul.make_args(term):
         factors[factor.has(x)].append(factor)
@@ -101,7 +101,7 @@ def _antiderivative_of_factor(inside: Expr, x: Symbol) -> Expr | None:
 
 
 def _powers_by_parts(inside: Expr, x: Symbol) -> Expr | None:
-    """Of x^n f(m x + c), f a sine, a cosine or an exponential."""
+    """The antiderivative of x^n f(m x + c), where f is a sine, a cosine or an exponential."""
     f, n = inside, 0
     for part in Mul.make_args(inside):
         base, exponent = part.as_base_exp()
@@ -114,7 +114,7 @@ def _powers_by_parts(inside: Expr, x: Symbol) -> Expr | None:
 
 
 def _by_parts(n: int, f: Expr, x: Symbol, rate: Expr) -> Expr:
-    """x^n F less the integral of n x^(n-1) F, F the antiderivative of f."""
+    """x^n F minus the integral of n x^(n-1) F, where F is the antiderivative of f."""
     angle = f.args[0]
     sign, other = (-cos(angle) if isinstance(f, sin) else sin(angle) if isinstance(f, cos) else f).as_coeff_Mul()
     first = x**n * sign * other / rate
@@ -131,7 +131,7 @@ def _term(outside: Expr, inside: Expr, x: Symbol, lower: Expr, upper: Expr, oute
 def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
     """y = w sin u turns the integral of y^m (w^2 - y^2)^(k/2) from -w to w into w^(m+k+1) times a number.
 
-    This needs w >= 0, or the root is not w cos u: the outer limits must show it.
+    This requires w >= 0, because otherwise the root is not w cos u: the outer limits must show that.
     """
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):
@@ -164,7 +164,7 @@ def sine_and_cosine_integral(m: int, n: int) -> Expr:
 
 
 def _nonnegative_within(w: Expr, outer: Limits) -> bool:
-    """Whether w >= 0 between the limits: known of itself, or linear there and not negative at either end."""
+    """Whether w >= 0 between the limits: by its assumptions, or because it is linear and not negative at either end."""
     if w.is_nonnegative or isinstance(w, Pow) and w.exp == HALF:
         return True
     inside = [limit for limit in outer if w.has(limit[0])]
@@ -179,5 +179,5 @@ def _nonnegative_within(w: Expr, outer: Limits) -> bool:
 
 
 def has_root(value: Expr) -> bool:
-    """Whether a root of something that may vary occurs."""
+    """Whether the value contains a root of an expression with symbols."""
     return any(power.exp.is_Rational and not power.exp.is_Integer and power.free_symbols for power in value.atoms(Pow))

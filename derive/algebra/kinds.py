@@ -1,7 +1,7 @@
-"""The kinds of quantity: of each its dimension and its unit, and how a script asks for it.
+"""The kinds of quantity, with the dimension and unit of each, and how a script asks for it.
 
-A kind is what an instructor writes under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with one
-(`mass: Mass`), of which a type checker sees SymPy's `Expr`.
+An author writes a kind under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with a kind
+(`mass: Mass`), which is SymPy's `Expr` to a type checker.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Kind:
-    """What there is to know of a kind.
+    """The properties of a kind.
 
     unit      the coherent SI unit as text
-    positive  letters of it stand for positive numbers; every other letter is only real
-    signed    a minus sign is a direction (a block turning the other way); on another positive one it is a mistake
-    angles    the powers of an angle that its unit may have: a radian may be left out of rad/s, but not of an angle
+    positive  symbols of this kind are positive numbers; all other symbols are only real
+    signed    a minus sign is a direction (a block rotating the other way); for other positive kinds it is an error
+    angles    the powers of an angle that its unit may have: the radian may be omitted in rad/s, but not for an angle
     """
 
     dimension: Dimension
@@ -88,7 +88,7 @@ def unit_of_kind(kind: str) -> str:
 
 
 def about_kind(kind: str | None) -> Kind:
-    """What there is to know of a kind; of what has none, that it is like a number."""
+    """The properties of a kind; a quantity without a kind has those of a number."""
     return KINDS.get(kind or "", _OF_NONE)
 
 
@@ -122,7 +122,7 @@ class Inhomogeneous(Exception):
 
 
 def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimension | None:
-    """The one dimension of all terms of a sum; raises `Inhomogeneous` with the first that has another."""
+    """The dimension of all terms of a sum; raises `Inhomogeneous` with the first term of another dimension."""
     first: tuple[Any, Dimension] | None = None
     for term in terms:
         dimension = of(term)
@@ -136,16 +136,16 @@ def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimen
 
 
 def unit_of_dimension(dimension: Dimension) -> str:
-    """The coherent SI unit of what has a dimension and no kind: that of the one kind that has it, else a product.
+    """The coherent SI unit of a quantity without a kind: the unit of the only kind with its dimension, else a product.
 
-    What has the dimension of an energy and of a torque is in N m, which is right of both; 1/s says nothing of an angle.
+    Energy and torque have the same dimension, so the unit is N m, which is right for both; 1/s does not imply an angle.
     """
     kinds = [kind for kind in KINDS.values() if kind.dimension == dimension]
     return kinds[0].unit if len(kinds) == 1 else _product_of_units(dimension)
 
 
 def _product_of_units(dimension: Dimension) -> str:
-    """`N m`, `kg m^2/s`, `1/s`: what has the mass and the time of a force is told with newtons."""
+    """`N m`, `kg m^2/s`, `1/s`: a unit with the powers of mass and time of a force is written with newtons."""
     powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time, "A": dimension.current}
     if dimension.mass == 1 and dimension.time == -2:
         powers = {"N": Fraction(1), "m": dimension.length - 1, "A": dimension.current}
@@ -154,15 +154,15 @@ def _product_of_units(dimension: Dimension) -> str:
     return (above or "1" * bool(below)) + below
 
 
-# --- how a script asks for one ---------------------------------------------------------------------------------------
+# --- annotations of a script -----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What a parameter of `solve()` may be: a quantity of a kind, or `count` of them.
+    """The type of a parameter of `solve()`: a quantity of a kind, or `count` of them.
 
-    letters   for those that are given as numbers
-    bounds    the least and the greatest angle that it may be, in degrees
+    letters   symbols for quantities that are given as numbers
+    bounds    the least and the greatest allowed angle, in degrees
     """
 
     each: str
@@ -209,7 +209,7 @@ ANNOTATIONS: Mapping[str, Asked] = {
 
 
 def asked_by_annotation(annotation: Any) -> Asked | None:
-    """What a parameter's annotation asks for, also when it is a string."""
+    """The type that a parameter's annotation specifies; the annotation may be a string."""
     if isinstance(annotation, str):
         return ANNOTATIONS.get(annotation.strip().rpartition(".")[2])
     return DIRECTION if annotation is Direction else _asked(annotation)

@@ -1,6 +1,6 @@
-"""How long an expression is to write: its signs, lines, powers and functions, as SymPy's `count_ops` counts them.
+"""The written length of an expression: its signs, fraction bars, powers and functions, counted like `count_ops`.
 
-What stands in several expressions is counted once; the forms of one value have most of their parts in common.
+Lengths of parts are cached, because different forms of one value have most of their parts in common.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ __all__ = ["length", "shortest"]
 
 
 def shortest(forms: Iterable[Expr]) -> Expr:
-    """With the least to write; between equals, always the same one."""
+    """Return the shortest form; among equally short forms, the first in alphabetical order."""
     lengths = {form: length(form) for form in forms}
     least = min(lengths.values())
     return min((form for form, long in lengths.items() if long == least), key=_Text)
 
 
 class _Text:
-    """How an expression is written, found only where it must be compared."""
+    """The text of an expression, computed only if it must be compared."""
 
     def __init__(self, value: Expr) -> None:
         self.value = value
@@ -68,7 +68,7 @@ def _of_fraction(value: Expr) -> int:
 
 
 def _of_product(factors: list[Expr]) -> int:
-    """Above or below a line, where SymPy puts a number into the sum that stands beside it alone."""
+    """The length of a numerator or denominator; SymPy multiplies a number into a sum that is the only other factor."""
     is_put_in = len(factors) == 2 and factors[0].is_Rational and factors[1].is_Add
     return length(Mul(*factors)) if is_put_in else _of_factors(factors)
 

@@ -1,6 +1,6 @@
-"""A fraction multiplied out above and below its line, with what both have in common cancelled.
+"""A fraction with numerator and denominator multiplied out and their common factors cancelled.
 
-And the same with the squares of sines and cosines written by one another.
+Also the same fraction with squares of sines replaced by squares of cosines, or the reverse.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.factors_in_front import Product, as_product, product_of, times, written
 from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
 
-PRIME = 2**31 - 1  # modulo which images are taken
+PRIME = 2**31 - 1  # the modulus of all images
 
 __all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "shared_factor", "squares_turned"]
 
 
 def in_lowest_terms(value: Expr) -> Expr:
-    """The fraction with the common factors of its terms in front; raises `Outside` for what is too large."""
+    """The fraction in lowest terms, with common factors in front; raises `Outside` if it is too large."""
     ring = _ring()
     return ring.written(ring.fraction(product_of(value)))
 
 
 def squares_turned(value: Expr) -> list[Expr]:
-    """The same with sin^2 written by cos^2, with cos^2 by sin^2, and with 1 - cos^2 or 1 - sin^2 as one square."""
+    """The fraction with sin^2 replaced by cos^2, with cos^2 by sin^2, and with 1 - cos^2 or 1 - sin^2 as one square."""
     ring = _ring()
     plain = ring.fraction(product_of(value))
     turns: list[Callable[[Terms], Terms]] = [ring.in_pairs]
@@ -44,14 +44,14 @@ def squares_turned(value: Expr) -> list[Expr]:
 
 
 def is_squarefree(value: Expr) -> bool:
-    """Whether no square divides a polynomial; raises `Outside` for what is too large."""
+    """Whether no square divides a polynomial; raises `Outside` if it is too large."""
     terms = _ring().form(value).terms
     places = _places(terms)
     return bool(_polynomial(_polynomials(len(places)), terms, places).is_squarefree)
 
 
 def factored(value: Expr) -> Expr:
-    """One fraction with each sum factored over the rational numbers, functions and roots standing as letters."""
+    """One fraction with each sum factored over the rational numbers; functions and roots count as symbols."""
     product = _with_plus_first(_factors(value))
     odd = [base for base, power in product.powers.items() if power % 2 and base.is_Add]
     mixed = [base for base in odd if any(term.could_extract_minus_sign() for term in base.args)]
@@ -62,7 +62,7 @@ def factored(value: Expr) -> Expr:
 
 
 def shared_factor(values: Sequence[Expr]) -> Product:
-    """What divides all of them, over all by which any of them is divided; its number is positive."""
+    """The common factor of all values, divided by their common denominator; its number is positive."""
     parts = [part for value in values if (part := _with_plus_first(_factors(value))).number]
     if not parts:
         return Product(S.One, {})
@@ -80,18 +80,18 @@ def _factors(value: Expr) -> Product:
 
 
 def _with_plus_first(product: Product) -> Product:
-    """With a - b for b - a as well, so that both are seen to be one factor."""
+    """Write b - a as -(a - b), so that both are recognised as one factor."""
     turned = [(b, n) for b, n in product.powers.items() if b.is_Add and b.could_extract_minus_sign()]
     return times((product, *(_turned(base, power) for base, power in turned)))
 
 
 def _turned(base: Expr, power: int) -> Product:
-    """What puts -b for b in that power."""
+    """The product that replaces a base b by -b in that power."""
     return Product(S.NegativeOne**power, {base: -power, -base: power})
 
 
 class _Fraction(NamedTuple):
-    """Sums of terms above and below the line, and what else stands before them, as powers of letters below the line."""
+    """The numerator and denominator as sums of terms, and a factor in front with further powers in the denominator."""
 
     top: Terms
     bottom: Terms
@@ -99,7 +99,7 @@ class _Fraction(NamedTuple):
 
 
 class _Fractions(Expanded):
-    """What is no sum, no product and no whole power is a letter."""
+    """The ring in which each expression counts as a symbol, unless it is a sum, a product or a whole power."""
 
     def _made(self, expr: Expr) -> Form:
         return self.letter(expr) if expr == PLUS_MINUS else super()._made(expr)
@@ -123,7 +123,7 @@ class _Fractions(Expanded):
         return reduce(self.product, sorted(forms, key=lambda form: len(form.terms)), ONE)
 
     def written(self, fraction: _Fraction) -> Expr:
-        """Where no sign stands before the fraction unless it must: above the line a sum takes it, else one below."""
+        """Write the fraction without a sign in front if possible: a sum in the numerator or denominator takes it."""
         top, bottom, (number, letters) = fraction
         if not top:
             return S.Zero
@@ -140,7 +140,7 @@ class _Fractions(Expanded):
         return written(times(parts))
 
     def factors(self, base: Expr, power: int) -> Product:
-        """Of a power of what is no product; itself where it is no sum, has no others or is too large."""
+        """The factors of a power; the power itself if its base is not a sum, is irreducible or is too large."""
         try:
             terms = self.form(base).terms if base.is_Add else {}
         except Outside:
@@ -153,7 +153,7 @@ class _Fractions(Expanded):
         return times((Product(Rational(int(content)) ** power, {}), *inner))
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
-        """The powers of one function of each angle written by the other, but for a single one."""
+        """Replace even powers of one function of each angle by the other function; one single power may remain."""
 
         def turn(terms: Terms) -> Terms:
             for place, other in self._turning(terms):
@@ -164,7 +164,7 @@ class _Fractions(Expanded):
         return turn
 
     def in_pairs(self, terms: Terms) -> Terms:
-        """x^2 - x^2 cos^2 a as x^2 sin^2 a, pair by pair, where other terms keep their squares."""
+        """Write x^2 - x^2 cos^2 a as x^2 sin^2 a, pair by pair; other terms keep their squares."""
         left = dict(terms)
         turning = self._turning(terms)
         for monomial in terms:
@@ -178,14 +178,14 @@ class _Fractions(Expanded):
         return {monomial: coefficient for monomial, coefficient in left.items() if coefficient}
 
     def _turning(self, terms: Terms) -> list[tuple[int, int]]:
-        """The places of sines and cosines that occur, each with that of the other function of its angle."""
+        """The places of the sines and cosines that occur, each with the place of the other function of its angle."""
         found = [self.name(place) for place in _places(terms)]
         turning = sorted((f for f in found if isinstance(f, sin | cos)), key=str)
         return [(self.place(f), self.place((cos if isinstance(f, sin) else sin)(f.args[0]))) for f in turning]
 
 
 def _by_other_square(terms: Terms, place: int, other: int) -> Terms:
-    """Powers of s written by 1 - c^2, where s and c stand at these places."""
+    """Replace s^2 by 1 - c^2, where s and c have these places."""
     found: Terms = {}
     for monomial, coefficient in terms.items():
         half = ((monomial >> place) & ONES) // 2
@@ -219,7 +219,7 @@ def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
 
 
 def _quotient(top: Terms, divisor: Terms) -> Terms | None:
-    """The quotient of two sums; None if the division leaves a remainder, which most often shows modulo a prime."""
+    """The quotient of two sums; None if there is a remainder, which is mostly found modulo a prime already."""
     places = _places([*top, *divisor])
     first = next(iter(_places(divisor)), None)
     if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):
@@ -234,15 +234,15 @@ def _quotient(top: Terms, divisor: Terms) -> Terms | None:
 
 
 def _numbers(places: Sequence[int]) -> dict[int, int]:
-    """A number for each letter, modulo the prime."""
+    """A number for each symbol, modulo the prime."""
     return {place: pow(3, 5 + 2 * n, PRIME) for n, place in enumerate(places)}
 
 
 def _have_no_letter_in_common(top: Terms, bottom: Terms, places: list[int]) -> bool:
-    """Whether no factor of both holds a letter: seen, if at all, from their images modulo a prime.
+    """Whether both have no common factor that contains a symbol, as far as their images modulo a prime show.
 
-    A factor of both of degree d in x leaves one of degree d in the images, where numbers stand for the other letters,
-    unless the leading coefficient of one image vanishes.
+    In the images, all symbols except x are replaced by numbers. A common factor of degree d in x leaves one of degree d
+    in the images, unless the leading coefficient of an image vanishes.
     Source: von zur Gathen, Gerhard, *Modern Computer Algebra*, section 6.5.
     """
     numbers = _numbers(places)
@@ -252,7 +252,7 @@ def _have_no_letter_in_common(top: Terms, bottom: Terms, places: list[int]) -> b
 
 
 def _valued(terms: Terms, numbers: Mapping[int, int]) -> Terms:
-    """Each monomial with its coefficient and the numbers of its letters, modulo the prime."""
+    """The value of each term modulo the prime, with numbers substituted for its symbols."""
     found: Terms = {}
     for monomial, coefficient in terms.items():
         value = coefficient % PRIME
@@ -265,7 +265,7 @@ def _valued(terms: Terms, numbers: Mapping[int, int]) -> Terms:
 
 
 def _image(valued: Terms, place: int, number: int) -> list[int]:
-    """The coefficients of the powers of one letter, the highest first."""
+    """The coefficients of the powers of one symbol, the highest first."""
     inverse = pow(number, -1, PRIME)
     degree = max((monomial >> place) & ONES for monomial in valued)
     found = [0] * (degree + 1)
@@ -276,7 +276,7 @@ def _image(valued: Terms, place: int, number: int) -> list[int]:
 
 
 def _is_coprime(one: list[int], other: list[int]) -> bool:
-    """Whether the two images, neither of which has lost its highest power, have no root in common in any field."""
+    """Whether both images keep their highest power and have no common root in any field."""
     return bool(one[0] and other[0] and gf_degree(gf_gcd(one, other, PRIME, ZZ)) == 0)
 
 
@@ -302,7 +302,7 @@ def _terms(polynomial: PolyElement, places: list[int]) -> Terms:
 
 
 class _Kept:
-    """The ring that goes from one fraction to the next."""
+    """The ring that is reused from one fraction to the next."""
 
     ring = _Fractions()
 

@@ -1,4 +1,4 @@
-"""The integral of f(r) dm over a body, as a node, and what dimension the variables of an integral have."""
+"""The integral of f(r) dm over a body, as a node, and the dimensions of the variables of an integral."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from derive.algebra.node import DimensionOf, MatrixNode, TextOf, Value, explicit
 
 
 class MassIntegral(MatrixNode):
-    """The integral of f(r) dm over a body, f a vector or a tensor.
+    """The integral of f(r) dm over a body, where f is a vector or a tensor.
 
     Arguments: f in terms of the vector name r; r; the density; the position and the volume element's factor in the
     coordinates of the region; the limits, innermost first.
@@ -46,7 +46,7 @@ class MassIntegral(MatrixNode):
 
 
 def dimensions_of_variables(limits: Any, of: DimensionOf) -> dict[Any, Dimension | None]:
-    """A variable of an integral has the dimension of its limits, which may hold variables further out."""
+    """The dimension of each variable: that of its limits, which may contain variables of outer integrals."""
     inner: dict[Any, Dimension | None] = {}
     for x, *ends in reversed(limits):
         inner[x] = common(ends, lambda end: of(end, inner))

@@ -1,7 +1,7 @@
-"""What every unevaluated form of `derive.algebra.expressions` shares, and how all of them are carried out.
+"""The base classes of the unevaluated forms of `derive.algebra.expressions`, and their evaluation.
 
-A node says of itself all that others ask: its value (`doit`), its dimension (`dimension`), and what SymPy without
-these classes has in its place (`lowered`). That it goes to lists and back, it owes to `NODES`.
+A node defines its value (`doit`), its dimension (`dimension`), and its equivalent in SymPy without these classes
+(`lowered`). `NODES` lists all nodes, so that they can be encoded as lists and decoded.
 """
 
 from __future__ import annotations
@@ -34,21 +34,21 @@ Value: TypeAlias = Any  # an Expr, an ImmutableMatrix or a MatrixExpr: SymPy has
 
 # The dimension of a part of a node; a second argument gives the dimensions of the variables that the node binds.
 DimensionOf: TypeAlias = Callable[..., Dimension | None]
-# The plain SymPy text of a part, fit to stand as a factor; a second argument names the variables that the node binds.
+# The plain SymPy text of a part, valid as a factor; a second argument names the variables that the node binds.
 TextOf: TypeAlias = Callable[..., str]
 
 NODES: dict[str, Any] = {}  # every kind of node by its name
 
 
 class Node(Basic):
-    """What every unevaluated form shares: `doit()` evaluates the operands, then `_evaluated` the form itself."""
+    """Base class of all unevaluated forms: `doit()` evaluates the operands, then `_evaluated` the form itself."""
 
     def __init_subclass__(cls, abstract: bool = False, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
         if abstract:
             return
         if cls.__name__ in NODES:
-            raise TypeError(f"there already is a node {cls.__name__}")
+            raise TypeError(f"a node {cls.__name__} already exists")
         NODES[cls.__name__] = cls
 
     def __new__(cls, *args: Any) -> Any:
@@ -60,24 +60,24 @@ class Node(Basic):
         return self._evaluated(*(explicit(arg) if isinstance(arg, Basic | MatrixBase) else arg for arg in self.args))
 
     def _evaluated(self, *args: Any) -> Value:
-        raise AttributeError(f"{type(self).__name__} must say how it is evaluated")
+        raise AttributeError(f"{type(self).__name__} must define `_evaluated`")
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """Its dimension; raises `Inhomogeneous` where its terms differ."""
-        raise AttributeError(f"{type(self).__name__} must say what dimension it has")
+        """The dimension of the node; raises `Inhomogeneous` if its terms differ in dimension."""
+        raise AttributeError(f"{type(self).__name__} must define `dimension`")
 
     @property
     def variables(self) -> tuple[Any, ...]:
-        """What it binds, so that it is no name of its own."""
+        """The variables that the node binds, so they are not free symbols."""
         return ()
 
     def lowered(self, text: TextOf) -> str:
-        """What SymPy alone has for it, as text that may stand as a factor."""
-        raise AttributeError(f"{type(self).__name__} must say what it is to SymPy")
+        """The node in plain SymPy, as text that is valid as a factor."""
+        raise AttributeError(f"{type(self).__name__} must define `lowered`")
 
 
 def dimension_of_first(node: Node, of: DimensionOf) -> Dimension | None:
-    """That of the first argument: a bracket, a component, a length."""
+    """The dimension of the first argument: for a bracket, a component, a length."""
     return of(node.args[0])
 
 
@@ -106,18 +106,18 @@ class VectorNode(MatrixNode, abstract=True):
 
 
 def as_expr(value: Any) -> Any:
-    """The same as an expression: a plain integer as one of SymPy's, a coordinate as its letter."""
+    """Convert to an expression: a plain integer to a SymPy integer, a coordinate to its symbol."""
     return Integer(0) + value
 
 
 def explicit(expr: Value) -> Value:
-    """The expression with every node carried out, and matrices as explicit matrices."""
+    """The expression with every node evaluated, and matrices as explicit matrices."""
     if isinstance(expr, MatrixBase):
         return ImmutableDenseMatrix(expr.applyfunc(explicit))
     if isinstance(expr, Basic):
         return _carried_out(expr)
     if not isinstance(expr, int):  # SymPy would cut 1.5 to 1
-        raise TypeError(f"{expr!r} is no exact number")
+        raise TypeError(f"{expr!r} is not an exact number")
     return Integer(expr)
 
 
@@ -134,10 +134,10 @@ def _carried_out(expr: Basic) -> Value:
 
 
 def _definite(integral: Integral) -> Expr:
-    """A definite integral: by the kinds that solids need, for which SymPy's integrator is slow, else by SymPy.
+    """Evaluate a definite integral: by our rules for the integrals of solids, where SymPy is slow, else by SymPy.
 
-    An integral over a root of its variable that is of no such kind is left undefined, which equals nothing: there
-    SymPy may be wrong, or not come back.
+    Any other integral over a root is `nan`, which equals nothing, because SymPy may be wrong or may not terminate
+    for it.
     """
     integrand = explicit(integral.function)
     value = definite(integrand, integral.limits)

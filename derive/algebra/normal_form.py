@@ -1,7 +1,7 @@
-"""Whether an expression is zero, decided exactly.
+"""Decide exactly whether an expression is zero.
 
-What is a polynomial in letters, sines and cosines is written as one; all else in a ring that has letters for roots,
-absolute values and other functions too.
+Polynomials in symbols, sines and cosines have a normal form as such; all other expressions use a ring with additional
+letters for roots, absolute values and other functions.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.sparse_polynomials import Outside
 from derive.algebra.trig_polynomials import asked
 
-LARGEST = 4000  # operations of what is written by smaller angles
+LARGEST = 4000  # number of operations of an expression that is rewritten in smaller angles
 
 
 def vanishes(expr: Expr) -> bool:
@@ -59,16 +59,16 @@ def vanishes(expr: Expr) -> bool:
 
 
 def is_identity(left: Expr, right: Expr) -> bool:
-    """Whether two expressions are one polynomial in letters, sines and cosines; False means "not shown"."""
+    """Whether two expressions are the same polynomial in symbols, sines and cosines; False means "not shown"."""
     try:
         return trig_polynomials.are_equal(left, right)
     except Outside:
         return False
 
 
-@lru_cache(maxsize=4096, typed=True)  # what a verb decides, the door and the words decide again
+@lru_cache(maxsize=4096, typed=True)  # a verb, `establish()` and the words decide the same expression
 def _vanishes_by_relations(expr: Expr) -> bool:
-    """The same for all that is not a polynomial in letters, sines and cosines."""
+    """Decide the same for expressions that are not polynomials in symbols, sines and cosines."""
     try:
         expr = _with_common_angles(expr)
         return not expr.has(nan, zoo) and _is_zero(expr) and not any(map(_is_nothing, _divisors(expr)))
@@ -85,7 +85,7 @@ def _divisors(expr: Expr) -> set[Expr]:
 
 
 def _is_nothing(divisor: Expr) -> bool:
-    """Whether what is divided by is zero everywhere, so that a quotient that is zero is 0/0."""
+    """Whether a divisor is zero everywhere, so that a quotient that seems zero is 0/0."""
     if asked(FunctionRing, lambda ring: ring.is_nonzero(ring.form(divisor)), divisor):
         return False
     everywhere = is_zero_everywhere(divisor)
@@ -93,14 +93,14 @@ def _is_nothing(divisor: Expr) -> bool:
 
 
 def _hides_angles(expr: Expr) -> bool:
-    """Whether an angle stands under a root or in an absolute value, or has a part with a known sine."""
+    """Whether an angle is under a root or in an absolute value, or has a part with a known sine."""
     under = (root for root in expr.atoms(Pow, Abs) if not (root.is_Pow and root.exp.is_Integer))
     angles = (function.args[0] for function in expr.atoms(sin, cos, tan))
     return any(each.has(sin, cos, tan) for each in under) or any(each.has(acos, asin, atan, pi) for each in angles)
 
 
 def _with_common_angles(expr: Expr) -> Expr:
-    """Sines and cosines of sums and multiples, written in those of the smallest angles, where they would not show."""
+    """Rewrite hidden sines and cosines of sums and multiples in terms of the smallest angles."""
     if not _hides_angles(expr):
         return expr
     expr = expr.replace(lambda e: isinstance(e, tan), lambda e: sin(e.args[0]) / cos(e.args[0]))
@@ -124,7 +124,7 @@ def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
-    """For each angle up to a rational factor, the largest angle of which all that occur are whole multiples."""
+    """For each angle up to a rational factor, the largest angle such that all that occur are whole multiples of it."""
     found: dict[Expr, list[Rational]] = {}
     for function in functions:
         for coefficient, rest in _angle_terms(function.args[0]):
@@ -142,5 +142,5 @@ def _as_multiple(term: tuple[Rational, Expr], units: dict[Expr, tuple[Expr, Symb
     angle, dummy = units[rest]
     multiple = Integer(coefficient / angle.as_coeff_Mul(rational=True)[0])
     if abs(multiple) > HIGHEST:
-        raise PolynomialError(f"{multiple} times an angle is too high a multiple to be written out")
+        raise PolynomialError(f"{multiple} times an angle is too high a multiple to expand")
     return multiple, dummy

@@ -1,7 +1,7 @@
-"""Relations between letters that are taken to hold, l < r_0 or v_0^2 < g R: what they say of signs, and of numbers.
+"""Assumed relations between symbols, l < r_0 or v_0^2 < g R, and what follows from them for signs and for numbers.
 
-A letter is replaced by what the relation makes of it, r_0 = l + u with u > 0, so that the sign of a polynomial in l and
-r_0 can be read off its coefficients. Several relations are replaced one after another: a < b < c gives c = a + u + w.
+A symbol is replaced by its value from the relation, r_0 = l + u with u > 0. The sign of a polynomial in l and r_0 can
+then be read from its coefficients. Relations are applied one after another: a < b < c gives c = a + u + w.
 """
 
 from __future__ import annotations
@@ -14,23 +14,23 @@ from math import prod
 
 from sympy import Add, Dummy, Expr, Integer, Rational, Symbol, cancel, expand, together
 
-PARTS = 12  # of an amount that are tried, each an eighth of the one before
-LARGEST = 400  # operations of what is expanded with the letters replaced
+PARTS = 12  # number of sizes of an amount that are tried, each an eighth of the one before
+LARGEST = 400  # number of operations of an expression that is expanded after the replacement
 
 SignOf = Callable[[Expr], int | None]
 
 
 class Contradiction(Exception):
-    """The relation cannot hold together with those before it."""
+    """The relation contradicts the relations before it."""
 
 
 @dataclass(frozen=True)
 class Order:
-    """Relations that are taken to hold.
+    """Relations that are assumed to hold.
 
     positive   differences that are greater than zero
-    replaced   letter -> what it is by its relation, in letters that are not replaced and in amounts
-    amounts    letter -> the amount that its relation brings in, which is positive, or not negative
+    replaced   symbol -> its value by its relation, in terms of amounts and of symbols that are not replaced
+    amounts    symbol -> the amount that its relation introduces, which is positive, or not negative
     """
 
     positive: tuple[Expr, ...] = ()
@@ -38,7 +38,7 @@ class Order:
     amounts: Mapping[Symbol, Symbol] = field(default_factory=dict)
 
     def with_relation(self, difference: Expr, strict: bool, sign_of: SignOf) -> Order:
-        """With one relation more: the difference is greater than zero, or not less where it is not strict."""
+        """Add a relation: the difference is greater than zero, or greater than or equal to zero if it is not strict."""
         there, below = together(self.put_in(difference)).as_numer_denom()
         there = expand(there) if sign_of(below) == 1 else expand(there / below)
         sign = 0 if there.is_zero else sign_of(there)
@@ -55,11 +55,11 @@ class Order:
         return Order(positive, {**replaced, letter: value}, amounts)
 
     def put_in(self, expr: Expr) -> Expr:
-        """The expression with the letters replaced."""
+        """The expression with the symbols replaced."""
         return expr.xreplace(dict(self.replaced)) if self.replaced else expr
 
     def touches(self, expr: Expr) -> bool:
-        """Whether a relation says something of its letters."""
+        """Whether a relation concerns one of the expression's symbols."""
         if not self:
             return False
         known = self.replaced.keys() | set().union(*(each.free_symbols for each in self.positive))
@@ -69,7 +69,7 @@ class Order:
         return bool(self.positive or self.replaced)
 
     def sign(self, expr: Expr, sign_of: SignOf) -> int | None:
-        """The sign of an expression, where the relations decide it."""
+        """The sign of an expression, if the relations determine it."""
         for difference in self.positive:
             ratio = cancel(expr / difference)
             if ratio.is_number and ratio.is_real:
@@ -84,8 +84,8 @@ class Order:
         return None if None in signs else prod(sign for sign in signs if sign is not None)
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
-        """Numbers that fulfil the relations: a letter that is replaced is greater by the number it had, or by a part
-        of it where only that fits the letter."""
+        """Numbers that satisfy the relations: the amount of a replaced symbol is the number that the symbol had, or a
+        fraction of it if only this gives an allowed value."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]
@@ -101,7 +101,7 @@ class Order:
 def _letter_replaced(
     difference: Expr, strict: bool, sign_of: SignOf
 ) -> tuple[Symbol, Expr, Symbol] | tuple[None, None, None]:
-    """A letter in which the difference is linear, and what it is; one that is then seen to keep its own sign."""
+    """A symbol in which the difference is linear, its value and its amount; a positive symbol must remain positive."""
     amount = Dummy("more", positive=True) if strict else Dummy("more", nonnegative=True)
     for letter in sorted((s for s in difference.free_symbols if isinstance(s, Symbol)), key=str):
         slope = difference.diff(letter)
@@ -113,12 +113,12 @@ def _letter_replaced(
     return None, None, None
 
 
-_ORDER: ContextVar[Order] = ContextVar("order", default=Order())  # noqa: B039  which nobody changes
+_ORDER: ContextVar[Order] = ContextVar("order", default=Order())  # noqa: B039  it is never changed
 
 
 @contextmanager
 def in_order(order: Order) -> Iterator[None]:
-    """What is done inside takes these relations to hold."""
+    """Assume these relations within the `with` block."""
     token = _ORDER.set(order)
     try:
         yield

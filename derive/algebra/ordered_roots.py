@@ -1,6 +1,6 @@
-"""A root of a polynomial that has no formula, told by its place among the others: all of them are real.
+"""A root of a polynomial without a closed form, identified by its place among the roots, all of which are real.
 
-What it is in numbers is exact: an algebraic number of SymPy, from which any number of digits follows.
+Its numerical value is exact: an algebraic number of SymPy, with any number of digits.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ __all__ = ["OrderedRoot", "root_in_order"]
 
 
 class OrderedRoot(ScalarNode):
-    """One of several roots, all real. Arguments: the coefficients from the highest, its number, its name."""
+    """One of several roots, all real. Arguments: the coefficients from the highest power, its place, its name."""
 
     def __new__(cls, coefficients: Sequence[Expr], number: int, name: Symbol) -> Any:
         return super().__new__(cls, Tuple(*coefficients), number, name)
@@ -30,7 +30,7 @@ class OrderedRoot(ScalarNode):
 
     @property
     def name(self) -> Symbol:
-        """A letter for it, with its place among the roots of this polynomial."""
+        """The symbol of the root, which includes its place among the roots of this polynomial."""
         return self.args[2]
 
     @property
@@ -45,18 +45,18 @@ class OrderedRoot(ScalarNode):
         return OrderedRoot(known, number, name)
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """That of one coefficient over the one before it: all terms of the polynomial have one dimension."""
+        """The dimension of the second coefficient over the first: all terms of the polynomial have one dimension."""
         highest, second = self.args[0][:2]
         return quotient(of(second), of(highest))
 
     def lowered(self, text: TextOf) -> str:
-        """A name for a function: SymPy has such roots of numbers only."""
+        """The name of a function, because SymPy has such roots only for numerical coefficients."""
         coefficients, number, _ = self.args
         return f"Function('ordered_root')({', '.join(text(each) for each in coefficients)}, {number})"
 
 
 def root_in_order(coefficients: Sequence[Any], number: int) -> Any:
-    """The root of that place, in the digits that mpmath works with: that of floats, made better by Newton's method."""
+    """The root at that place, to mpmath's precision: a root in floats, improved by Newton's method."""
     from numpy import roots
 
     mp = mpmath.mp

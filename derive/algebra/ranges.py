@@ -1,6 +1,6 @@
-"""Letters that lie between two numbers, 0 < alpha < pi/2, and the signs that are settled by it.
+"""Symbols that lie between two numbers, 0 < alpha < pi/2, and the signs that follow from this.
 
-This is the one notion of a sign that holds whatever the letters are: laws, lines, outcomes and conditions ask here.
+All laws, lines, outcomes and conditions use this module to decide a sign for all allowed values of the symbols.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from derive.algebra.order import known_order
 
 @dataclass(frozen=True)
 class Range:
-    """The letter is greater than one number and less than the other; an end that is `closed` it may have.
+    """An interval: the symbol is greater than `least` and less than `greatest`; a `closed` end belongs to the range.
 
-    Either end may be infinite. `written` is how a file has it.
+    Either end may be infinite. `written` is the text of the range in a file.
     """
 
     least: Expr
@@ -31,7 +31,7 @@ class Range:
     written: str = field(default="", compare=False)
 
     def holds(self, number: Expr) -> bool:
-        """Whether the number is one of those in the range."""
+        """Whether the number is in the range."""
         ways = number - self.least, self.greatest - number
         return all(
             way.is_extended_positive or closed and way.is_zero for way, closed in zip(ways, self.closed, strict=True)
@@ -42,7 +42,7 @@ class Range:
         return bool(self.least.is_extended_positive or self.least.is_zero and not self.closed[0])
 
     def at(self, way: Expr) -> Expr:
-        """The number that is a part of the way, 0 < way < 1, from the lower end to the upper."""
+        """The number at the fraction `way`, 0 < way < 1, of the distance from the lower end to the upper."""
         if self.least.is_finite and self.greatest.is_finite:
             return self.least + (self.greatest - self.least) * way
         beyond = way / (1 - way)
@@ -51,14 +51,14 @@ class Range:
         return self.greatest - 1 / beyond if self.greatest.is_finite else beyond - 1 / beyond
 
     def near(self, number: Expr) -> Expr:
-        """A number of the range for any positive one, growing with it, itself where nothing stands against that."""
+        """Map a positive number to a number in the range, which increases with it; to itself for `POSITIVE`."""
         return number if self == POSITIVE else self.at(number / (1 + number))
 
 
-LARGEST = 200  # operations of a sum whose squares are turned into one another
+LARGEST = 200  # number of operations of a sum in which squares of sines and cosines are replaced
 POSITIVE = Range(Integer(0), oo, written="(0, infinity)")
 
-_KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  which nobody changes
+_KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  it is never changed
 
 
 _POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
@@ -66,7 +66,7 @@ _POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
 
 @contextmanager
 def own_meaning() -> Iterator[None]:
-    """What is taken to be positive inside is forgotten behind it."""
+    """Forget, after the `with` block, all assumptions of positivity that were made inside it."""
     token = _POSITIVE.set(())
     try:
         yield
@@ -75,30 +75,30 @@ def own_meaning() -> Iterator[None]:
 
 
 def take_as_positive(expr: Expr) -> None:
-    """From here on nothing has a meaning where this is not positive, as c^2 - v^2 of what moves with the speed v."""
+    """Assume from now on that the expression is positive, as c^2 - v^2 for a body with the speed v."""
     if expr not in _POSITIVE.get():
         _POSITIVE.set((*_POSITIVE.get(), expr))
 
 
 def taken_as_positive() -> tuple[Expr, ...]:
-    """What has been taken to be positive so far."""
+    """The expressions that have been assumed positive so far."""
     return _POSITIVE.get()
 
 
 def known_ranges() -> Mapping[Symbol, Range]:
-    """The letters that are known to lie in a range."""
+    """The symbols with a known range."""
     return _KNOWN.get()
 
 
 def has_meaning(point: Mapping[Expr, Expr]) -> bool:
-    """Whether nothing that is taken to be positive is otherwise there, as far as the point tells."""
+    """Whether all expressions assumed positive are positive at the point, as far as it determines them."""
     told = (each for each in _POSITIVE.get() if each.free_symbols <= point.keys())
     return all(each.xreplace(dict(point)).evalf(20).is_positive is not False for each in told)
 
 
 @contextmanager
 def within(ranges: Mapping[Symbol, Range]) -> Iterator[None]:
-    """What is done inside knows these letters to lie in their ranges."""
+    """Assume these ranges of symbols within the `with` block."""
     token = _KNOWN.set({**_KNOWN.get(), **ranges})
     try:
         yield
@@ -111,7 +111,7 @@ def range_of(letter: Any) -> Range | None:
 
 
 def rational_in_range(letter: Any, number: Expr) -> Expr:
-    """A positive number, or for a letter that lies in a range a rational one of that range in its place."""
+    """The given positive number, or for a symbol with a range a rational number of that range that replaces it."""
     known = range_of(letter)
     if known is None:
         return number
@@ -120,7 +120,7 @@ def rational_in_range(letter: Any, number: Expr) -> Expr:
 
 
 def fulfilling(point: Mapping[Any, Any]) -> dict[Any, Any]:
-    """Numbers for letters, changed so that they fulfil the relations that are taken to hold."""
+    """Numbers for symbols, changed so that they satisfy the assumed relations."""
     order = known_order()
     return order.at(point, _fits) if order else dict(point)
 
@@ -131,7 +131,7 @@ def _fits(letter: Any, number: Expr) -> bool:
 
 
 def settled(value: Any) -> Any:
-    """The value without absolute values of what has one sign in the ranges of its letters."""
+    """The value without those absolute values whose argument has a definite sign in the ranges of its symbols."""
     known = _KNOWN.get()
     if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):
         return value
@@ -140,7 +140,7 @@ def settled(value: Any) -> Any:
 
 
 def with_positive_factors_out(value: Expr) -> Expr:
-    """sqrt(u^2 + v^2/sin(a)^2) as sqrt(u^2 sin(a)^2 + v^2)/sin(a), where the range of a makes sin(a) positive."""
+    """sqrt(u^2 + v^2/sin(a)^2) as sqrt(u^2 sin(a)^2 + v^2)/sin(a), if sin(a) is positive in the range of a."""
     known = _KNOWN.get()
     if not known:
         return value
@@ -163,20 +163,20 @@ def _drawn_out(root: Pow) -> Expr | None:
 
 
 def sign_within(expr: Expr) -> int | None:
-    """1 or -1 where the sign is the same for all values in the ranges of the letters; None where that is not known."""
+    """1 or -1 if the sign is the same for all values in the ranges of the symbols; None if this is not known."""
     signs = [_sign_of_factor(factor) for factor in Mul.make_args(expr)]
     return None if None in signs else prod(sign for sign in signs if sign)
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The same where no letter may have an end of its range, at which the value may vanish."""
+    """The same sign; None if the range of a symbol includes an end, because the value may vanish there."""
     if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
         return None
     return sign_within(expr)
 
 
 def never_vanishes_within(expr: Expr) -> bool:
-    """Whether the expression is nowhere zero, by what its letters are and by the ranges in which they lie."""
+    """Whether the expression is nowhere zero, by the assumptions and ranges of its symbols."""
     return all(
         bool(base.is_nonzero) or strict_sign_within(base) is not None
         for base in (factor.as_base_exp()[0] for factor in Mul.make_args(expr))
@@ -219,7 +219,7 @@ def _sign_between(least: Expr, greatest: Expr) -> int | None:
 
 
 def _sign_of_sum(total: Expr) -> int | None:
-    """By the sign that all its terms have; or by the ends between which it lies."""
+    """The sign of a sum, from the common sign of its terms or from the bounds between which it lies."""
     for sign in (1, -1):
         terms = [sign * term for term in total.args]
         strict = [sign_within(term) == 1 for term in terms]
@@ -230,7 +230,7 @@ def _sign_of_sum(total: Expr) -> int | None:
 
 
 def _is_nonnegative(term: Expr) -> bool:
-    """Whether its factors are positive, or not negative: c^2 sin(alpha)."""
+    """Whether all factors of the term are positive or not negative: c^2 sin(alpha)."""
     if term.is_nonnegative:
         return True
     open_factors = Mul(*(f for f in Mul.make_args(term) if not f.is_nonnegative))
@@ -238,7 +238,7 @@ def _is_nonnegative(term: Expr) -> bool:
 
 
 def _sign_by_squares(total: Add) -> int | None:
-    """Of a sum that is of one sign though sines or cosines stand in it: m + M - m cos^2, M + m sin^2."""
+    """The sign of a sum with sines or cosines that has one sign for all angles: m + M - m cos^2, M + m sin^2."""
     if not total.has(sin, cos) or total.count_ops() > LARGEST:
         return None
     for squares in (total, TR5(total.expand()), TR6(total.expand())):
@@ -251,7 +251,7 @@ def _sign_by_squares(total: Add) -> int | None:
 
 
 def _sign_of_function(function: Expr) -> int | None:
-    """By the quarter of the circle, or the half, in which its angle stays."""
+    """The sign of a sine, cosine or tangent, if its angle stays within a range in which this sign is constant."""
     ends = _ends(function.args[0])
     if ends is None or not (ends[0].is_finite and ends[1].is_finite):
         return None
@@ -264,14 +264,14 @@ def _sign_of_function(function: Expr) -> int | None:
 
 
 def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
-    """Between which numbers a letter lies, or a sine or cosine; nothing where that is open or an end is reached."""
+    """The bounds of an expression; None if they are unknown, or if the range of a symbol includes an end."""
     if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
         return None
     return _ends(expr)
 
 
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
-    """Between which numbers a sum of multiples of letters, sines and cosines lies, neither of which it has."""
+    """The bounds of a sum of multiples of symbols, sines and cosines, which are not reached."""
     least: Expr = Integer(0)
     greatest: Expr = Integer(0)
     for term in Add.make_args(expr):
@@ -289,7 +289,7 @@ def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _between(rest: Expr) -> tuple[Expr, Expr] | None:
-    """The ends of a letter, or of a sine or a cosine, or a power of one, that only rises or only falls in the range."""
+    """The bounds of a symbol, of a sine or cosine that is monotonic in its range, or of a power of these."""
     if (known := _range_of_letter(rest)) is not None:
         return known.least, known.greatest
     if isinstance(rest, Pow) and rest.exp.is_Integer and rest.exp.is_positive and sign_within(rest.base) == 1:

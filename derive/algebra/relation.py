@@ -40,12 +40,12 @@ class Relation(Node):
 
     @property
     def word(self) -> str:
-        """The mark as a page's tree names it."""
+        """The name of the mark in the tree of a page."""
         return MARKS[self.mark]
 
     @property
     def residual(self) -> Expr:
-        """Left minus right: what vanishes, or has the sign that the mark says."""
+        """Left minus right, which vanishes or has the sign given by the mark."""
         return self.left - self.right
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
@@ -63,5 +63,5 @@ class Relation(Node):
 
 
 def sympify_number(value: Any) -> Any:
-    """A plain whole number as a SymPy one; anything else as it is."""
+    """A plain whole number as a SymPy integer; any other value unchanged."""
     return Integer(value) if isinstance(value, int) else value

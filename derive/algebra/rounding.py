@@ -1,4 +1,4 @@
-"""Numbers for the page: rounded once, from the exact value, to so many significant figures."""
+"""Numbers for the page, rounded once, from the exact value, to a given number of significant figures."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from derive.algebra.expressions import Amount, Factors, MatrixAmount, Relation, 
 from derive.algebra.node import DimensionOf, ScalarNode, TextOf
 from derive.algebra.samples import value_at
 
-SPARE = 25  # digits beyond those asked for, so that rounding sees the true neighbourhood
+SPARE = 25  # digits beyond those requested, so that the last figure is rounded correctly
 
 
 def rounded(exact: Expr, figures: int) -> Rational:
-    """The nearest decimal with so many significant figures; exact, as a rational."""
+    """The nearest decimal with that number of significant figures, as an exact rational."""
     value = _decimal(exact, figures + SPARE)
     if value == 0:
         return Integer(0)
@@ -57,7 +57,7 @@ def rounded_form(exact: Any, figures: int) -> Any:
 
 
 def decimal_text(number: Rounded) -> str:
-    """`0.92951`, `21.64`, `6.500e-4`: plain, with every figure that counts."""
+    """`0.92951`, `21.64`, `6.500e-4`: plain text with all significant figures."""
     value, figures = number.args
     decimal = Decimal(value.p) / Decimal(value.q)
     place = decimal.adjusted() - int(figures) + 1
@@ -70,9 +70,9 @@ def decimal_text(number: Rounded) -> str:
 def off_by_more_than_half_a_unit(exact: Any, shown: Any) -> tuple[str, str] | None:
     """The first rounded number that is further from its exact value than rounding can explain.
 
-    Of a relation it is the right side that is rounded.
+    In a relation, the right side is rounded.
 
-    The exact value is taken by mpmath, in digits enough for what cancels; `rounded` takes it by SymPy's own `evalf`.
+    mpmath computes the exact value here, with extra digits for cancellation; `rounded` uses SymPy's own `evalf`.
     """
     for number, factor, value in _pairs(shown, exact):
         target = explicit(number)
@@ -83,7 +83,7 @@ def off_by_more_than_half_a_unit(exact: Any, shown: Any) -> tuple[str, str] | No
 
 
 def half_a_unit(number: Rounded) -> Rational:
-    """By how much a rounded number may be off: half a unit of its last place."""
+    """The largest rounding error of a rounded number: half a unit of its last place."""
     decimal = Decimal(number.args[0].p) / Decimal(number.args[0].q)
     return Rational(10) ** (decimal.adjusted() - int(number.args[1]) + 1) / 2
 
@@ -94,10 +94,10 @@ def _pairs(shown: Any, exact: Any) -> list[tuple[Any, Expr, Expr]]:
         shown, exact = shown.right, exact.right
     if isinstance(shown, Amount | MatrixAmount):
         shown, factor = shown.args[0], shown.args[2]
-    if isinstance(shown, Factors):  # a rounded number in front of letters
+    if isinstance(shown, Factors):  # a rounded number in front of symbols
         shown, letters = shown.args
         exact = (exact / letters).cancel()
-    if isinstance(shown, MatMul):  # a vector of rounded numbers, behind letters
+    if isinstance(shown, MatMul):  # a vector of rounded numbers, after symbols
         letters, shown = shown.args
         exact = (exact / letters).applyfunc(cancel)
     if isinstance(shown, MatrixBase):

@@ -1,8 +1,8 @@
-"""Points at which two expressions are compared, and what an expression is there.
+"""Points at which two expressions are compared, and the values of expressions there.
 
-Points are exact rationals, drawn over several scales by a seed that belongs to the comparison: the same ones in every
-run, other ones for other expressions. Values are taken by mpmath, in so many digits that what differs is no rounding:
-a difference counts only where more digits confirm it, and one that shrinks with every digit more is none.
+Points are exact rationals, drawn over several scales with a seed computed from the expressions: the same points in each
+run, different ones for other expressions. mpmath computes the values with enough digits to exclude rounding errors:
+a difference counts only if more digits confirm it; one that shrinks as digits are added counts as zero.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from derive.algebra.ordered_roots import OrderedRoot, root_in_order
 from derive.algebra.ranges import fulfilling, range_of
 
 DIGITS = 50
-WORKING = (60, 160, 420)  # digits: the first decide as a rule, the others confirm what they found
-SPARE = 20  # of the working digits, those that rounding, cancelling and large arguments may use up
+WORKING = (60, 160, 420)  # digits: the first usually decide, the others confirm the result
+SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
 ORDINARY = (0,)
 TINY, LARGE = (-2, -5, -9, -14), (1, 2, 4, 7)  # powers of ten
@@ -37,16 +37,16 @@ SamplePoint = Mapping[Expr, Expr]
 
 
 class Undefined(Exception):
-    """The expression has no value at this point: a division by zero, or what is not finite."""
+    """The expression has no value at this point: a division by zero, or an infinite value."""
 
 
 class NoNumber(Exception):
-    """What the expression is at this point cannot be said, or not within reason."""
+    """The value of the expression at this point cannot be computed, or only with too much work."""
 
 
 @dataclass(frozen=True)
 class Sample:
-    """What two expressions are at a point, and whether they agree there."""
+    """The values of two expressions at a point, and whether they agree there."""
 
     point: SamplePoint
     left: Any
@@ -55,7 +55,7 @@ class Sample:
 
 
 def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
-    """Without end: two of ordinary size, of opposite signs, then all scales in turn, and each letter of its own."""
+    """Endless points: first of ordinary size, then of all scales in turn, then with a random scale for each symbol."""
     ordered = sorted(letters, key=str)
     source = Random(seed)
     for scales in (ORDINARY, ORDINARY, ORDINARY, *((tiny,) for tiny in TINY), *((large,) for large in LARGE)):
@@ -65,7 +65,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
 
 
 def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
-    """Two points: each letter that may be negative is so in one of them."""
+    """Two points: each symbol that may be negative is negative at one of them."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
         point = {
@@ -97,23 +97,23 @@ def _drawn(letter: Expr, scale: int, sign: int, source: Random) -> Expr:
 
 
 def letters_of(expr: Expr) -> set[Expr]:
-    """What can be varied freely: symbols other than bound ones, functions of time and their derivatives."""
+    """All that can be varied freely: symbols that are not bound, functions of time and their derivatives."""
     functions = expr.atoms(AppliedUndef) | expr.atoms(Derivative)
     return set(functions) | {s for s in expr.free_symbols if isinstance(s, Symbol)}
 
 
 def seed_of(*exprs: Expr) -> int:
-    """A number that the expressions determine, in this run as in any other."""
+    """A number computed from the expressions, the same in each run."""
     nodes = (node for expr in exprs for node in preorder_traversal(expr))
     marks = (f"{hash(n.p)}/{hash(n.q)}" if n.is_Rational else type(n).__name__ if n.args else str(n) for n in nodes)
     return crc32(" ".join(marks).encode())
 
 
 def compared_at(left: Expr, right: Expr, point: SamplePoint, thoroughly: bool = False) -> Sample:
-    """What both sides are at a point; raises `Undefined` or `NoNumber`.
+    """The values of both sides at a point; raises `Undefined` or `NoNumber`.
 
-    A difference is believed once more digits give the same one. To be thorough is to ask the same of agreement: each
-    side has a value that more digits confirm, or is zero.
+    A difference counts only if more digits confirm it. With `thoroughly`, agreement must be confirmed too: each side
+    has a value that more digits confirm, or is zero.
     """
     before: tuple[Any, Any, Any] | None = None
     for digits in WORKING:
@@ -141,14 +141,14 @@ def _settled(before: Any, now: Any) -> bool:
 
 
 def _shrinks(before: Any, now: Any) -> bool:
-    """Whether a number is but noise, which every digit more makes smaller."""
+    """Whether a number is only a rounding error, which shrinks as digits are added."""
     return bool(now <= before * mp.mpf(10) ** -20)
 
 
 def value_at(expr: Expr, point: SamplePoint) -> Expr:
-    """What an expression is at a point, in as many digits as two of these confirm: more where much cancels.
+    """The value of an expression at a point, confirmed by a second precision; more digits are used if much cancels.
 
-    Zero where every digit more makes it smaller. Raises `Undefined`, or `NoNumber` where no digits confirm another.
+    Zero if the value shrinks as digits are added. Raises `Undefined`, or `NoNumber` if no precision confirms another.
     """
     before: Any = None
     for digits in (30, *WORKING):
@@ -168,13 +168,13 @@ def value_at(expr: Expr, point: SamplePoint) -> Expr:
 
 
 def is_zero_everywhere(expr: Expr) -> bool | None:
-    """Whether no point shows that the expression is anything but zero; None where it has no number."""
+    """Whether the expression is zero at all sampled points; None if its value cannot be computed."""
     found: bool | None = None
     letters = letters_of(expr)
     for point in islice(points(letters, seed_of(expr)), 6 if letters else 1):
         try:
             with mp.workdps(WORKING[0]):
-                clear = abs(Values(point)(expr)) > mp.mpf(10) ** -25  # no noise is as large at an ordinary point
+                clear = abs(Values(point)(expr)) > mp.mpf(10) ** -25  # rounding errors at an ordinary point are smaller
             if clear or not compared_at(expr, S.Zero, point).agree:
                 return False
         except Undefined:
@@ -186,7 +186,7 @@ def is_zero_everywhere(expr: Expr) -> bool | None:
 
 
 def shown(value: Any, figures: int = 6) -> Expr:
-    """A value as SymPy prints it, to so many figures."""
+    """A value as a SymPy number with that number of figures."""
     if isinstance(value, mpmath.mpc) and _bits(value.imag) < _bits(value.real) - 100:
         value = value.real
     return as_sympy(value).evalf(figures)
@@ -202,8 +202,8 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-_LARGEST = 300  # exponent that is taken: what is larger by far than all digits hides what stands beside it
-_MOST = 60  # bits of the whole part of any argument
+_LARGEST = 300  # largest exponent evaluated: far larger values hide the terms next to them
+_MOST = 60  # most bits of the whole part of an argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
 _OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # no digits of an argument are lost
 _ONE_ARGUMENT = {
@@ -213,10 +213,10 @@ _ONE_ARGUMENT = {
 
 
 class Values:
-    """What expressions are at one point, in the digits that mpmath now works with; common parts are taken once."""
+    """The values of expressions at one point, at mpmath's current precision; common parts are computed once."""
 
     def __init__(self, point: SamplePoint) -> None:
-        self.cancelled = False  # whether terms took away all digits of a sum, which may be zero or not
+        self.cancelled = False  # whether the terms of a sum cancelled to all digits, so that it may be zero or not
         self.known: dict[Expr, Any] = {}
         for letter, value in point.items():
             self.known[letter] = self._taken(value)
@@ -288,7 +288,7 @@ class Values:
             raise NoNumber(expr)
         taken = _ONE_ARGUMENT.get(name) or _OTHERS.get(name)
         value = taken(*arguments) if taken else self._by_sympy(expr)
-        if not mp.isfinite(value):  # infinite is no value: it would be as near to any other
+        if not mp.isfinite(value):  # an infinite value cannot be compared
             raise Undefined(expr)
         return value
 
@@ -316,7 +316,7 @@ class Values:
         return bool({"<": x < 0, "<=": x <= 0, ">": x > 0, ">=": x >= 0}[condition.rel_op])
 
     def _by_sympy(self, expr: Expr) -> Any:
-        """A function that has no entry here, with its letters put in, by SymPy's own evaluation."""
+        """Evaluate a function that has no entry here by SymPy, after substituting for its symbols."""
         letters = letters_of(expr)
         if not letters <= self.known.keys() or expr.count_ops() > 200:
             raise NoNumber(expr)
@@ -337,19 +337,19 @@ class Values:
 
 
 def _is_cancelled(total: Any, terms: list[Any]) -> bool:
-    """Whether the terms of a sum took away all its digits, so that it may be zero."""
+    """Whether the terms of a sum cancelled to all digits, so that it may be zero."""
     return _bits(total) < max(map(_bits, terms)) - int(mp.prec) + 30
 
 
 def _bits(x: Any) -> int:
-    """The bits of the whole part, negative for what is small."""
+    """The number of bits of the whole part, negative for a small value."""
     if isinstance(x, mpmath.mpc):
         return max(_bits(x.real), _bits(x.imag))
     _, mantissa, exponent, length = x._mpf_
     if mantissa:
         return int(exponent + length)
     if exponent:
-        raise Undefined(x)  # infinity, or no number
+        raise Undefined(x)  # infinity, or not a number
     return _OF_ZERO
 
 
@@ -374,7 +374,7 @@ def _atom(expr: Expr) -> Any:
 
 
 def _real(x: Any) -> Any:
-    """A value that is real but for noise."""
+    """A value that is real up to rounding errors."""
     if not isinstance(x, mpmath.mpc):
         return x
     if x.imag and _bits(x.imag) > _bits(x.real) - mp.prec + 30:

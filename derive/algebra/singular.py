@@ -1,4 +1,4 @@
-"""Where an expression has no value: a denominator that vanishes, or a function that is infinite."""
+"""Find where an expression has no value: a denominator that vanishes, or a function that is infinite."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ _INFINITE = (S.ComplexInfinity, S.Infinity, S.NegativeInfinity, S.NaN)
 
 
 def has_no_value(value: Any) -> bool:
-    """Whether a part of it is infinite or undefined."""
+    """Whether a part of the value is infinite or undefined."""
     return bool(getattr(value, "has", None) and value.has(*_INFINITE))
 
 
 def is_not_real(value: Any) -> bool:
-    """Whether the imaginary unit is a part of it."""
+    """Whether the value contains the imaginary unit."""
     return bool(getattr(value, "has", None) and value.has(S.ImaginaryUnit))
 
 
 def undefined_part(before: Any, put: Callable[[Expr], Any]) -> Expr | None:
-    """The innermost part of an expression that leaves it without a value once letters are replaced: a denominator that
-    then vanishes, or a function that is then infinite.
+    """The innermost part of an expression that has no value after symbols are replaced: a denominator that then
+    vanishes, or a function that is then infinite.
 
-    put   replaces the letters in a part
+    put   replaces the symbols in a part
     """
     for part in _parts(before):
         if part.is_Pow and part.exp.is_negative:

@@ -1,8 +1,8 @@
-"""Sums of monomials in many letters, kept sparse: what is added and multiplied is whole numbers.
+"""Sparse sums of monomials in many letters, added and multiplied as whole numbers.
 
-The powers of all letters of a monomial stand side by side in one whole number, with their signs, so that monomials are
-multiplied by one addition. How much work a sum takes is counted, whatever is known of it already: an expression that
-takes too much is refused in every run alike.
+The powers of all letters of a monomial, with their signs, are packed into one whole number, so that one addition
+multiplies monomials. The work for a sum is counted even if its parts are cached, so that an expression that takes too
+much work is rejected in each run.
 
 Source: Monagan, Pearce, *Sparse polynomial division using a heap*, J. Symb. Comp. 46 (2011), section 2 (packed
 monomials).
@@ -18,25 +18,25 @@ from sympy import Expr, Pow, Symbol
 
 from derive.algebra.expressions import PLUS_MINUS
 
-WIDTH = 24  # bits for the power of a letter, its sign included
-PARTS = 64  # into which a letter that stands for an angle may be divided
-FARTHEST = 2 ** (WIDTH - 2) // PARTS  # power that a letter may have
-HIGHEST = 60  # power of a sum, and multiple of an angle
-WORK = 200_000  # products of two terms that one expression may take where it is to be written
-LETTERS = 120  # and forms that are kept; with more the table is begun anew
+WIDTH = 24  # bits for the power of a letter, including its sign
+PARTS = 64  # the most parts into which a letter for an angle may be divided
+FARTHEST = 2 ** (WIDTH - 2) // PARTS  # highest power of a letter
+HIGHEST = 60  # highest power of a sum, and highest multiple of an angle
+WORK = 200_000  # products of two terms that one expression may take, if it is to be written
+LETTERS = 120  # letters and forms that are kept; with more, a new table begins
 FORMS = 20_000
 
 Terms = dict[int, int]
 
 
 class Outside(Exception):
-    """The expression is no such sum, or too large for one."""
+    """The expression is not such a sum, or is too large."""
 
 
 class Form(NamedTuple):
-    """The sum of whole multiples of monomials, over one whole number.
+    """A sum of whole multiples of monomials, divided by one whole number.
 
-    No power in it is beyond `reach`, and so many products of two terms were taken for it.
+    No power in it exceeds `reach`; `cost` is the number of products of two terms that were computed for it.
     """
 
     terms: Terms
@@ -49,9 +49,9 @@ ONE = Form({0: 1})
 
 
 class Ring:
-    """Letters with their places in a monomial, and the forms that are already known.
+    """Letters with their places in a monomial, and the forms already computed.
 
-    The lowest two bits of a monomial count factors i, at most one; then each letter has `WIDTH` bits.
+    The lowest two bits of a monomial count factors i, at most one; each letter has `WIDTH` bits above these.
     """
 
     highest, work = HIGHEST, WORK
@@ -65,7 +65,7 @@ class Ring:
         return len(self.forms) > FORMS or len(self.letters) > LETTERS
 
     def form(self, expr: Expr) -> Form:
-        """The form of an expression; raises `Outside` where it has none."""
+        """The form of an expression; raises `Outside` if it has none."""
         found = self.forms.get(expr)
         if found is None:
             found = self.forms[expr] = self._made(expr)
@@ -88,7 +88,7 @@ class Ring:
         return self.function(expr)
 
     def function(self, expr: Expr) -> Form:
-        """The form of what is neither a sum, nor a product, nor a power."""
+        """The form of an expression that is not a sum, product or whole power."""
         raise Outside
 
     def inverse(self, base: Expr) -> Form:

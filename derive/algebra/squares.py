@@ -1,4 +1,4 @@
-"""Squares as they are read: a^2 - b^2 in place of (a + b)(a - b), and I + M (R - a)^2 in place of its terms."""
+"""Squares in their readable form: a^2 - b^2 for (a + b)(a - b), and I + M (R - a)^2 instead of expanded terms."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ MOST_TERMS = 8  # a longer sum is not searched for squares
 
 
 def differences_of_squares(product: Expr) -> Expr:
-    """Of two factors u + v and u - v of a product, with letters for u and v, the difference of their squares."""
+    """Replace two factors u + v and u - v of a product by u^2 - v^2, if u and v are symbols."""
     factors = list(Mul.make_args(product))
     for one, other in combinations(factors, 2):
         if not (_is_pair_of_letters(one) and _is_pair_of_letters(other)):
@@ -31,7 +31,7 @@ def _is_letter(value: Expr) -> bool:
 
 
 def with_squares(value: Expr) -> Expr:
-    """A sum with those of its terms that share a letter as that letter times a square, where there is one."""
+    """Write three terms of a sum that share a symbol as this symbol times a square, if possible."""
     terms = Add.make_args(value)
     if not 3 <= len(terms) <= MOST_TERMS:
         return value

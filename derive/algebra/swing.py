@@ -2,7 +2,7 @@
 
     4 integral of dq/sqrt(f) from 0 to A, where f is the square of the rate: even in q and zero at A
 
-With q = A sin u the root loses its zero: f/(A cos u)^2 is a power series in A whose coefficients are polynomials in
+With q = A sin u the zero of f cancels: f/(A cos u)^2 is a power series in A whose coefficients are polynomials in
 sines and cosines. Source: Landau, Lifshitz, *Mechanics*, section 11 (the period by energy; the pendulum is problem 1).
 """
 
@@ -23,7 +23,7 @@ from derive.algebra.taylor import NoSeries, taylor
 from derive.algebra.tidy import tidied
 
 ANGLE = Dummy("u", real=True)
-DIGITS = 30  # of the integral with numbers
+DIGITS = 30  # of the numerical integral
 MOST_VALUES = 2**13
 
 
@@ -51,7 +51,7 @@ class SwingTime(ScalarNode):
 
 
 class SwingTimeOfNumbers(ScalarNode):
-    """The whole integral of a `SwingTime`, with numbers for its letters. Arguments: it, the letters, their amounts."""
+    """A `SwingTime` integral with numbers for its symbols. Arguments: the `SwingTime`, the symbols, the numbers."""
 
     def doit(self, **hints: object) -> Expr:
         swing, letters, amounts = self.args
@@ -73,10 +73,10 @@ class SwingTimeOfNumbers(ScalarNode):
 
 
 def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | None:
-    """The integral of dq/sqrt(f) from -A to A in numbers; nothing where f is not positive between, or no end is near.
+    """The numerical integral of dq/sqrt(f) from -A to A; None if f is not positive there, or if it does not converge.
 
-    With q = A sin u the integrand has a period and is the same at u and at pi - u, so that the mean of equidistant
-    values is as good as it can be; twice as many are taken until they agree.
+    With q = A sin u the integrand is periodic and has the same value at u and pi - u, so the mean of equidistant
+    values converges fast; their number is doubled until two results agree.
     Source: Trefethen, Weideman, *SIAM Review* 56 (2014), section 3.
     """
     from mpmath import mp
@@ -128,7 +128,7 @@ def reduced_square(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> list[Ex
 
 
 def _divided(coefficient: Expr, f: Expr) -> Expr:
-    """Divided by cos^2 u."""
+    """Divide a coefficient by cos^2 u."""
     c = Dummy("c")
     written = coefficient.xreplace({cos(ANGLE): c})
     try:
@@ -143,7 +143,7 @@ def _divided(coefficient: Expr, f: Expr) -> Expr:
 
 
 def _inverse_root(corrections: list[Expr], order: int) -> list[Expr]:
-    """The coefficients of (1 + sum of c_k A^k)^(-1/2): with y' (1 + e) = -(1/2) e' y, power by power."""
+    """The coefficients of (1 + sum of c_k A^k)^(-1/2), from y' (1 + e) = -(1/2) e' y, power by power."""
     found: list[Expr] = [Integer(1)]
     for n in range(1, order + 1):
         terms = [(Rational(-k, 2) - (n - k)) * corrections[k - 1] * found[n - k] for k in range(1, n + 1)]

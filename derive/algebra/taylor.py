@@ -1,8 +1,8 @@
-"""Taylor series of a formula along a motion: each letter goes by its own series, and these are added and multiplied.
+"""Taylor series of a formula along a motion: each symbol has its own series, and these are added and multiplied.
 
-No derivative is taken anywhere: if x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
-x_j y_(k-j), those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s, those of y = x^a from
-x y' = a x' y, and those of an exponential from y' = u' y.
+No derivatives are computed. If x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
+x_j y_(k-j). Those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s; those of y = x^a follow
+from x y' = a x' y, and those of an exponential from y' = u' y.
 
 Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).
 """
@@ -38,23 +38,23 @@ from derive.algebra.normal_form import vanishes
 __all__ = ["NoSeries", "arithmetic_along", "coefficient_along", "series_along", "slope", "taylor"]
 
 ZERO = Integer(0)
-DEEPEST = 8  # order to which a numerator and a denominator may vanish together
+DEEPEST = 8  # highest order to which a numerator and a denominator may vanish together
 
 Series = tuple[Expr, ...]
 
 
 class NoSeries(Exception):
-    """The formula has a function whose series is not known here, or a letter whose series is not long enough."""
+    """The formula has a function without a series rule here, or a symbol whose series is too short."""
 
 
 def taylor(expr: Expr, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> Series:
-    """The coefficients of s^0, ..., s^order; letters without a series are constants. Raises `NoSeries`."""
+    """The coefficients of s^0, ..., s^order; symbols without a series are constants. Raises `NoSeries`."""
     return _Arithmetic(letters, order).of(expr)
 
 
 def slope(expr: Expr | int, letter: Symbol) -> Expr:
-    """How it changes with one letter, all others kept: the coefficient of s where the letter goes by q + s."""
-    expr = as_expr(expr)  # a plain number too
+    """The partial derivative by one symbol q: the coefficient of s if q is replaced by q + s."""
+    expr = as_expr(expr)  # may be a plain number
     if letter not in expr.free_symbols:
         return ZERO
     try:
@@ -64,7 +64,7 @@ def slope(expr: Expr | int, letter: Symbol) -> Expr:
 
 
 def coefficient_along(expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int) -> Expr:
-    """The coefficient of s^n where each letter is at its place and s times its direction away."""
+    """The coefficient of s^n if each symbol is its place plus s times its direction."""
     return series_along(expr, place, direction, order)[order]
 
 
@@ -84,14 +84,14 @@ def series_along(
 def arithmetic_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
-    """The same where these rules are enough, also for 0/0; else `NoSeries`."""
+    """The same coefficients by the rules of this module, also for 0/0; raises `NoSeries` if no rule applies."""
     paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
     found = taylor(expr, paths, order)
     return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
 
 
 def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
-    """The same where what is divided by vanishes at the place, and what is divided too."""
+    """The same coefficients for a quotient whose numerator and denominator both vanish at the place."""
     above, below = together(expr).as_numer_denom()
     lowest, under = next(_beginnings(below, paths, order), (None, ()))
     if lowest is None:
@@ -107,7 +107,7 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
 
 
 def _beginnings(below: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Iterator[tuple[int, Series]]:
-    """The power with which a denominator begins, and its coefficients to so many beyond: few are tried first."""
+    """The lowest power of a denominator, and its coefficients; a short series is tried before a long one."""
     for deep in (DEEPEST // 4, DEEPEST):
         under = taylor(below, paths, order + deep)
         yield from ((n, under) for n, part in enumerate(under[: deep + 1]) if not vanishes(part))
@@ -177,14 +177,14 @@ class _Arithmetic:
         return tuple(Add(*(x[j] * y[k - j] for j in range(k + 1) if x[j] and y[k - j])) for k in self._orders)
 
     def _one_over(self, x: Series) -> Series:
-        """Its product with x is 1 + 0 s + ..."""
+        """The series whose product with x is 1 + 0 s + ..."""
         found = [1 / x[0]]
         for k in self._orders[1:]:
             found.append(-Add(*(x[j] * found[k - j] for j in range(1, k + 1))) / x[0])
         return tuple(found)
 
     def _power(self, x: Series, a: Expr) -> Series:
-        """x y' = a x' y, term by term; a power of what vanishes that is no whole one has no series."""
+        """x y' = a x' y, term by term; a fractional power of a vanishing quantity has no series."""
         if x[0] == 0 and any(x[1:]):
             raise NoSeries
         found = [x[0] ** a]
@@ -200,13 +200,13 @@ class _Arithmetic:
         return tuple(found)
 
     def _size(self, u: Series) -> Series:
-        """|u| has the sign of u in front; where u vanishes it has no series."""
+        """The series of |u|: the sign of u_0 times the series of u; none if u_0 vanishes."""
         if u[0] == 0:
             raise NoSeries
         return (Abs(u[0]), *(u[0] / Abs(u[0]) * part for part in u[1:]))
 
     def _turning(self, u: Series) -> tuple[Series, Series]:
-        """The sine and the cosine."""
+        """The series of the sine and of the cosine."""
         sine, cosine = [sin(u[0])], [cos(u[0])]
         for k in self._orders[1:]:
             steps = [(Rational(j, k) * u[j], k - j) for j in range(1, k + 1) if u[j]]

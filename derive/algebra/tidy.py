@@ -1,7 +1,7 @@
-"""The form in which a result is handed on: one fraction, common factors in front, no sum of roots below.
+"""The tidy form of a result: one fraction, common factors in front, no sum of roots in the denominator.
 
-`tidied()` changes no value. It is what a person does before writing a result down and what keeps the next step small.
-How the result then stands on paper is decided by `derive.render.notation.notation`.
+`tidied()` does not change the value. It simplifies as you would before writing a result, and keeps later steps short.
+`derive.render.notation.notation` decides how the result is displayed.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def tidied(value: Any) -> Any:
 
 
 def _signs_squared(value: Any) -> Any:
-    """Whichever sign a plus-or-minus is, its square is one."""
+    """Replace the square of a plus-or-minus sign by 1."""
     if PLUS_MINUS not in value.free_symbols:
         return value
     powers = [p for p in value.atoms(Pow) if p.base == PLUS_MINUS and p.exp.is_Integer]
@@ -83,7 +83,7 @@ def _tidied_scalar(value: Expr) -> Expr:
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
-    """cos(a -+ b) of cos a cos b +- sin a sin b, and sin(a +- b) of sin a cos b +- cos a sin b; nothing is shorter."""
+    """cos(a -+ b) for cos a cos b +- sin a sin b, sin(a +- b) for sin a cos b +- cos a sin b: the shortest form."""
     terms = [_two_turning(term) for term in value.args] if value.is_Add and len(value.args) == 2 else []
     found = [term for term in terms if term is not None]
     if len(found) != 2:
@@ -100,7 +100,7 @@ def _by_addition_theorem(value: Expr) -> Expr | None:
 
 
 def _by_secant(total: Expr) -> Expr:
-    """1/cos^2 of 1 + tan^2, with what both have in common."""
+    """1/cos^2 for 1 + tan^2, also if both terms have a common factor."""
     for tangent in sorted(total.atoms(tan), key=str):
         found = total.as_poly(tangent)
         if found is None or found.degree() != 2 or found.nth(1) != 0 or found.nth(0).has(tan):
@@ -111,7 +111,7 @@ def _by_secant(total: Expr) -> Expr:
 
 
 def _of_two_letters(function: type, angle: Expr) -> Expr:
-    """The sine or cosine of a sum or difference of two letters, of which SymPy knows no more than its sign."""
+    """The sine or cosine of a sum or difference of two symbols, unevaluated by SymPy; only a sign is moved out."""
     if not all(letter.is_real for letter in angle.free_symbols):
         return function(angle)
     turned = angle.could_extract_minus_sign()
@@ -120,7 +120,7 @@ def _of_two_letters(function: type, angle: Expr) -> Expr:
 
 
 def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
-    """A product of two sines or cosines of different letters: its sign, and the angles of each function."""
+    """The sign and the angles per function, if the term is a product of two sines or cosines of different symbols."""
     number, product = term.as_coeff_Mul()
     if abs(number) != 1 or len(product.args) != 2 or not product.is_Mul:
         return None
@@ -148,7 +148,7 @@ def _by_squares(value: Expr) -> list[Expr]:
 
 
 def _by_one_angle(value: Expr) -> list[Expr]:
-    """cos a cos b + sin a sin b written as cos(a - b), and the like."""
+    """Write cos a cos b + sin a sin b as cos(a - b), and similar sums."""
     angles = {function.args[0] for function in value.atoms(sin, cos)}
     if len(angles) < 2 or not value.atoms(sin):
         return []
@@ -158,7 +158,7 @@ def _by_one_angle(value: Expr) -> list[Expr]:
 
 
 def _turned_together(total: Expr) -> Expr:
-    """Sums of angles for those terms of a sum that are a pair, c cos a cos b and c sin a sin b, or with sin a cos b."""
+    """Combine pairs of terms, c cos a cos b and c sin a sin b, or c sin a cos b and c cos a sin b, into one."""
     seen: dict[Any, set[int]] = {}
     for n, term in enumerate(total.args):
         number, product = term.as_coeff_Mul()
@@ -179,7 +179,7 @@ def _has_roots(value: Expr) -> bool:
 
 
 def _denested(value: Expr) -> Expr:
-    """(8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 is sqrt(2 - sqrt(2))/2: roots of sums of roots by their square."""
+    """(8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 is sqrt(2 - sqrt(2))/2: simplify nested roots by their square."""
     number, letters = value.as_independent(*value.free_symbols, as_Add=False) if value.free_symbols else (value, 1)
     nested = [f for f in Mul.make_args(number) if f.is_Pow and f.exp.is_Rational and f.base.atoms(Pow)]
     if not nested or number.is_Add or any(abs(f.exp) != Rational(1, 2) for f in nested):
@@ -194,7 +194,7 @@ def _denested(value: Expr) -> Expr:
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
-    """1/(1 + sqrt(2)) is sqrt(2) - 1; a root of letters stays below, where it is easier to read."""
+    """1/(1 + sqrt(2)) is sqrt(2) - 1; a root of symbols stays in the denominator, where it is easier to read."""
     numerator, denominator = fraction_of(product_of(value))
     value = numerator / denominator
     if denominator.is_number or not denominator.has(Pow):
@@ -209,11 +209,11 @@ def _expanded_above(value: Expr) -> Expr:
 
 
 def _roots_drawn_out(value: Expr) -> Expr:
-    """Squares out from under each root, where their sign is known: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
+    """Take squares of known sign out of each root: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
     return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, _drawn_out)
 
 
-@lru_cache(maxsize=1024)  # what one value has under its roots, others have there too
+@lru_cache(maxsize=1024)  # several values have the same radicands
 def _drawn_out(power: Pow) -> Expr:
     base = shortest((power.base, *_by_squares(power.base)))
     parts = fraction_of(product_of(base))
@@ -223,7 +223,7 @@ def _drawn_out(power: Pow) -> Expr:
 
 
 def _square_free(part: Expr, q: int) -> tuple[Expr, Expr]:
-    """A polynomial as (outside, inside) with part = outside^q * inside, outside known to be non-negative."""
+    """A polynomial as (outside, inside) with part = outside^q * inside, where outside is known to be non-negative."""
     outside, inside = Integer(1), Integer(1)
     for piece in Mul.make_args(part):
         out, kept = _square_free_factor(piece, q)
@@ -246,12 +246,12 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
         whole = power // q if base.is_nonnegative or is_size else 0
         outside *= (abs(base) if is_size else base) ** whole
         inside *= base ** (power - q * whole)
-    # A sum that lost no factor is left as it was written, not multiplied out.
+    # A sum that lost no factor is kept as written, not multiplied out.
     return (outside, part) if outside == 1 else (outside, inside)
 
 
 def common_factor(entries: list[Expr]) -> Expr:
-    """What the entries of a vector or tensor have in common: M a^2/12 of M a^2 diag(13, 10, 5)/12."""
+    """The common factor of the entries of a vector or tensor: M a^2/12 of M a^2 diag(13, 10, 5)/12."""
     present = [entry for entry in entries if entry != 0]
     if not present:
         return Integer(1)
@@ -267,13 +267,13 @@ def _leads_negative(entry: Expr) -> bool:
 
 
 def factored_matrix(matrix: Any) -> tuple[Expr, Any]:
-    """A matrix as (common factor, what is left)."""
+    """A matrix as (common factor, remaining matrix)."""
     common = common_factor(list(matrix))
     return common, ImmutableDenseMatrix(matrix.applyfunc(lambda e: tidied(e / common)))
 
 
 def size_and_rest(v: Any) -> tuple[Expr, Any]:
-    """A vector as (size of its common factor, what is left), so that its length is the size times that of the rest."""
+    """A vector as (size of its common factor, remaining vector): its length is the size times the remaining length."""
     common, rest = factored_matrix(v)
     if common.is_nonnegative:
         return common, rest

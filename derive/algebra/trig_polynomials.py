@@ -1,15 +1,14 @@
-"""Polynomials in letters and in sines and cosines of angles, in a form that only equal ones share.
+"""Polynomials in letters and in sines and cosines of angles, in a normal form: equal forms mean equal polynomials.
 
-Each angle q that occurs is written by z = exp(i q), so that cos q = (z + 1/z)/2 and sin q = (z - 1/z)/(2 i): sums and
-multiples of angles are products of powers of such z, and sin^2 + cos^2 = 1 needs no rule of its own. What is divided by
-is a letter more, and is multiplied out again before anything is said to vanish.
+Each angle q that occurs is represented by z = exp(i q), with cos q = (z + 1/z)/2 and sin q = (z - 1/z)/(2 i). Then sums
+and multiples of angles are products of powers of such z, and sin^2 + cos^2 = 1 needs no extra rule. A divisor is
+represented by an additional letter, which is eliminated again before a form is compared with zero.
 
-The letters and the z of angles that are products of letters do not depend on one another by any polynomial (exponential
-functions of such angles are algebraically independent), so that a form without terms is the only one of zero. An angle
-may also have sines and cosines of letters as factors: written alike, it is the same one. The z of
-parts of pi is a root of one, and what holds of it follows from its irreducible equation, by which a form is reduced.
-A square root is a letter whose square is known; such roots may depend on one another, so that nothing is said where
-some are left.
+The letters and the z of angles that are products of letters satisfy no polynomial relation (exponential functions of
+such angles are algebraically independent), so only the form without terms is zero. An angle may also have sines and
+cosines of letters as factors; such angles are the same only if they are written in the same way. The z of a fraction
+of pi is a root of unity, and a form is reduced by the irreducible equation of this root. A square root is a letter
+whose square is known; such roots may depend on one another, so nothing is decided if roots are left.
 
 Sources: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms); Lang, *Algebra*, ch. VI,
 section 3 (cyclotomic polynomials are irreducible) and section 4 (the independence of characters).
@@ -26,8 +25,8 @@ from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_p
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
-WORK = 3_000_000  # products of two terms that a question may take: a sum that is not decided costs far more elsewhere
-LONGEST, STEEPEST = 60, 8  # operations that an angle is written with, and power in it
+WORK = 3_000_000  # products of two terms that a question may take: an undecided sum costs far more elsewhere
+LONGEST, STEEPEST = 60, 8  # most operations in an angle, and highest power in it
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
 R = TypeVar("R", bound="TrigRing")
@@ -37,21 +36,21 @@ __all__ = ["Finer", "Outside", "TrigRing", "are_equal", "asked", "is_zero", "mon
 
 
 def is_zero(expr: Expr) -> bool:
-    """Whether the expression is zero; raises `Outside` where that is not for this module to say."""
+    """Whether the expression is zero; raises `Outside` if this module cannot decide that."""
     if _has_nested_roots(expr):
         raise Outside
     return asked(TrigRing, lambda ring: ring.is_zero(ring.form(expr)), expr)
 
 
 def are_equal(left: Expr, right: Expr) -> bool:
-    """Whether two expressions are equal; raises `Outside` where that is not for this module to say."""
+    """Whether two expressions are equal; raises `Outside` if this module cannot decide that."""
     if _has_nested_roots(left) or _has_nested_roots(right):
         raise Outside
     return asked(TrigRing, lambda ring: ring.is_zero(ring.difference(ring.form(left), ring.form(right))), left, right)
 
 
 def monomial_ratio(left: Expr, right: Expr) -> Expr | None:
-    """The number, and powers of letters, by which the second is multiplied in the first; None where it is not seen."""
+    """The factor, a number times powers of letters, from the second to the first; None if it is not found."""
     if _has_nested_roots(left) or _has_nested_roots(right):
         return None
     try:
@@ -61,7 +60,7 @@ def monomial_ratio(left: Expr, right: Expr) -> Expr | None:
 
 
 def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answer:
-    """What the ring of that kind that is kept says of the expressions; raises `Outside` where it says nothing."""
+    """Put a question to the cached ring of that kind; raises `Outside` if the ring cannot answer."""
     ring: Any = KEPT.get(kind)
     ring = kind({}) if ring is None or ring.is_full else ring
     begun_anew = False
@@ -73,7 +72,7 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
             return question(ring)
         except Finer as finer:
             units = {**ring.units, finer.angle: lcm(ring.units.get(finer.angle, 1), finer.parts)}
-            if units[finer.angle] > PARTS:  # what was asked before must not count
+            if units[finer.angle] > PARTS:  # earlier questions must not affect the answer
                 if begun_anew:
                     raise Outside from None
                 units, begun_anew = {finer.angle: finer.parts}, True
@@ -84,9 +83,9 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
             raise
 
 
-@lru_cache(maxsize=16384)  # told before any form is made, which would be for nothing
+@lru_cache(maxsize=16384)  # found first, because a form would be computed in vain
 def _has_nested_roots(expr: Expr) -> bool:
-    """Whether there are roots of roots, or others than square ones."""
+    """Whether the expression contains roots of roots, or roots other than square roots."""
     if isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer:
         return bool(expr.exp.q != 2 or _has_roots(expr.base))
     return any(_has_nested_roots(part) for part in expr.args if part.args)
@@ -99,12 +98,12 @@ def _has_roots(expr: Expr) -> bool:
 
 
 def _is_in_angles(base: Expr) -> bool:
-    """A letter, or the sine or cosine of one, as in the angle phi_dot t cos theta of a steady precession."""
+    """Whether it is a letter, or its sine or cosine, as in the angle phi_dot t cos theta of a steady precession."""
     return base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
 
 
 def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
-    """The terms of what is multiplied out, each with its number; raises `Outside` where they may be too many."""
+    """The terms of a multiplied-out angle, each with its number; raises `Outside` if they may be too many."""
     if angle.is_Symbol:
         return [(S.One, angle)]
     if angle.count_ops() > LONGEST or any(p.exp.is_number and abs(p.exp) > STEEPEST for p in angle.atoms(Pow)):
@@ -113,7 +112,7 @@ def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 class Finer(Exception):
-    """Of an angle there is a part that is no whole number of those whose exponential has a letter."""
+    """A part of an angle occurs that is not a whole multiple of the part whose exponential has a letter."""
 
     def __init__(self, angle: object, parts: int):
         super().__init__(angle)
@@ -121,15 +120,15 @@ class Finer(Exception):
 
 
 class TrigRing(Ring):
-    """The polynomials in letters, in exp(i q) of angles, and in one over each sum that is divided by."""
+    """The polynomials in letters, in exp(i q) for angles q, and in the reciprocals of sums that are divisors."""
 
     work = WORK
 
     def __init__(self, units: dict[object, int]) -> None:
         super().__init__()
-        self.units = units  # into how many parts an angle is divided
+        self.units = units  # number of parts into which an angle is divided
         self.outside: set[Expr] = set()
-        self._relations: list[tuple[int, int, Form]] = []  # a letter, and what that power of it is
+        self._relations: list[tuple[int, int, Form]] = []  # place of a letter, a power, and the form of this power
         self._related = 0  # the bits of all these letters
         self._middle = (0, 0)
 
@@ -150,7 +149,7 @@ class TrigRing(Ring):
         raise Outside
 
     def _root(self, square: Form, n: int) -> Form:
-        """A power of the square root of what is known not to vanish."""
+        """A power of the square root of a form that is known not to vanish."""
         if not square.terms or self.is_unsure(square.terms) or abs(n) > self.highest:
             raise Outside
         shared = gcd(square.below, *square.terms.values())
@@ -170,14 +169,14 @@ class TrigRing(Ring):
         return Form({z + 1: -1, -z + 1: 1}, 2, reach)
 
     def angle(self, angle: Expr) -> Expr:
-        """What stands for the angle, the same for equal ones; raises `Outside` where that is not known."""
+        """A representative of the angle, the same for equal angles; raises `Outside` if it is not known."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
         if angle is not pi and not all(_is_in_angles(base) and power.is_Integer for base, power in powers):
             raise Outside
         return angle
 
     def multiple(self, number: Rational, angle: object) -> int:
-        """How many of the smallest parts of the angle there are."""
+        """The number of smallest parts of the angle in that multiple."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)
@@ -191,14 +190,14 @@ class TrigRing(Ring):
         return self.one_over(self.form(base))
 
     def one_over(self, form: Form) -> Form:
-        """One over it: of a monomial a monomial; of a sum that of its last one, times a letter for what is left."""
-        if not form.terms:  # it is zero, and so nothing is said of what is divided by it
+        """The reciprocal of a form; for a sum, that of its last monomial times a letter for the rest."""
+        if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)
         return last if len(form.terms) == 1 else self.product(last, self._divisor(self.product(form, last)))
 
     def _divisor(self, form: Form) -> Form:
-        """The letter that stands for one over a sum, the same for the same sum but for its number."""
+        """The letter for one over a sum, the same letter for numerical multiples of the sum."""
         content = gcd(*form.terms.values())
         terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
         key = frozenset(terms.items())
@@ -209,9 +208,9 @@ class TrigRing(Ring):
         return Form({1 << place: form.below // scale}, content // scale, 1, form.cost)
 
     def is_zero(self, form: Form) -> bool:
-        """Whether it has no terms once roots are squared and what is divided by is multiplied out, the latest first.
+        """Whether no terms are left after roots and divisors have been eliminated, the latest first.
 
-        Raises `Outside` where roots are left.
+        Raises `Outside` if roots are left.
         """
         form = self.cleared(form)
         if not form.terms or self.has_parts_of_pi(form.terms) and self.is_zero_by_roots_of_one(form.terms):
@@ -221,7 +220,7 @@ class TrigRing(Ring):
         return False
 
     def cleared(self, form: Form) -> Form:
-        """A multiple of it in which no letter has a power that is known, the latest letter first."""
+        """A multiple of the form in which no known power of a letter occurs; the latest letter is eliminated first."""
         for place, order, of in reversed(self._relations):
             present = self.letters_in(form.terms) & self._related
             if not present:
@@ -231,7 +230,7 @@ class TrigRing(Ring):
         return form
 
     def related_letter(self, key: object, order: int, of: Form) -> int:
-        """The place of a letter a power of which is known."""
+        """The place of a letter with a known power."""
         known = key in self.letters
         place = self.place(key)
         if not known:
@@ -240,7 +239,7 @@ class TrigRing(Ring):
         return place
 
     def ratio(self, a: Form, b: Form) -> Expr | None:
-        """The number, and powers of letters, by which all terms of the second are multiplied in the first."""
+        """The factor, a number times powers of letters, between each term of the second and of the first."""
         if not a.terms or len(a.terms) != len(b.terms):
             return None
         first, second = max(a.terms), max(b.terms)
@@ -268,7 +267,7 @@ class TrigRing(Ring):
         return bool(present) and any(order > 0 and present >> place & ONES for place, order, _ in self._relations)
 
     def is_zero_by_roots_of_one(self, terms: Terms) -> bool:
-        """Whether, before each product of the other letters, the sum of powers of exp(i pi/parts) and of i is zero."""
+        """Whether the coefficient of each product of the other letters, in powers of exp(i pi/parts) and i, is zero."""
         place, parts = self.letters[(pi,)], self.units.get(pi, 1)
         order = lcm(2 * parts, 4)
         sums: dict[int, dict[int, int]] = {}
@@ -280,8 +279,8 @@ class TrigRing(Ring):
         return all(_vanishes_at_root_of_one(powers, order) for powers in sums.values())
 
     def _lowered(self, form: Form, place: int, order: int, of: Form) -> Form:
-        """As a polynomial of lower power in a letter of which that power is known, times as much of what it is as takes
-        it out from below."""
+        """Replace a known power of a letter by its form; the result is multiplied by this form until no negative
+        power of it is left."""
         by_power: dict[int, Terms] = {}
         for monomial, coefficient in form.terms.items():
             whole = self._power_in(monomial, place) // order
@@ -294,14 +293,14 @@ class TrigRing(Ring):
         return self.sum(parts)
 
     def letters_in(self, terms: Terms) -> int:
-        """A whole number in which the places of all letters that occur are not empty."""
+        """A whole number with nonzero bits at the places of all letters that occur."""
         middle, found = self._half_of_all(), 0
         for monomial in terms:
             found |= (monomial + middle) ^ middle
         return found
 
     def _power_in(self, monomial: int, place: int) -> int:
-        """The power of the letter at that place: with the half of all of them added, none is negative."""
+        """The power of the letter at that place; half of the range is added first, so that no power is negative."""
         return (((monomial + self._half_of_all()) >> place) & ONES) - HALF
 
     def _half_of_all(self) -> int:
@@ -312,14 +311,14 @@ class TrigRing(Ring):
 
 
 def _monomial_over(monomial: int, form: Form) -> Form:
-    """1/(i m) = -i/m, by the number that stands before it."""
+    """The reciprocal of a monomial with its coefficient: 1/(i m) = -i/m."""
     turns, coefficient = monomial & 1, form.terms[monomial]
     sign = (-1 if turns else 1) * (1 if coefficient > 0 else -1)
     return Form({turns - (monomial - turns): sign * form.below}, abs(coefficient), form.reach, form.cost)
 
 
 def _vanishes_at_root_of_one(powers: dict[int, int], order: int) -> bool:
-    """Whether a polynomial is zero at exp(2 i pi/order): divided by the irreducible one, it leaves nothing."""
+    """Whether a polynomial is zero at exp(2 i pi/order): its remainder by the irreducible polynomial is zero."""
     modulus = _irreducible_at(order)
     degree = len(modulus) - 1
     left = [powers.get(n, 0) for n in range(order)]
@@ -332,8 +331,8 @@ def _vanishes_at_root_of_one(powers: dict[int, int], order: int) -> bool:
 
 @lru_cache(maxsize=PARTS)
 def _irreducible_at(order: int) -> tuple[int, ...]:
-    """The coefficients of the cyclotomic polynomial, the lowest power first; that of the highest is 1."""
+    """The coefficients of the cyclotomic polynomial, the lowest power first; the leading one is 1."""
     return tuple(int(c) for c in reversed(cyclotomic_poly(order, polys=True).all_coeffs()))
 
 
-KEPT: dict[type[TrigRing], TrigRing] = {}  # the rings that go from one question to the next
+KEPT: dict[type[TrigRing], TrigRing] = {}  # the rings that are reused from one question to the next

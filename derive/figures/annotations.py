@@ -1,4 +1,4 @@
-"""What is drawn over the bodies: axes, arrows, arcs, turns, dimension lines, points and the ground."""
+"""Marks drawn over the bodies: axes, arrows, arcs, rotation arrows, dimension lines, points and the ground."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ from derive.figures.space import (
     unit,
 )
 
-PAST = 0.3  # how far axes go past a body, in terms of its size
+PAST = 0.3  # length of axes beyond a body, relative to its size
 ASIDE = 12.0  # points between a body and its dimension line
-SHORT = 3  # operations in the words for a place
-RING = 0.16  # the radius of an arrow round an axis, in terms of the size of the body
+SHORT = 3  # most operations in the description of a place
+RING = 0.16  # the radius of an arrow round an axis, relative to the size of the body
 ROUND = 10.0  # points: the least radius of an arrow round a direction
-STAND, CLEARANCE = 16.0, 8.0  # points: how high a stand is at least, and between a body and the ground under it
+STAND, CLEARANCE = 16.0, 8.0  # points: the least height of a stand, and between a body and the ground under it
 
 
 @dataclass(frozen=True)
 class _Between(Mark):
-    """From one place to another."""
+    """A mark from one place to another."""
 
     start: Position
     end: Position
@@ -51,7 +51,7 @@ class _Between(Mark):
 
 @dataclass(frozen=True)
 class _Single(Mark):
-    """At one place."""
+    """A mark at one place."""
 
     at: Position
 
@@ -77,7 +77,7 @@ class Line(_Between):
 
 @dataclass(frozen=True)
 class Axis(_Between):
-    """A coordinate axis: a thin arrow from where it begins to where it ends, or past the end in a direction."""
+    """A coordinate axis: a thin arrow from its start to its end, or beyond the end in the direction `past`."""
 
     past: Position = None
     together: ClassVar[str | None] = "axes"
@@ -94,7 +94,7 @@ class Axis(_Between):
 class AxisOfRotation(Mark):
     """The whole line through a point along a direction, a little longer than the body on both sides.
 
-    With a rate an arrow goes round its far end, right-handed if the rate is positive; the label is the rate's.
+    With a rate, an arrow goes round its far end, right-handed if the rate is positive; the label names the rate.
     """
 
     through: Position
@@ -119,7 +119,7 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
-        """By how much more the arrow round the axis must go out so that it is seen beside all surfaces."""
+        """The additional distance along the axis at which the arrow round it is clear of all surfaces."""
         outline = hull(paper.spots(*paper.fixed))
         tried = [PAST * paper.reach * step / 4 for step in range(9)]
         for off in tried:
@@ -135,9 +135,9 @@ class AxisOfRotation(Mark):
 
 @dataclass(frozen=True)
 class LengthMark(_Between):
-    """A dimension line between two points, moved aside in a direction, or to the left on paper where there is none, by
-    the length `clear` and a little more: by the same distance on paper whatever the scale, and as many points `beyond`
-    it as the lines within take. None for a length of zero.
+    """A dimension line between two points, shifted in the direction `aside`, by default to the left in the drawing.
+    The shift is the length `clear`, plus a fixed number of points for any scale, plus `beyond` points, which make room
+    for inner dimension lines. A length of zero is not drawn.
     """
 
     aside: Position | None
@@ -178,8 +178,8 @@ class LengthMark(_Between):
 
 @dataclass(frozen=True)
 class Arrow(Mark):
-    """A vector in its true direction. Vectors of different kinds have no common scale: `size` is for the eye only, the
-    length in terms of the size of the body. A vector that is zero is not drawn; one that `pushes` ends at its place.
+    """A vector in its true direction. Vectors of different kinds have no common scale: `size` is only the drawn length,
+    relative to the size of the body. A zero vector is not drawn; if `pushes` is set, the arrow ends at its place.
     """
 
     start: Position
@@ -216,14 +216,14 @@ class Arrow(Mark):
 
 @dataclass(frozen=True)
 class Weight(Arrow):
-    """A weight where it acts: it is seen from everywhere, so that nothing needs to be turned for it. What is under its
-    tip is often taken, so that its name stands anywhere beside it."""
+    """A weight at its point of action. It is visible from each viewpoint, so it does not affect the choice of the view.
+    The space below its tip is often occupied, so its label may be anywhere along its side."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         line, *_ = found = super().pieces(paper)
         (x, y), (u, v) = line.spots
         along = direction(*line.spots)
-        half = 0.85 * (u - x), 0.85 * (v - y)  # as far as its tip
+        half = 0.85 * (u - x), 0.85 * (v - y)  # up to the tip
         beside = Tag(self.label, midway(*line.spots), (along[1], -along[0]), way=half)
         return [beside if isinstance(piece, Tag) else piece for piece in found]
 
@@ -234,8 +234,8 @@ class Weight(Arrow):
 
 @dataclass(frozen=True)
 class AngleMark(Mark):
-    """The arc between two directions at a vertex, along a great circle; without a radius, as large as the eye needs.
-    There is none where they are parallel.
+    """The arc between two directions at a vertex, along a great circle; by default its radius has a readable size.
+    No arc is drawn between parallel directions.
     """
 
     vertex: Position
@@ -253,7 +253,7 @@ class AngleMark(Mark):
         size = angle_of(a, b)
         if not size_of(a) or not size_of(b) or not 0.02 < size < pi - 0.02:
             return []
-        # A small angle has a large arc, so that there is something to see.
+        # A small angle has an arc with a large radius, so that the arc is visible.
         comfortable = max(0.3, min(0.8, 0.3 / size))
         radius = paper.numbers.of(self.radius) if self.radius is not None else paper.reach * comfortable
         beside = unit(plus(b, a, -dot(a, b)))
@@ -275,7 +275,7 @@ class AngleMark(Mark):
 
 @dataclass(frozen=True)
 class Turn(Mark):
-    """An arrow round a direction, right-handed; `size` in terms of the size of the body."""
+    """A right-handed arrow round a direction; `size` is relative to the size of the body."""
 
     centre: Position
     along: Position
@@ -293,7 +293,7 @@ class Turn(Mark):
 
 
 def _circling(centre: Vector, along: Vector, radius: float, label: Any, paper: Paper) -> list[Piece]:
-    """Most of a circle, open towards the side away from the eye, with a head at its right-handed end."""
+    """Most of a circle, open on the side away from the viewer, with an arrowhead at its right-handed end."""
     u, v = across(along)
     front = max(range(360), key=lambda degree: dot(_round(u, v, degree), paper.stance.eye))
     places = [plus(centre, _round(u, v, front + degree), radius) for degree in range(-125, 126, 5)]
@@ -319,7 +319,7 @@ class PointMark(_Single):
         return [Bullet(spot), Tag(self.label, spot, (0.7, 0.7), 4.0)]
 
     def in_words(self) -> InWords | None:
-        """With its place, if that can be said in a few letters."""
+        """The description, with the place if that is short."""
         entries = tuple(tidied(entry) for entry in self.at)
         is_short = any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT
         return self._if_named("point", place=entries if is_short else None)
@@ -327,7 +327,7 @@ class PointMark(_Single):
 
 @dataclass(frozen=True)
 class CentreMark(PointMark):
-    """A centre of mass that is still to be found: where it is, is seen and not told."""
+    """A centre of mass that is still to be found: its place is drawn, but not described."""
 
     def in_words(self) -> InWords | None:
         return self._if_named("point", place=None)
@@ -335,8 +335,8 @@ class CentreMark(PointMark):
 
 @dataclass(frozen=True)
 class Support(_Single):
-    """The fixed ground under a pivot: a pointed stand on hatched ground, high enough that what turns about the pivot
-    clears the ground."""
+    """The fixed ground under a pivot: a pointed stand on hatched ground, high enough that a body rotating about the
+    pivot does not touch the ground."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = spot = paper.spot(paper.numbers.vector(self.at))
@@ -350,7 +350,7 @@ class Support(_Single):
         return "support", {"label": self.label}
 
 
-# --- in words --------------------------------------------------------------------------------------------------------
+# --- descriptions in words -------------------------------------------------------------------------------------------
 
 
 def _vanishes(vector: Any) -> bool:
@@ -358,7 +358,7 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """The direction of a vector as plain numbers, if its letters are only in front; nothing for the zero vector."""
+    """The direction of a vector as plain numbers, if symbols occur only in a common factor; None for a zero vector."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

@@ -1,4 +1,4 @@
-"""The outline of a body, seen from one of its points or on a leaning axis, as its profile or its corners have it."""
+"""The outline of a body from its profile or corners, relative to one of its points or on an inclined axis."""
 
 from __future__ import annotations
 
@@ -38,31 +38,31 @@ __all__ = ["centre_mark", "outline"]
 
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
-THIN = Rational(1, 40)  # half the thickness with which a disc is drawn, in terms of its radius
+THIN = Rational(1, 40)  # half the drawn thickness of a disc, relative to its radius
 EDGE = 32  # steps along each side of the edge of a flat body
-CUT, SLICE = Rational(11, 20), Rational(1, 20)  # where a slice is cut and how thick it is, in terms of the height
-BESIDE_IT = 17.0  # points between the dimension line of its height and that of the whole
-CURVED = 48  # circles by which a curved side is drawn, close together where it may come to a tip
+CUT, SLICE = Rational(11, 20), Rational(1, 20)  # place and thickness of a slice, relative to the height
+BESIDE_IT = 17.0  # points between the dimension line for a slice's height and that for the whole
+CURVED = 48  # circles that draw a curved side, closer together at its ends, which may be tips
 
 
 def outline(body: Any, about: str | None = None, named: bool = True, sliced: bool = False) -> list[Mark]:
-    """The outline of a body, in the axes that begin at one of its points.
+    """The outline of a body, in axes that begin at one of its points.
 
     body    a body of `derive.mechanics`
-    about   the name of the point, otherwise the one at which the body's own axes begin
-    named   whether its measures and the axes are written beside it
-    sliced  whether a round solid has a slice across its axis marked, as an integral over its height cuts it
+    about   the name of the point; by default the origin of the body's own axes
+    named   whether its measures and its axes are labelled
+    sliced  whether a slice across the axis of a round solid is marked, as for an integral over its height
     """
     found = seen_outline(body, about, named) if isinstance(body, Body) else []
     if sliced and isinstance(body, RoundBody) and body.filling == "volume":
         found = _with_slice(found, body, body.point(about or body.reference))
     if not found:
-        raise Rejected(Complaint("wrong-argument", f"there is no outline of a {type(body).__name__}"))
+        raise Rejected(Complaint("wrong-argument", f"the outline of a {type(body).__name__} is unknown"))
     return found
 
 
 def seen_outline(body: Body, about: str | None = None, named: bool = True) -> list[Mark]:
-    """The same; nothing of a body of which no outline is known."""
+    """The outline of a body; an empty list if it is unknown."""
     point: Point = body.point(about or body.reference)
     if isinstance(body, EdgedBody):
         return _with_edges(body, point, named)
@@ -83,7 +83,7 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
 
 
 def _end_on(marks: Sequence[Mark], along: Position) -> Position:
-    """Where a thin rod ends that lies on an axis from its origin, which begins there to be seen; else the origin."""
+    """The start of a visible axis: the end of a thin rod that lies on it from the origin, else the origin."""
     for mark in marks:
         if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
             _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
@@ -93,14 +93,14 @@ def _end_on(marks: Sequence[Mark], along: Position) -> Position:
 
 
 def axes_at(body: Body, about: str) -> list[Mark]:
-    """The axes of a body that begin at one of its points."""
+    """The axes that begin at a point of the body."""
     if isinstance(body, EdgedBody):
         return body_axes(body, body.point(about))
     return [mark for mark in outline(body, about) if isinstance(mark, Axis)]
 
 
 def is_in_plane(body: Body) -> bool:
-    """Whether a body of several parts is best seen in the plane in which they lie."""
+    """Whether a body of several parts should be shown in the plane of its parts."""
     return hasattr(body, "parts") and body.flat_across == "z"
 
 
@@ -108,7 +108,7 @@ def is_in_plane(body: Body) -> bool:
 
 
 def _with_edges(body: EdgedBody, point: Point, named: bool) -> list[Mark]:
-    """With a name beside one edge of each length; beside a flat one dimension lines, in its plane."""
+    """The outline, with a label at one edge of each length; for a flat body, with dimension lines in its plane."""
     corners = tuple(point.seen(corner) for corner in body.corners)
     lengths = tuple((length if named and body.faces else None, edges) for length, edges in body.edges)
     marks: list[Mark] = [Polyhedron(corners, body.faces, lengths, **_words(body))]
@@ -122,7 +122,7 @@ def _with_edges(body: EdgedBody, point: Point, named: bool) -> list[Mark]:
 
 
 def body_axes(body: EdgedBody, point: Point) -> list[Mark]:
-    """The axes that begin at a point of it: dashed within the body, where no edge shows them, and an arrow outside."""
+    """The axes that begin at a point of the body: dashed inside it, unless they are edges, and arrows outside."""
     corners = [point.seen(corner) for corner in body.corners]
     reaches = (max((corner[k] for corner in corners), key=in_units) for k in range(3))
     ends = [reach * along for reach, along in zip(reaches, UNIT, strict=True)]
@@ -138,10 +138,10 @@ def body_axes(body: EdgedBody, point: Point) -> list[Mark]:
 
 
 def round_outline(body: RoundBody, through: Position, along: Position) -> Surface:
-    """The surface of a body that is round about its z axis, wherever that axis is in the drawing.
+    """The surface of a body of revolution about its z axis, for any position of that axis in the drawing.
 
-    through   where its own z is zero
-    along     the direction in which its own z grows, a unit vector (3)
+    through   the place of its own z = 0
+    along     the direction of its own z axis, a unit vector (3)
     """
     lower, upper = body.ends
     if is_line(body):
@@ -156,12 +156,12 @@ def round_outline(body: RoundBody, through: Position, along: Position) -> Surfac
 
 
 def is_line(body: Body) -> bool:
-    """Whether all of it is on its axis."""
+    """Whether the whole body lies on its axis."""
     return isinstance(body, RoundBody) and body.is_straight and all(body.radius_at(end) == 0 for end in body.ends)
 
 
 def _profile(body: RoundBody) -> tuple[tuple[Expr, Expr], ...]:
-    """Heights of its own z with the radius there: the two ends, or many if the side between them is curved."""
+    """Heights along its own z axis with the radius there: both ends, or many heights if the side is curved."""
     lower, upper = body.ends
     parts = [Rational(k, CURVED) for k in ((0, CURVED) if body.is_straight else range(CURVED + 1))]
     heights = [lower + (upper - lower) * part**2 * (3 - 2 * part) for part in parts]
@@ -173,7 +173,7 @@ def _words(body: Body) -> dict[str, Any]:
 
 
 def _measures(body: RoundBody, point: Point) -> list[Mark]:
-    """The radius where it is widest, the height beside it, and the axes from the point."""
+    """The radius at the widest place, the height next to the body, and the axes from the point."""
     profile = [(point.seen(column(0, 0, z))[2], radius) for z, radius in _profile(body)]
     (low, below), (high, above) = sorted((profile[0], profile[-1]), key=lambda end: not end[0].is_nonpositive)
     wide, radius = max([(low, below), (high, above), *profile], key=lambda ring: in_units(ring[1]))
@@ -181,7 +181,7 @@ def _measures(body: RoundBody, point: Point) -> list[Mark]:
     marks: list[Mark] = [
         Axis(start * along, start * along, along, label=scalar(name)) for along, name in zip((X, Y), "xy", strict=True)
     ]
-    # Above a base that is on top the axis must first leave the far part of the rim behind.
+    # If the base is on top, the axis arrow must start beyond the far part of the rim.
     top = high + radius / 4 if in_units(above) > in_units(below) else high
     marks.append(Axis(high * Z, top * Z, Z, label=scalar("z")))
     if _is_told(radius, body):
@@ -193,12 +193,12 @@ def _measures(body: RoundBody, point: Point) -> list[Mark]:
 
 
 def widest_of(body: RoundBody) -> tuple[Expr, Expr]:
-    """The height at which it is widest, and the radius there."""
+    """The height of the widest place, and the radius there."""
     return max(_profile(body), key=lambda ring: in_units(ring[1]))
 
 
 def _with_slice(marks: Sequence[Mark], body: RoundBody, point: Point) -> list[Mark]:
-    """A slice at the height z from the point, with its radius there; the dimension lines beside it make room."""
+    """Add a slice at the height z from the point, with its radius; existing dimension lines move outwards."""
     z = scalar("z")
     lower, upper = body.ends
     at = lower + CUT * (upper - lower)
@@ -212,22 +212,22 @@ def _with_slice(marks: Sequence[Mark], body: RoundBody, point: Point) -> list[Ma
 
 
 def _height(point: Point, own: Expr) -> Expr:
-    """The z from a point on the axis of what the body itself has there."""
+    """The z coordinate measured from a point on the axis, for a height `own` along the body's own axis."""
     return point.seen(column(0, 0, own))[2]
 
 
 def centre_mark(body: Body, about: str | None = None, label: Any = "C") -> Mark:
-    """Where the centre of mass of a body is, with its name and not its place, which is for the problem to find."""
+    """Mark the centre of mass of a body with its name, but without its coordinates, which the problem asks for."""
     return CentreMark(body.point(about or body.reference).seen(body.middle.position), label=scalar(label))
 
 
 def _is_told(length: Expr, body: Body) -> bool:
-    """Whether it is one of the lengths that say how large a body is."""
+    """Whether the length is one of the measures of the body."""
     return length != 0 and any(is_zero(length - measure) for measure in body.measures.values())
 
 
 def in_units(length: Expr) -> float:
-    """A length with every letter one, to put lengths in order."""
+    """The length with all symbols set to one, to sort lengths."""
     return float(length.subs(dict.fromkeys(length.free_symbols, Integer(1))))
 
 
@@ -235,7 +235,7 @@ def in_units(length: Expr) -> float:
 
 
 def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
-    """Each part where it is; nothing where one of them is not known, or leaves a hole that one would look into."""
+    """All parts at their places; empty if the outline of a part is unknown, or if a hole would be visible inside."""
     marks: list[Mark] = []
     for part in parts:
         body, held = part.body, part.body.point(part.of).position
@@ -257,12 +257,12 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
         if not found:
             return []
         told = [mark.label for mark in marks]
-        marks += [mark for mark in found if mark.label is None or mark.label not in told]  # equal sizes are told once
+        marks += [mark for mark in found if mark.label is None or mark.label not in told]  # label equal sizes once
     return marks
 
 
 def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
-    """What is cut out, if it has no rim or is seen in the plane in which it lies."""
+    """A removed part, if it has no rim or is shown in its plane; else empty."""
     if isinstance(body, EdgedBody) and in_plane:
         return [Hole(mark) for mark in _with_edges(body, point, named=False) if isinstance(mark, Surface)]
     if not isinstance(body, RoundBody) or is_line(body):
@@ -278,7 +278,7 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: RoundBody, point: Point, aside: Position) -> list[Mark]:
-    """The radius where it is widest, and the length, of a body that lies in any way."""
+    """The radius at the widest place, and the length, for a body with any orientation."""
     along, origin = point.axes.T * Z, point.seen(ORIGIN)
     low, high = body.ends
     wide, radius = widest_of(body)
@@ -292,7 +292,7 @@ def _sizes(body: RoundBody, point: Point, aside: Position) -> list[Mark]:
 
 
 def semi_axes_of(body: Body) -> tuple[Expr, Expr, Expr] | None:
-    """Those of an ellipsoid about its origin, also of one that is told by its map as a ball that is stretched."""
+    """The semi-axes of an ellipsoid about its origin, also if it is given by a map as a stretched ball."""
     if isinstance(body, Ellipsoid):
         return body.semi_axes
     place, limits = body.map() if isinstance(body, Solid) else (None, ())
@@ -305,7 +305,7 @@ def semi_axes_of(body: Body) -> tuple[Expr, Expr, Expr] | None:
 
 
 def _ellipsoid(body: Body, semi_axes: tuple[Expr, Expr, Expr], point: Point, named: bool) -> list[Mark]:
-    """With its semi-axes dashed and named, and the axes beyond them."""
+    """The ellipsoid, with its semi-axes dashed and labelled, and with axes beyond them."""
     centre = point.seen(ORIGIN)
     words = {**_words(body), "name": Ellipsoid.name, "measures": (("semi-axes", semi_axes),)}
     marks: list[Mark] = [EllipsoidMark(centre, semi_axes, **words)]
@@ -316,7 +316,7 @@ def _ellipsoid(body: Body, semi_axes: tuple[Expr, Expr, Expr], point: Point, nam
 
 
 def _torus(body: Torus, point: Point, named: bool) -> list[Mark]:
-    """With both radii along y, and the axes beyond it."""
+    """The torus, with both radii along y, and with axes outside it."""
     centre = point.seen(ORIGIN)
     marks: list[Mark] = [TorusMark(centre, body.radius, body.section, **_words(body))]
     if not named:
@@ -328,7 +328,7 @@ def _torus(body: Torus, point: Point, named: bool) -> list[Mark]:
 
 
 def _by_its_map(body: Body, point: Point, named: bool) -> list[Mark]:
-    """A straight wire, or a plate in the plane of x and y whose edge the ends of its map have."""
+    """A straight wire, or a plate in the xy plane whose edge is given by the limits of its map."""
     if hasattr(body, "whole_and_removed"):
         return _with_room(body, point, named)
     if not hasattr(body, "map"):
@@ -349,7 +349,7 @@ def _by_its_map(body: Body, point: Point, named: bool) -> list[Mark]:
 
 
 def _with_room(body: Any, point: Point, named: bool) -> list[Mark]:
-    """What is a whole body less a smaller one of its kind: room in it, a bore or a hole."""
+    """A body minus a smaller body of the same kind, which leaves a cavity, a bore or a hole."""
     whole, removed = body.whole_and_removed()
     centre, along = point.seen(ORIGIN), point.axes.T * Z
     marks: list[Mark]
@@ -365,8 +365,8 @@ def _with_room(body: Any, point: Point, named: bool) -> list[Mark]:
 
 
 def edge_of(body: Body) -> list[Position]:
-    """Places along the edge of a flat body in the plane of x and y, which the ends of its map have, all round; none if
-    it has a hole."""
+    """Places along the whole edge of a flat body in the xy plane, from the limits of its map; empty if the body has a
+    hole."""
     if not hasattr(body, "map") or body.flat_across != "z":
         return []
     place, limits = body.map()
@@ -383,7 +383,7 @@ def edge_of(body: Body) -> list[Position]:
         [place.xreplace({held: end, letter: first + (last - first) * Rational(k, EDGE)}) for k in range(EDGE + 1)]
         for held, end, letter, (first, last) in sides
     ]
-    # Two ends that are one curve are no edge, but a seam; what is left is one line all round, or an edge and a hole.
+    # Two limits with the same curve form a seam, not an edge; the rest is one closed line, or an edge and a hole.
     seamless = [curves[k::2] for k in (0, 1) if curves[1 - k] == curves[3 - k][::-1]]
     rounds = [curve for curve in seamless[0] if len(set(curve)) > 1] if seamless else [[*chain(*curves)]]
     return list(dict.fromkeys(rounds[0])) if len(rounds) == 1 else []

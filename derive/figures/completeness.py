@@ -1,5 +1,5 @@
-"""Whether a drawing shows all that a system has: one that leaves out a body, a spring, a wall or a string shows other
-physics, and is not drawn at all.
+"""Whether a drawing shows the whole system. A drawing without one of its bodies, springs, walls or strings would show
+different physics, so it is not made.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ def is_whole(
     pairs: Iterable[tuple[int, int]],
     touching: Touching,
 ) -> bool:
-    """Whether nothing that the system has is missing.
+    """Whether no part of the system is missing.
 
-    pairs   particles that a string or a rod joins
+    pairs   particles that are joined by a string or a rod
     """
     return (
         _bodies_are_seen(system)
@@ -49,12 +49,12 @@ def is_whole(
 
 
 def _is_loose(system: System, link: Link) -> bool:
-    """Whether nothing is where it starts."""
+    """Whether there is no mass at the start of the link."""
     return not any(same(link.start, at) for _, at in system.masses)
 
 
 def _bodies_are_seen(system: System) -> bool:
-    """Each has an outline, or in space an axis from the point at which it is held, or rolls as a wheel."""
+    """Whether each body has an outline, or in space an axis from its fixed point, or rolls as a wheel."""
     return all(
         placed_outline(with_its_shape(placed))
         or (len(placed.at.components) == 3 and not same(placed.at, placed.centre))
@@ -66,7 +66,7 @@ def _bodies_are_seen(system: System) -> bool:
 def _conditions_are_seen(
     system: System, links: Collection[Link], pairs: Iterable[tuple[int, int]], touching: Touching
 ) -> bool:
-    """Each constraint is a wall, a length, a string or what is rolled on; so is each condition of rolling."""
+    """Whether each constraint and rolling condition is shown as a wall, a length, a string or a rolling surface."""
     lengths = {link.length for link in links if kept_length(system, link.length) is not None}
     tied = {system.particles[i].at: None for pair in pairs for i in pair}
     tracks = {t.by for at in tied if (t := track_of(system, at)) is not None}
@@ -80,7 +80,7 @@ def _conditions_are_seen(
 
 
 def _energies_are_seen(system: System) -> bool:
-    """A potential energy of its own that couples things, or holds a body, stands for springs that are not there."""
+    """Whether no separate potential energy couples parts or acts on a body: springs for it would not be drawn."""
     charged = len([each for each in system.charges if any(each.electric)])
     own = system.stored[: len(system.stored) - charged]
     many = len(system.particles) + len(system.bodies) > 1 or system.bodies
@@ -91,7 +91,7 @@ def _energies_are_seen(system: System) -> bool:
 
 
 def _is_joined(system: System, links: Collection[Link], pairs: Iterable[tuple[int, int]], touching: Touching) -> bool:
-    """Whether things that move by one coordinate are joined by what is drawn."""
+    """Whether parts that move with the same coordinate are joined in the drawing."""
     places = [particle.at for particle in system.particles] + [placed.centre for placed in system.bodies]
     group = list(range(len(places)))
 
@@ -114,7 +114,7 @@ def _is_joined(system: System, links: Collection[Link], pairs: Iterable[tuple[in
 
 
 def _neighbours(system: System, links: Collection[Link], places: Sequence[Location]) -> Iterator[tuple[int, int]]:
-    """Numbers of places of which a link, a force or the line of a slide joins one to the other."""
+    """Pairs of place numbers that are joined by a link, a force or the line of a slide."""
     ends = [(link.start, link.end) for link in links] + [(each.start, each.end) for each in system.between]
     for a, b in ends:
         found = [i for i, place in enumerate(places) if same(place, a) or same(place, b)]
@@ -131,7 +131,7 @@ def _neighbours(system: System, links: Collection[Link], places: Sequence[Locati
 
 
 def _shows_something(system: System, marks: Sequence[Mark], links: Collection[Link]) -> bool:
-    """More than particles, bodies and angles alone, or about what a body turns; nothing of one free in space."""
+    """Whether the drawing shows more than particles, bodies and angles, or a body's pivot, or a free body in space."""
     outlines = [mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))]
     if any(not isinstance(mark, ALONE) and mark not in outlines for mark in marks):
         return True

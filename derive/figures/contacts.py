@@ -1,4 +1,4 @@
-"""What bodies roll on, where a condition of rolling says at which place they touch it: fixed cylinders."""
+"""Fixed surfaces on which bodies roll, from rolling conditions that give the place of contact."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-# Where a turn about an axis is drawn, and how long the axis is, in terms of the way to the centre of mass.
+# Place of a rotation arrow on an axis, and length of the axis, relative to the distance of the centre of mass.
 ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
 
 
 def contact_marks(system: System) -> Iterable[Mark]:
-    """Of each body that rolls in a plane on what is at rest: the cylinder that it touches, and the point of contact."""
+    """For each body that rolls on a fixed surface, the surface that it touches, and the point of contact."""
     for condition in system.conditions:
         rolling = condition.fact(Rolling)
         if rolling is None or rolling.ground is not None:
@@ -42,8 +42,8 @@ def contact_marks(system: System) -> Iterable[Mark]:
 
 
 def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable[Mark]:
-    """In space, of a body that is held at a point of a level plane: the circle on which it touches that plane, the
-    line that it touches, and how it turns about itself."""
+    """In space, for a body with a fixed point in a horizontal plane: the circle on which it touches that plane, its
+    line of contact, and its spin about its own axis."""
     body = rolling.body
     way = contact - body.at
     moving = moving_in(system, *way.components)
@@ -69,7 +69,7 @@ def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable
 
 
 def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
-    """Seen along its axis, with the way from there to the contact and the angle of that."""
+    """The cylinder seen along its axis, with the line from the axis to the contact and the angle of this line."""
     centre, contact = column_of(link.start), column_of(link.end)
     outside = _is_outside(system, link, rolling)
     yield Circle(centre, ACROSS, link.length, outside, name="a fixed cylinder")
@@ -77,21 +77,21 @@ def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
     between = _between_axes(system, link, rolling)
     if outside or between is None:
         yield ConnectionMark(centre, contact, label=link.length)
-    else:  # the way to the contact lies under the body that rolls within
+    else:  # the body that rolls inside covers the line to the contact
         yield Line(centre, column_of(rolling.body.centre), label=between)
     yield PointMark(contact)
     yield from angle_marks(system, link)
 
 
 def _between_axes(system: System, link: Link, rolling: Rolling) -> Expr | None:
-    """How far apart the two axes are, where that is constant."""
+    """The distance between the two axes, if it is constant."""
     way = [c.subs(system.known) for c in (rolling.body.centre - link.start).components]
     length = sqrt(tidied(Add(*(c**2 for c in way))))
     return None if length == 0 or moving_in(system, length) else length
 
 
 def _is_outside(system: System, link: Link, rolling: Rolling) -> bool:
-    """Whether the body is farther from the axis than the contact is, with all letters alike and no coordinate."""
+    """Whether the body is farther from the axis than the contact, with all symbols 1 and all coordinates 0."""
     middle = rolling.body.centre - link.start
     beyond = Add(*(c**2 for c in middle.components)) - link.length**2
     there = beyond.xreplace(dict.fromkeys(system.coordinates, Integer(0))).subs(system.known)

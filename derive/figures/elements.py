@@ -1,9 +1,9 @@
-"""The words for the parts of a machine and for what stands round them, at the places that its system has.
+"""Functions that draw the parts of a machine and its surroundings, at the places of its system.
 
     drawing("pendulum", pivot(origin), rod(origin, bob, l), angle_mark(origin, "down", bob, theta), particle(bob, m))
 
-Places are those that `point` and `place` give, in the plane or all in space; what has no size is drawn as large as the
-eye needs. The order of the marks does not matter: particles are drawn over rods, rods over walls.
+Places are results of `point` and `place`, all in a plane or all in space. Parts without a size are drawn in a readable
+size. The order of the marks does not matter: particles are drawn over rods, and rods over walls.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def particle(at: Any, label: Any = None) -> Mark:
 
 
 def rod(start: Any, end: Any, label: Any = None) -> Mark:
-    """A light rod, or another straight thing, from one place to another; the label is its length."""
+    """A light rod, or another straight part, from one place to another; the label is its length."""
     (a, b), keys = vectors_of(start, end)
     return BarMark(a, b, label=name_of(None, label), keys=keys)
 
@@ -84,7 +84,7 @@ def spring_mark(start: Any, end: Any, label: Any = None) -> Mark:
 def rope(*along: Any, label: Any = None) -> Mark:
     """A taut string through places and round wheels, on the side to which it bends: `rope(first, pulley, second)`."""
     if len(along) < 2:
-        raise Rejected(Complaint("wrong-argument", "a rope goes through two places or more"))
+        raise Rejected(Complaint("wrong-argument", "a rope needs two places or more"))
     wheels = [each if isinstance(each, WheelMark) else None for each in along]
     things = [wheel.centre if wheel else each for wheel, each in zip(wheels, along, strict=True)]
     places, keys = vectors_of(*things)
@@ -93,11 +93,11 @@ def rope(*along: Any, label: Any = None) -> Mark:
 
 
 def wheel(centre: Any, radius: Any = None, label: Any = None, pointer: Any = None) -> WheelMark:
-    """A disc seen along its axis: a pulley, or what rolls.
+    """A disc seen along its axis: a pulley, or a rolling wheel.
 
     centre    place
-    radius    length; without one it is a small pulley
-    pointer   a direction that turns with it: a vector, drawn as a line from its centre to its rim
+    radius    length; by default the size of a small pulley
+    pointer   vector: a direction that rotates with the disc, drawn as a line from its centre to its rim
     """
     place, keys = vector_of(centre)
     ahead = vector_of(pointer)[0] if pointer is not None else None
@@ -109,17 +109,17 @@ def block(
 ) -> Mark:
     """A block that slides along a direction.
 
-    at              its middle, or that of its base if it `stands` there
-    label           its mass, written on it if it is short
-    along           vector, or "right", "up": where its base points
-    width, height   lengths; without them it is as large as the eye needs
+    at              its centre, or the centre of its base if `stands` is true
+    label           its mass, written on the block if it is short
+    along           vector, or "right", "up": the direction of its base
+    width, height   lengths; by default a readable size
     """
     place, keys = vector_of(at)
     return BlockMark(place, _way(along, place.rows), width, height, stands, label=name_of(None, label), keys=keys)
 
 
 def cart(at: Any, label: Any = None, along: Any = "right", width: Any = None, height: Any = None) -> Mark:
-    """A cart on two wheels; its place is the middle of its body."""
+    """A cart on two wheels; its place is the centre of its body."""
     place, keys = vector_of(at)
     return CartMark(place, _way(along, place.rows), width, height, label=name_of(None, label), keys=keys)
 
@@ -127,29 +127,29 @@ def cart(at: Any, label: Any = None, along: Any = "right", width: Any = None, he
 def wedge(*corners: Any, label: Any = None) -> Mark:
     """A wedge, or another solid seen from its side, by its corners in order."""
     if len(corners) < 3:
-        raise Rejected(Complaint("wrong-argument", "a wedge has three corners or more"))
+        raise Rejected(Complaint("wrong-argument", "a wedge needs three corners or more"))
     places, keys = vectors_of(*corners)
     return WedgeMark(tuple(places), label=name_of(None, label), keys=keys)
 
 
-# --- what holds them -------------------------------------------------------------------------------------------------
+# --- supports --------------------------------------------------------------------------------------------------------
 
 
 def floor(start: Any, end: Any, under: Any = None) -> Mark:
-    """Hatched ground from one place to another, its solid side below.
+    """Hatched ground from one place to another, with its solid side below.
 
-    under   a block or a cart that stands on it at these heights, so that the line is drawn under it
+    under   a block or a cart on the ground, so that the line is drawn below its base
     """
     return _ground(start, end, "down", under)
 
 
 def ceiling(start: Any, end: Any) -> Mark:
-    """A hatched line from one place to another, its solid side above."""
+    """A hatched line from one place to another, with its solid side above."""
     return _ground(start, end, "up", None)
 
 
 def wall(start: Any, end: Any, solid: str = "left") -> Mark:
-    """A hatched line from one place to another; `solid` says on which side, "left" or "right"."""
+    """A hatched line from one place to another; `solid` is the hatched side, "left" or "right"."""
     return _ground(start, end, solid, None)
 
 
@@ -160,27 +160,27 @@ def _ground(start: Any, end: Any, side: str, under: Any) -> Mark:
 
 
 def pivot(at: Any, label: Any = None, away: Any = "down") -> Mark:
-    """A joint that is fixed; what hangs on it goes away from it downwards, or in another direction."""
+    """A fixed joint; the part that hangs from it points downwards, or in the direction `away`."""
     place, keys = vector_of(at)
     return FixedEnd(place, _way(away, place.rows), True, label=name_of(None, label), keys=keys)
 
 
 def fixed_end(at: Any, other: Any) -> Mark:
-    """A piece of wall that holds the end of a spring or a string, across the way to its other end."""
+    """A piece of wall at the end of a spring or a string, perpendicular to the line to its other end."""
     (a, b), keys = vectors_of(at, other)
     return FixedEnd(a, b - a, keys=keys)
 
 
-# --- what is told of them --------------------------------------------------------------------------------------------
+# --- angles and lengths ----------------------------------------------------------------------------------------------
 
 
 def angle_mark(vertex: Any, start: Any, end: Any, label: Any = None) -> Mark:
-    """The arc between two ways from a vertex.
+    """The arc between two directions from a vertex.
 
     vertex   place
-    start    place, or "down", "up", "right" or "left", for a direction that is then drawn as a dashed line
+    start    place, or "down", "up", "right" or "left" for a direction, which is drawn as a dashed line
     end      place
-    label    its name, or the quantity that the angle is
+    label    its name, or the quantity of the angle
     """
     dashed = isinstance(start, str)
     (at, b), keys = vectors_of(vertex, end)
@@ -191,8 +191,8 @@ def angle_mark(vertex: Any, start: Any, end: Any, label: Any = None) -> Mark:
 def length_mark(start: Any, end: Any, label: Any, aside: Any = None, past: Any = None) -> Mark:
     """A dimension line from one place to another.
 
-    aside   vector, or "up", "left" and so on: the side on which it stands; without one away from the middle
-    past    a block or a cart at one of its ends, which it leaves clear
+    aside   vector, or "up", "left" and so on: the side of the line; by default away from the centre of the drawing
+    past    a block or a cart at one of its ends, which the line must clear
     """
     (a, b), keys = vectors_of(start, end)
     side = None if aside is None else _way(aside, a.rows)
@@ -204,22 +204,22 @@ def length_mark(start: Any, end: Any, label: Any, aside: Any = None, past: Any =
 def way(
     place: Any, letter: Any, between: tuple[Any, Any] = (0, 2 * pi), label: Any = None, solid: bool = False
 ) -> Mark:
-    """The curve of a place while one of its letters goes from one value to another, all others being fixed.
+    """The curve of a place as one of its symbols varies from one value to another, with all others fixed.
 
-    letter   a coordinate, or another letter of the place
-    solid    whether it is a thing, a hoop or a wire, and not only the way
+    letter   a coordinate, or another symbol of the place
+    solid    whether the curve is a solid object, such as a hoop or a wire, and not only a path
     """
     formula, keys = vector_of(place)
     symbol = letter.symbol if isinstance(letter, Coordinate) else letter
     if not isinstance(symbol, Symbol) or symbol not in formula.free_symbols:
-        raise Rejected(Complaint("wrong-argument", f"a way needs a letter of its place, but {symbol} is none"))
+        raise Rejected(Complaint("wrong-argument", f"`way` needs a symbol of its place, but {symbol} is not one"))
     lower, upper = (as_expr(end) for end in between)
     pen = "wire" if solid else "trace"
     return WayMark(formula, symbol, lower, upper, pen, label=name_of(None, label), keys=keys)
 
 
 def gravity_mark(label: Any = None, in_space: bool = False) -> Mark:
-    """An arrow downwards beside the parts: the acceleration of gravity."""
+    """An arrow downwards next to the parts: the gravitational acceleration."""
     return GravityMark(towards("down", 3 if in_space else 2), label=name_of(None, label or scalar("g")))
 
 

@@ -1,4 +1,4 @@
-"""Drawings as JSON data, there and back: the fields of each mark, with expressions as `algebra.encoding` has them."""
+"""Encode drawings as JSON data and decode them: the fields of each mark, with expressions as in `algebra.encoding`."""
 
 from __future__ import annotations
 

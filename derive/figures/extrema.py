@@ -1,6 +1,6 @@
-"""The extrema of a curve: zeros of its exact derivative, found by sign and narrowed down; their kind by that sign.
+"""The extrema of a curve: zeros of its exact derivative, found by its sign changes, which also give their kind.
 
-Second route: the curve itself, which must lie on one side of the extremum's value near it.
+The second route is the curve itself, which must lie on one side of the extremum's value near it.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from sympy import Expr, Symbol, diff, lambdify
 
 from derive.errors import Complaint, Rejected, Unverified
 
-STEPS = 1009  # odd, and prime, so that the zero of a symmetric range lies within a step and not at its end
+STEPS = 1009  # odd and prime, so that the centre of a symmetric range lies within a step and not at its end
 MINIMUM, MAXIMUM = "minimum", "maximum"
 
 
 @dataclass(frozen=True)
 class Extremum:
-    """Where a curve turns, and what it is there."""
+    """An extremum of a curve: its place, its value and its kind."""
 
     at: float
     value: float
@@ -28,7 +28,7 @@ class Extremum:
 
 
 def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps: int) -> list[tuple[float, float]]:
-    """Points of the curve, evenly spaced; a curve that is not real and finite throughout is refused."""
+    """Evenly spaced points of the curve; a curve that is not real and finite everywhere is rejected."""
     f = lambdify([variable], expr, "math")
     points = [lower + (upper - lower) * i / steps for i in range(steps + 1)]
     try:
@@ -41,7 +41,7 @@ def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps
 
 
 def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[Extremum, ...]:
-    """The extrema of an expression in one letter, strictly within the range; the slope may be infinite somewhere."""
+    """The extrema of an expression in one symbol, strictly within the range; the slope may be infinite somewhere."""
     f, derivative = (lambdify([variable], each, "math") for each in (expr, diff(expr, variable)))
 
     def slope(x: float) -> float:
@@ -65,7 +65,7 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
 
 
 def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
-    """By halves, to the last bit."""
+    """Find the zero of the slope by bisection, to machine precision."""
     below = slope(low) < 0
     for _ in range(80):
         middle = (low + high) / 2
@@ -79,7 +79,7 @@ def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
 
 
 def _confirm(f: Callable[[float], Any], at: float, step: float, kind: str) -> None:
-    """The curve a step to either side is higher than at a minimum, lower than at a maximum."""
+    """Check that the curve is higher one step on either side of a minimum, or lower for a maximum."""
     rises = [f(at + side * step) - f(at) for side in (-1, 1)]
     if not all(rise > 0 if kind == MINIMUM else rise < 0 for rise in rises):
-        raise Unverified(Complaint("unverified", f"at {at:g} the curve has no {kind}, though its slope says so"))
+        raise Unverified(Complaint("unverified", f"at {at:g} the curve has no {kind}, but its slope changes sign"))

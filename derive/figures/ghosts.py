@@ -1,4 +1,4 @@
-"""Where the bodies of a system would be at other values of its coordinates: their outlines, dashed."""
+"""Dashed outlines of the bodies of a system at other values of its coordinates."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ __all__ = ["dashed_at"]
 
 @dataclass(frozen=True)
 class Ghost(Surface):
-    """The outline of a surface where it is not now.
+    """The outline of a surface at another place.
 
-    letter, value   which coordinate has another value there
+    letter, value   the coordinate that has another value there
     """
 
     of: Surface = None  # type: ignore[assignment]
@@ -45,7 +45,7 @@ class Ghost(Surface):
 
 
 def dashed_at(system: System, values: Mapping[Any, Any]) -> list[Mark]:
-    """The outlines of the bodies of a system where one of its coordinates has another value: its equilibrium.
+    """The outlines of the bodies of a system for another value of one coordinate, such as its equilibrium.
 
     values   the coordinate and its value there: `{theta: 0}`
     """

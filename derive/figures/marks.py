@@ -1,7 +1,7 @@
-"""What a drawing shows, as data: marks whose places and directions are SymPy expressions in the problem's letters.
+"""The marks of a drawing, as data: their places and directions are SymPy expressions in the problem's symbols.
 
-A mark says all that is asked of it: of which pieces it is made once the letters have numbers, how large it is, how it
-is told in words. Which lines are hidden and where a label stands is decided on paper (`derive.render.drawing`).
+A mark defines its pieces, given numbers for the symbols, its size, and its description in words. Hidden lines and the
+positions of labels are decided by `derive.render.drawing`.
 Positions are columns (x, y, z), or (x, y) in a plane, in one frame, the same for all marks of a drawing.
 """
 
@@ -20,53 +20,53 @@ from derive.figures.space import Vector
 from derive.steps.record import current_run
 
 Position: TypeAlias = Any  # a column of three expressions
-InWords: TypeAlias = tuple[str, dict[str, Any]]  # by which phrase a mark is told, and what it may name
-LAST = 99  # the layer of what stands beside everything else
+InWords: TypeAlias = tuple[str, dict[str, Any]]  # the phrase that describes a mark, and the values for its placeholders
+LAST = 99  # the layer of marks next to all others
 SPACE, PLANE = "space", "plane"
 
-BESIDE = {"beside": True}  # of a field: it is written beside a mark, and does not decide how that is drawn
-MARK_CLASSES: dict[str, type[Mark]] = {}  # every kind of mark by its name
+BESIDE = {"beside": True}  # metadata of a field that is only a label and does not affect the drawing
+MARK_CLASSES: dict[str, type[Mark]] = {}  # all kinds of marks by their names
 
 _DRAWING_NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mark:
-    """What all marks have: a name or an expression beside it, and the steps that it rests on, so that no drawing gives
-    an answer away too early.
+    """Base class of all marks: a label, which is a name or an expression, and the keys of the steps that it uses.
+    The keys ensure that no drawing shows an answer too early.
     """
 
     label: Any = field(default=None, metadata=BESIDE)
     keys: tuple[str, ...] = ()
-    together: ClassVar[str | None] = None  # the phrase by which all such marks are told at once, by their labels
-    layer: ClassVar[int] = 9  # what has a lower one is drawn before it
+    together: ClassVar[str | None] = None  # a phrase that describes all such marks together by their labels
+    layer: ClassVar[int] = 9  # marks with a lower layer are drawn first
 
     def __init_subclass__(cls) -> None:
         known = MARK_CLASSES.setdefault(cls.__name__, cls)
         if (known.__module__, known.__qualname__) != (cls.__module__, cls.__qualname__):
-            raise TypeError(f"there already is a mark {cls.__name__}")
+            raise TypeError(f"a mark {cls.__name__} already exists")
         MARK_CLASSES[cls.__name__] = cls
 
     def pieces(self, paper: Paper) -> list[Piece]:
-        """What it is on paper; nothing where there is nothing to see."""
-        raise AttributeError(f"{type(self).__name__} must say of which pieces it is")
+        """The drawn pieces of the mark; empty if nothing is visible."""
+        raise AttributeError(f"{type(self).__name__} must define `pieces`")
 
     @property
     def ends(self) -> tuple[Position, ...]:
-        """What says how large a drawing is that shows no body."""
+        """Places that determine the size of a drawing without bodies."""
         return ()
 
     @property
     def directions(self) -> tuple[Position, ...]:
-        """One that must not point at the eye, or two between which an angle must be seen."""
+        """One direction that must not point at the viewer, or two directions whose angle must be visible."""
         return ()
 
     def tip(self, numbers: InNumbers, reach: float) -> Vector | None:
-        """Where its head is in space, which must not seem to be a corner of a body of such a size."""
+        """The place of its arrowhead in space, which must not look like a corner of a body of size `reach`."""
         return None
 
     def in_words(self) -> InWords | None:
-        """How it is told to those who do not see it; nothing for a line that only helps the eye."""
+        """The description for readers who cannot see the drawing; None for a line that only guides the eye."""
         return None
 
     def _if_named(self, phrase: str, **names: Any) -> InWords | None:
@@ -75,10 +75,10 @@ class Mark:
 
 @dataclass(frozen=True, kw_only=True)
 class Surface(Mark):
-    """What hides the things behind it and says how large a drawing is.
+    """A mark that hides marks behind it and determines the size of a drawing.
 
-    name       what it is of, "a circular cone"; nothing for a surface that is told with another
-    measures   what is told of its size: "base radius" and R
+    name       its name, "a circular cone"; empty for a surface that is described together with another
+    measures   its measures in the description: "base radius" and R
     """
 
     name: str = ""
@@ -90,8 +90,8 @@ class Surface(Mark):
         return []
 
     def places(self, numbers: InNumbers) -> list[Vector]:
-        """The outermost places that it reaches."""
-        raise AttributeError(f"{type(self).__name__} must say how far it reaches")
+        """The outermost places of the surface."""
+        raise AttributeError(f"{type(self).__name__} must define `places`")
 
     def in_words(self) -> InWords | None:
         return ("body", {"name": self.name, "measures": self.measures}) if self.name else None
@@ -102,10 +102,10 @@ Marks: TypeAlias = Mark | Iterable["Marks"]
 
 @dataclass(frozen=True)
 class Drawing:
-    """A scene: its name on the page, its marks, and whether they are seen in space or in their plane (x, y).
+    """A scene: its name on the page, its marks, and whether they are shown in space or in their plane (x, y).
 
-    coordinates   those that it shows, with their kinds
-    values        what letters are drawn with, in terms of others, unless the problem gives them numbers
+    coordinates   the coordinates that it shows, with their kinds
+    values        values of symbols for the drawing, in terms of others, unless the problem gives numbers
     """
 
     key: str
@@ -116,7 +116,7 @@ class Drawing:
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """The steps that it rests on."""
+        """The keys of the steps that the drawing uses."""
         return tuple(dict.fromkeys(key for mark in self.marks for key in mark.keys))
 
     @property
@@ -126,11 +126,11 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Plot:
-    """A curve: a quantity as a function of one letter, from one value of it to another.
+    """A curve: a quantity as a function of one symbol, over a range of this symbol.
 
-    expr, variable   the quantity's value and the letter against which it is drawn
+    expr, variable   the quantity's value and the symbol on the horizontal axis
     lower, upper     the range, unless the problem gives another
-    kind, of         the kinds of the quantity and of the letter, for their units
+    kind, of         the kinds of the quantity and of the symbol, for their units
     """
 
     key: str
@@ -149,7 +149,7 @@ class Plot:
 
 
 def components_in(thing: Any) -> set[int]:
-    """How many components the places and directions of marks have, however deep they are."""
+    """The numbers of components of all places and directions of marks, at any depth."""
     if isinstance(thing, tuple | list):
         return {count for each in thing for count in components_in(each)}
     if isinstance(thing, Mark):
@@ -158,7 +158,7 @@ def components_in(thing: Any) -> set[int]:
 
 
 def letters_in(thing: Any) -> set[Symbol]:
-    """Every letter in the positions and directions of marks, however deep; the names beside them are not among them."""
+    """All symbols in the positions and directions of marks, at any depth, without those in labels."""
     if isinstance(thing, tuple | list):
         return {letter for each in thing for letter in letters_in(each)}
     if isinstance(thing, Mark):
@@ -170,9 +170,9 @@ Recorded: TypeAlias = Drawing | Plot
 
 
 def noted(drawing: Recorded) -> Recorded:
-    """The drawing, after it was put on the record; a name stands for one drawing."""
+    """Record the drawing and return it; each name may be used for one drawing only."""
     if not _DRAWING_NAME.fullmatch(drawing.key):
-        help_line = "use small letters, digits and _"
+        help_line = "use lower-case letters, digits and _"
         raise Rejected(Complaint("drawing-name", f"`{drawing.key}` cannot name a drawing", help=help_line))
     run = current_run.get()
     if run is not None:
@@ -184,7 +184,7 @@ def noted(drawing: Recorded) -> Recorded:
 
 
 def flat(marks: Marks) -> Iterator[Mark]:
-    """The marks one by one, whatever lists they came in."""
+    """All marks, one by one, from nested lists."""
     if isinstance(marks, Mark):
         yield marks
     else:

@@ -1,7 +1,7 @@
 """The parts of machines: particles, rods, ropes, springs, blocks, carts, wheels and wedges.
 
-What has no size in the problem has one in points on paper, so that it is seen as well on a large drawing as on a small
-one: particles, blocks and wheels unless they are given lengths, the width of a spring.
+Particles, blocks and wheels without given lengths, and the width of a spring, have a size in points. So they are
+visible in drawings of any scale.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ BLOCK = (22.0, 18.0)  # the width and the height of a block
 CART = (38.0, 13.0)
 CASTER = 3.6  # the radius of a cart's wheels
 COIL = 4.6  # half the width of a spring
-PITCH = 5.0  # between two of its turns
-LEAD = 7.0  # its straight ends
-SHORT = 3  # letters of a name that is written on a block
+PITCH = 5.0  # between two turns of a spring
+LEAD = 7.0  # the straight ends of a spring
+SHORT = 3  # most letters of a name that is written on a block
 
 
 @dataclass(frozen=True)
 class _Piecewise(Surface):
-    """What is drawn from place to place, and told by its name."""
+    """A part drawn from place to place, with a description that depends on its class."""
 
     @property
     def told_as(self) -> str:
@@ -41,7 +41,7 @@ class _Piecewise(Surface):
 
 
 def beside(label: Any, start: Spot, end: Spot, gap: float = 3.0) -> Tag:
-    """The name of a line: best above it, since what hangs on it and its angle with the vertical are below."""
+    """The label of a line, preferably above it, because hanging parts and the angle with the vertical are below."""
     x, y = direction(start, end)
     normal = (-y, x) if x > 1e-9 or abs(x) <= 1e-9 and y < 0 else (y, -x)
     return Tag(label, midway(start, end), normal, gap, ((end[0] - start[0]) / 2, (end[1] - start[1]) / 2))
@@ -49,7 +49,7 @@ def beside(label: Any, start: Spot, end: Spot, gap: float = 3.0) -> Tag:
 
 @dataclass(frozen=True)
 class _Stretched(_Piecewise):
-    """What goes from one place to another."""
+    """A part from one place to another."""
 
     start: Position
     end: Position
@@ -64,7 +64,7 @@ class _Stretched(_Piecewise):
 
 @dataclass(frozen=True)
 class BarMark(_Stretched):
-    """A rod whose mass does not count; it is seen on what it is fixed to."""
+    """A massless rod; it is drawn over the part to which it is fixed."""
 
     layer: ClassVar[int] = 3
     pen: ClassVar[str] = "bar"
@@ -76,7 +76,7 @@ class BarMark(_Stretched):
 
 @dataclass(frozen=True)
 class ConnectionMark(_Stretched):
-    """A dashed line between two places: their distance, which nothing but its name shows."""
+    """A dashed line between two places with their distance as its label, and no physical part there."""
 
     layer: ClassVar[int] = 0
 
@@ -90,7 +90,7 @@ class ConnectionMark(_Stretched):
 
 @dataclass(frozen=True)
 class SpringMark(_Stretched):
-    """A spring: a zigzag with straight ends; nothing where these are one place."""
+    """A spring: a zigzag with straight ends; not drawn if both ends are at one place."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         (x, y), (u, v) = spots = paper.spots(*self.places(paper.numbers))
@@ -113,9 +113,9 @@ class SpringMark(_Stretched):
 
 @dataclass(frozen=True)
 class RopeMark(_Piecewise):
-    """A taut string from place to place; it goes round what has a radius, on the side to which it bends there.
+    """A taut string from place to place; it goes round each wheel on the side to which it bends there.
 
-    radii   of the wheels at these places: zero for a mere place, nothing for a wheel of the usual size
+    radii   the radii of the wheels at these places: zero for no wheel, None for a wheel of the usual size
     """
 
     along: tuple[Position, ...]
@@ -139,12 +139,12 @@ class RopeMark(_Piecewise):
 
 
 def _bend(a: Spot, b: Spot, c: Spot) -> float:
-    """1 where a way from a to c bends to the left at b, -1 where it bends to the right, or not at all."""
+    """1 if the path from a to c bends to the left at b; -1 if it bends to the right or is straight."""
     return 1.0 if (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) > 0 else -1.0
 
 
 def _tangent(a: Spot, p: float, b: Spot, q: float) -> tuple[Spot, Spot]:
-    """The line that leaves one circle and meets the next; a circle of positive radius has its middle to the left."""
+    """The tangent from one circle to the next; the centre of a circle with positive radius is to the left."""
     x, y = b[0] - a[0], b[1] - a[1]
     far = hypot(x, y)
     if far <= abs(q - p) or far == 0:
@@ -172,8 +172,8 @@ def _round(middle: Spot, radius: float, start: Spot, end: Spot) -> list[Spot]:
 
 @dataclass(frozen=True)
 class CornerRopeMark(_Piecewise):
-    """A taut string with a small pulley in its corner; its straight parts are set off to the outside by `lifts`, for
-    what stands on the lines.
+    """A taut string with a small pulley in its corner; `lifts` are the outward shifts of its straight parts, which
+    make room for bodies on the lines.
     """
 
     start: Position
@@ -192,7 +192,7 @@ class CornerRopeMark(_Piecewise):
         half = acos(max(-1.0, min(1.0, cosine))) / 2
         if not 0.05 < half < pi / 2 - 0.05:
             return [Stroke((a, corner, b), "string")]
-        # The way from the corner to one end, and the normal of that line on the side where the other end is not.
+        # The direction from the corner to one end, and the normal of this line on the side of the other end.
         inwards = [_normal(e, other) for e, other in zip(ways, ways[::-1], strict=True)]
         sine = sin(2 * half)
         shares = [(lift - WHEEL) / sine for lift in self.lifts[::-1]]
@@ -233,9 +233,9 @@ class ParticleMark(_Piecewise):
 
 @dataclass(frozen=True)
 class BlockMark(_Piecewise):
-    """A block on a line along which it moves; its middle is at the place, or that of its base if it stands there.
+    """A block on a line along which it moves; its centre, or the centre of its base if `stands`, is at the place.
 
-    width, height   lengths, or nothing for a block of the usual size
+    width, height   lengths, or None for a block of the usual size
     """
 
     at: Position
@@ -259,7 +259,7 @@ class BlockMark(_Piecewise):
         return wide, high
 
     def _framed(self, paper: Paper, wide: float, high: float) -> tuple[Spot, tuple[Spot, ...]]:
-        """Its middle and its corners from the lower left one round to the upper left one."""
+        """The centre, and the corners anticlockwise from the lower left to the upper left."""
         at, ahead = paper.numbers.vector(self.at), paper.numbers.vector(self.along)
         spot = paper.spot(at)
         e = direction(spot, paper.spot(plus(at, ahead)))
@@ -270,7 +270,7 @@ class BlockMark(_Piecewise):
         return spot, tuple((spot[0] + e[0] * a - e[1] * b, spot[1] + e[1] * a + e[0] * b) for a, b in half)
 
     def _named(self, middle: Spot, corners: tuple[Spot, ...]) -> Tag:
-        """On it, if the name is short, otherwise above it."""
+        """The label: on the block if it is a short name, otherwise above it."""
         if not isinstance(self.label, Symbol) or len(self.label.name.replace("_", "")) > SHORT:
             return Tag(self.label, middle, (0.0, 1.0), self.usual[1] / 2 + 3.0)
         (x, y), (u, v) = corners[:2]
@@ -279,7 +279,7 @@ class BlockMark(_Piecewise):
 
 @dataclass(frozen=True)
 class CartMark(BlockMark):
-    """A cart; the place is the middle of its body, which stands on two wheels."""
+    """A cart on two wheels; the place is the centre of its body."""
 
     usual: ClassVar[tuple[float, float]] = CART
 
@@ -297,7 +297,7 @@ class CartMark(BlockMark):
 
 @dataclass(frozen=True)
 class WheelMark(_Piecewise):
-    """A disc or a hoop seen along its axis: a pulley, or what rolls; `pointer` is a direction that turns with it."""
+    """A disc or hoop seen along its axis: a pulley or a rolling wheel; `pointer` is a direction fixed in it."""
 
     centre: Position
     radius: Any = None
@@ -342,7 +342,7 @@ class WedgeMark(_Piecewise):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spots = paper.spots(*self.places(paper.numbers))
-        # The name is away from the sharp corner, where the angle of a slope is told.
+        # The label is away from the sharp corner, where the angle of a slope is labelled.
         sharp = min(range(len(spots)), key=lambda i: _opening(spots[i - 1], spots[i], spots[(i + 1) % len(spots)]))
         shares = [0.2 if i == sharp else 0.8 / (len(spots) - 1) for i in range(len(spots))]
         x, y = (sum(share * spot[k] for share, spot in zip(shares, spots, strict=True)) for k in (0, 1))

@@ -1,6 +1,6 @@
-"""What a drawing is made of on paper, and what a mark may ask of the paper on which it is drawn.
+"""The pieces of a drawing, and the interface `Paper` that a mark uses to be drawn.
 
-These few pieces are all that `derive.render.drawing` knows: a mark says of itself which of them it is.
+`derive.render.drawing` draws only these pieces; each mark defines its own pieces.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from derive.figures.space import NOUGHT, Spot, Stance, Vector
 
 @dataclass(frozen=True)
 class Stroke:
-    """A line on paper, drawn with one of the pens of `derive.render.drawing.canvas`, perhaps with heads at its ends."""
+    """A line on paper, drawn with a pen of `derive.render.drawing.canvas`, with optional arrowheads at its ends."""
 
     spots: tuple[Spot, ...]
     pen: str
@@ -25,7 +25,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Patch:
-    """A surface on paper that hides what is drawn before it; `fill` is one of the colours of `drawing.canvas`."""
+    """A surface on paper that hides earlier pieces; `fill` is one of the colours of `drawing.canvas`."""
 
     spots: tuple[Spot, ...]
     fill: str = "blank"
@@ -33,7 +33,7 @@ class Patch:
 
 @dataclass(frozen=True)
 class Bullet:
-    """A point on paper, as a disc of a size in points."""
+    """A point on paper, drawn as a disc with a size in points."""
 
     spot: Spot
     size: float = 1.6
@@ -46,10 +46,10 @@ class Bullet:
 
 @dataclass(frozen=True)
 class Tag:
-    """A label: what it says, the spot that it belongs to, the side on which it would best stand.
+    """A label: its content, the spot to which it belongs, and its preferred side.
 
-    way   of the label of a line: half of it, so that the label may slide along and stand on the other side
-    on    whether it stands on the spot itself, or as far from it as `towards` and its opposite, if that is free
+    way   for the label of a line, half of the line: the label may slide along it or change to its other side
+    on    whether it is on the spot itself, or shifted by `towards` or its opposite, if these places are free
     """
 
     label: Any
@@ -65,12 +65,12 @@ class Tag:
 
 
 Piece: TypeAlias = Stroke | Patch | Bullet | Tag
-Edge: TypeAlias = tuple[int, int]  # two corners, by their places in a list
-EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # a name, and the edges that are of this length
+Edge: TypeAlias = tuple[int, int]  # two corners, by their indices in a list
+EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # a name, and the edges with this length
 
 
 class InNumbers(Protocol):
-    """The values of expressions, by the numbers of their letters."""
+    """The values of expressions, given numbers for their symbols."""
 
     def of(self, expr: Any) -> float: ...
 
@@ -81,8 +81,8 @@ class InNumbers(Protocol):
 
 @dataclass(frozen=True)
 class Paper(ABC):
-    """What a mark needs to be drawn: numbers, the direction one looks from, points per unit of length, the size of the
-    bodies, their middle and far ends; and outlines of surfaces, which hide what is behind them.
+    """Everything that a mark needs to be drawn: numbers, the viewing direction, points per unit of length, and the
+    size, centre and outermost places of the bodies. It draws the outlines of surfaces, which hide marks behind them.
     """
 
     numbers: InNumbers
@@ -91,7 +91,7 @@ class Paper(ABC):
     reach: float = 1.0
     middle: Vector = NOUGHT
     fixed: tuple[Vector, ...] = field(default=(), repr=False)
-    drawn: tuple[Spot, ...] = field(default=((0.0, 0.0),), repr=False)  # where there is something already, for the last
+    drawn: tuple[Spot, ...] = field(default=((0.0, 0.0),), repr=False)  # spots already in use, for the last marks
 
     def spot(self, place: Vector) -> Spot:
         right, up = self.stance.spot(place)
@@ -102,8 +102,8 @@ class Paper(ABC):
 
     @abstractmethod
     def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
-        """What has flat faces, each given by its corners, with names beside some of its edges."""
+        """A solid with flat faces, each given by its corners, with labels at some of its edges."""
 
     @abstractmethod
     def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:
-        """What is round about an axis, as circles from one end to the other."""
+        """A solid of revolution, as circles from one end to the other."""

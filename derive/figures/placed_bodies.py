@@ -1,4 +1,4 @@
-"""The outlines of bodies where a system has them: turned as axes are, or in a plane by an angle."""
+"""The outlines of bodies at their places in a system: with rotated axes, or in a plane rotated by an angle."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-FAR = Rational(8, 5)  # how much of a line is drawn, in terms of the coordinate
+FAR = Rational(8, 5)  # length of the drawn line, relative to the coordinate
 
 
 @dataclass(frozen=True)
@@ -55,19 +55,19 @@ class SilhouetteMark(Surface):
 
 @dataclass(frozen=True)
 class ThickBar(BarMark):
-    """A thin rod whose mass counts, as a thick line, told as the body that it is."""
+    """A thin rod with mass, drawn as a thick line and described as a body."""
 
     pen: ClassVar[str] = "rod"
     layer: ClassVar[int] = 2
 
     def _beside(self, spots: tuple[Spot, ...], gap: float) -> Tag:
-        """Past the middle, where its centre is marked."""
+        """The label, away from the middle, where the centre of mass is marked."""
         (x, y), (u, v) = spots
         return beside(self.label, (x + (u - x) / 3, y + (v - y) / 3), (u, v), gap)
 
 
 def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
-    """The outline of a body of a system, what it is held by or rolls on, the angle by which it is turned."""
+    """The outline of a body of a system, its support or rolling surface, and its rotation angle."""
     placed = with_its_shape(placed)
     outline = placed_outline(placed)
     roller = None if outline else roller_of(system, placed)
@@ -99,7 +99,7 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
-    """The way from the point of a body to its centre of mass; to the rim from the middle of a disc."""
+    """The line from the point of a body to its centre of mass; for a disc about its centre, to the rim."""
     way = placed.centre - placed.at
     for mark in outline:
         if isinstance(mark, WheelMark) and same(Location(tuple(mark.centre)), placed.at):
@@ -108,12 +108,12 @@ def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
 
 
 def _rolls(system: System, placed: Any) -> bool:
-    """Whether a condition says so of it: then it lies on something."""
+    """Whether a rolling condition applies to the body, so that it lies on a surface."""
     return any((r := each.fact(Rolling)) is not None and r.body.body is placed.body for each in system.conditions)
 
 
 def pivot_of(system: System, placed: Any) -> Link | None:
-    """The way to the centre of a body from a place at rest with which it turns as a whole."""
+    """The line to the centre of a body from a fixed place about which the body rotates as a whole."""
     for link in links_about_fixed(system, placed.centre):
         if not link.is_constant:
             continue
@@ -126,8 +126,8 @@ def pivot_of(system: System, placed: Any) -> Link | None:
 
 
 def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
-    """The joint on its rim or at its end; of a rod with both ends as far from there, the circle on which they slide,
-    and of another how far its middle is from there."""
+    """The joint of a disc at its rim or of a rod at its end; for a rod with both ends at the same distance from the
+    pivot, the circle on which they slide; for any other rod, the distance of its centre from the pivot."""
     for mark in outline:
         if isinstance(mark, WheelMark) and is_zero(mark.radius - link.length):
             yield FixedEnd(column_of(link.start), downwards(2), True)
@@ -151,19 +151,19 @@ def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
 
 
 def _kept(system: System, value: Expr) -> Expr:
-    """A value that stays the same while the system moves, without its coordinates."""
+    """A value that is constant during the motion, with its coordinates set to zero."""
     return tidied(value.xreplace(dict.fromkeys(moving_in(system, value), Integer(0))))
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
-    """A body of any shape: the line from the point that is held to its centre of mass."""
+    """For a body of any shape, the line from its fixed point to its centre of mass."""
     size = sqrt(tidied(Add(*(c**2 for c in (centre - placed.at).components))))
     yield ConnectionMark(column_of(placed.at), column_of(centre), label=size)
     yield PointMark(column_of(centre), label=placed.body.mass)
 
 
 def _holder(system: System, placed: Any) -> Mark:
-    """A stand under what is above it, a ceiling over what hangs, or a mere point of what turns at a given rate."""
+    """A stand under a body, a ceiling over a hanging body, or only a point if the rotation is prescribed."""
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
@@ -174,7 +174,7 @@ def _holder(system: System, placed: Any) -> Mark:
 
 
 def with_its_shape(placed: Any) -> Any:
-    """A body that is known by letters is drawn as the one that they are those of."""
+    """Replace a body that is given by symbols by the body with the shape to which these belong."""
     known = getattr(placed.body, "shape", None)
     if known is None:
         return placed
@@ -183,7 +183,7 @@ def with_its_shape(placed: Any) -> Any:
 
 
 def _far_end(placed: Any) -> Location:
-    """Where the axis of a body ends, away from the point at which it is held; its centre where that is not known."""
+    """The end of a body's axis far from its fixed point; the centre of mass if that is unknown."""
     parts = getattr(placed.body, "parts", ()) or (placed.body,)
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position
@@ -195,7 +195,7 @@ def _far_end(placed: Any) -> Location:
 
 
 def _ends_on_axis(part: Any) -> list[Expr]:
-    """The heights between which a round part on the z axis of the whole lies."""
+    """The lower and upper heights of a round part on the z axis of the whole body."""
     body = getattr(part, "body", part)
     if not isinstance(body, RoundBody):
         return []
@@ -205,8 +205,8 @@ def _ends_on_axis(part: Any) -> list[Expr]:
 
 
 def _of_parts(placed: Any) -> list[Mark]:
-    """Each part of a body where it is; nothing where what is cut out cannot be seen. In space a rod is in pieces, so
-    that the bodies on it hide what is behind them."""
+    """All parts of a body at their places; empty if a removed part would not be visible. In space a rod is drawn in
+    pieces, so that the bodies on it hide the pieces behind them."""
     marks: list[Mark] = []
     for part in placed.body.parts:
         if part.sign < 0:
@@ -229,7 +229,7 @@ def _of_parts(placed: Any) -> list[Mark]:
 
 
 def _cut_out(outline: list[Mark], is_plane: bool) -> list[Mark]:
-    """Of what is cut out the hole in a plane; in space what has a rim is not seen through."""
+    """The hole of a removed part in a plane; in space only a cavity without a rim can be drawn."""
     surfaces = [mark for mark in outline if isinstance(mark, SilhouetteMark | WheelMark)]
     if is_plane:
         return [Hole(mark) for mark in surfaces]
@@ -241,14 +241,14 @@ def _cut_out(outline: list[Mark], is_plane: bool) -> list[Mark]:
 
 
 def _towards(mark: Mark, centre: Location) -> Mark:
-    """A disc with a hole has its pointer to the centre of mass."""
+    """Turn the pointer of a disc with a hole towards the centre of mass."""
     if not isinstance(mark, WheelMark) or same(Location(tuple(mark.centre)), centre):
         return mark
     return replace(mark, pointer=column_of(centre) - mark.centre)
 
 
 def _placed_part(placed: Any, part: Any) -> Any:
-    """A part of a body as a body at a place; in a plane none that is turned in the whole."""
+    """A part of a body as a placed body; None in a plane if the part is rotated relative to the whole."""
     own = ImmutableDenseMatrix(part.position - placed.point.position)
     at = placed.at + placed.seen_in_space(own)
     point = part.body.point(part.of)
@@ -259,7 +259,7 @@ def _placed_part(placed: Any, part: Any) -> Any:
 
 
 def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
-    """A rod in space, cut where the centres of other parts are on it."""
+    """A rod in space, cut at the centres of other parts that lie on it."""
     held = there.point.position
 
     def at(z: Expr) -> ImmutableDenseMatrix:
@@ -277,7 +277,7 @@ def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
 
 
 def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
-    """The angle of a bar at its lower end, of a disc at its centre."""
+    """The rotation angle: of a bar at its start, of a disc at its centre."""
     for mark in outline:
         if isinstance(mark, ThickBar):
             start, end = Location(tuple(mark.start)), Location(tuple(mark.end))
@@ -291,7 +291,7 @@ def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
 
 
 def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]:
-    """The line on which a disc rolls that moves along a straight line at rest, with the angle of a slope."""
+    """The ground for a disc that rolls along a fixed straight line, with the angle of a slope."""
     track = track_of(system, centre)
     if track is None or not track.is_unit or not is_fixed(system, track.start) or track.way.components[0] == 0:
         return
@@ -311,7 +311,7 @@ def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]
 
 
 def placed_outline(placed: Any) -> list[Mark]:
-    """What is seen of a body at its place; nothing of one of which only the mass and the moments are known."""
+    """The visible outline of a body at its place; empty if only its mass and moments of inertia are known."""
     body = getattr(placed.body, "look", None) or placed.body
     if hasattr(body, "parts"):
         return _of_parts(placed)
@@ -319,13 +319,13 @@ def placed_outline(placed: Any) -> list[Mark]:
         "name": getattr(body, "seen_as", "") or getattr(body, "name", ""),
         "measures": _measures(body) if body is placed.body else (),
     }
-    # A shape that stands for a body has its middle where that has its centre of mass.
+    # A shape that represents a body has its centre at the body's centre of mass.
     reference = placed.point.position
     if body is not placed.body:
         reference = reference - placed.body.middle.position + body.middle.position
 
     def at(x: Expr | int, y: Expr | int, z: Expr | int) -> ImmutableDenseMatrix:
-        """Where a point of the body is."""
+        """The place of a point of the body."""
         own = ImmutableDenseMatrix(column(x, y, z) - reference)
         return column_of(placed.at + placed.seen_in_space(own))
 
@@ -361,7 +361,7 @@ def _seen_through(body: Annulus | Tube, placed: Any, words: dict[str, Any]) -> l
 
 
 def _sides(body: Any, corners: tuple[Position, ...]) -> Iterable[Mark]:
-    """The lengths of a flat figure that are letters, or multiples of one, each beside one edge."""
+    """The edge lengths of a flat figure that are symbols or multiples of a symbol, each at one edge."""
     for length, edges in body.edges if len(corners) <= 4 else ():
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])
@@ -369,8 +369,8 @@ def _sides(body: Any, corners: tuple[Position, ...]) -> Iterable[Mark]:
 
 
 def _mapped(body: Any, placed: Any, at: Any, words: dict[str, Any]) -> list[Mark]:
-    """A flat body in its own plane by its edge, which the ends of its map have."""
-    flat = HalfDisc(body.radius, body.mass) if isinstance(body, HalfCylinder) else body  # its section across its axis
+    """A flat body in its own plane, by its edge, which is given by the limits of its map."""
+    flat = HalfDisc(body.radius, body.mass) if isinstance(body, HalfCylinder) else body  # its cross-section
     corners = tuple(dict.fromkeys(at(*spot) for spot in edge_of(flat))) if placed.across == 2 and placed.point else ()
     return [SilhouetteMark(corners, **words)] if corners else []
 

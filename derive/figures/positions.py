@@ -1,7 +1,7 @@
-"""What a script hands over to be drawn: places, directions and names, with the steps that they rest on.
+"""Places, directions and names that a script gives to a drawing, with the keys of the steps that they use.
 
-A place is a `Location` of `derive.mechanics`, a column, a point of a body or a derived quantity. One with two
-components is in the plane of the drawing, x to the right and y upwards.
+A place is a `Location` of `derive.mechanics`, a column, a point of a body or a derived quantity. A place with two
+components is in the plane of the drawing, with x to the right and y upwards.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ SIDES = {"down": (0, -1), "up": (0, 1), "right": (1, 0), "left": (-1, 0)}
 
 
 def vector_of(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """The components of a vector or a place, and the keys behind it; anything else is refused."""
+    """The components of a vector or a place, and its keys; anything else is rejected."""
     value, keys = value_and_keys(thing)
     if not isinstance(value, MatrixBase) or value.shape not in {(2, 1), (3, 1)}:
-        got = f"`{thing.key}` is none" if isinstance(thing, Quantity) else f"it is a {type(thing).__name__}"
+        got = f"`{thing.key}` is not one" if isinstance(thing, Quantity) else f"it is a {type(thing).__name__}"
         raise Rejected(Complaint("wrong-argument", f"a drawing needs a vector or a place here, but {got}"))
     return value, keys
 
 
 def vectors_of(*things: Any) -> tuple[list[Any], tuple[str, ...]]:
-    """The components of each, all in a plane or all in space, and all keys behind them."""
+    """The components of each vector or place, all in a plane or all in space, and all their keys."""
     found = [vector_of(thing) for thing in things]
     if len({value.rows for value, _ in found}) > 1:
         message = "some places of a drawing have two components, others three"
@@ -40,7 +40,7 @@ def vectors_of(*things: Any) -> tuple[list[Any], tuple[str, ...]]:
 
 
 def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """Of a quantity its value and, if it is derived, its key; of a point its place; of another thing itself."""
+    """The value and keys: for a quantity its value, with its key if derived; for a point its place; else itself."""
     if isinstance(thing, Quantity):
         return thing.value, (thing.key,) if _is_derived(thing) else ()
     if isinstance(thing, Point):
@@ -51,13 +51,13 @@ def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
 
 
 def _is_derived(quantity: Quantity) -> bool:
-    """Whether there is more behind it than names that were given."""
+    """Whether the quantity was derived from more than definitions."""
     own = any(evidence.grade is not Grade.DEFINITION for evidence in quantity.step.evidence)
     return own or any(_is_derived(parent) for parent in quantity.parents)
 
 
 def name_of(thing: Any, label: Any) -> Any:
-    """What is written beside it: as asked, or the quantity's own name."""
+    """The label of a mark: the requested label, or by default the quantity's own name."""
     if isinstance(label, Quantity):
         return label.symbol
     if isinstance(label, str):
@@ -72,7 +72,7 @@ def column_of(place: Location) -> ImmutableDenseMatrix:
 
 
 def towards(side: str, rows: int) -> Any:
-    """The unit vector to one side of the drawing, in a plane or in space: there `right` is along x."""
+    """The unit vector to one side of the drawing, in a plane or in space, where `right` is x and `up` is z."""
     if side not in SIDES:
         known = ", ".join(f'"{each}"' for each in SIDES)
         help_line = did_you_mean(side, SIDES) or f"use {known}"

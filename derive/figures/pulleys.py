@@ -1,4 +1,4 @@
-"""A pulley that hangs on the string over another one, as the lines of what hangs on both say."""
+"""A pulley that hangs on the string over another pulley, recognised from the lines of the hanging particles."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ UP = ImmutableDenseMatrix([1, 0])
 
 
 class HangingPulley:
-    """Of three particles one that hangs on a fixed pulley, and the two on the pulley at the other end of its string.
+    """Three particles: one on a fixed pulley, and two on the pulley at the other end of its string.
 
-    hung   the numbers of the three in this order, the one whose way down is a coordinate before the other
+    hung   the numbers of the three in this order; of the two, the one whose coordinate points down comes first
     """
 
     def __init__(self, system: System):
@@ -82,7 +82,7 @@ class HangingPulley:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Nothing at the height of anything else."""
+        """Values for the drawing that put all parts at different heights."""
         if not self.hung:
             return {}
         alone, down, up = self.hung

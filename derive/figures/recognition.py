@@ -1,7 +1,7 @@
-"""What the formulas of places say of a machine: which places keep their distance, which turn by an angle, and which
-move on a straight line.
+"""Recognise a machine from the formulas of its places: which places keep their distance, which rotate by an angle, and
+which move on a straight line.
 
-All of it is decided by algebra, after numbers have refuted most of what is not so.
+Algebra decides each property, after sampled numbers have excluded most wrong candidates.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ SAMPLES = (0.37, 0.83)
 
 @dataclass(frozen=True)
 class Link:
-    """A way from a place to a particle whose length is constant, or a coordinate."""
+    """A vector from a place to a particle whose length is constant or a coordinate."""
 
     start: Location
     end: Location
@@ -38,7 +38,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Track:
-    """A straight line along which a particle moves as one coordinate grows: `start` is where that is zero."""
+    """A straight line along which a particle moves as one coordinate grows; the coordinate is zero at `start`."""
 
     start: Location
     way: Location
@@ -46,7 +46,7 @@ class Track:
 
     @property
     def foot(self) -> Location:
-        """The place of the line that is nearest to the origin."""
+        """The place on the line that is nearest to the origin."""
         along = sum((a * b for a, b in zip(self.start.components, self.way.components, strict=True)), ZERO)
         square = sum((b * b for b in self.way.components), ZERO)
         return Location(tuple(tidied(a - along / square * b) for a, b in _pairs(self.start, self.way)))
@@ -61,7 +61,7 @@ def _pairs(a: Location, b: Location) -> zip[tuple[Expr, Expr]]:
 
 
 def moving_in(system: System, *things: Expr) -> set[Symbol]:
-    """The coordinates in these expressions, and the time."""
+    """The coordinates in these expressions, and time if it occurs."""
     known = {*system.coordinates, TIME}
     return {letter for thing in things for letter in thing.free_symbols if letter in known}
 
@@ -71,13 +71,13 @@ def is_fixed(system: System, place: Location) -> bool:
 
 
 def is_spring(each: Central) -> bool:
-    """Whether its energy is of the second degree in the distance."""
+    """Whether the energy is of at most second degree in the distance."""
     third: Expr = derivative(explicit(each.energy), each.distance, 3)
     return third.is_zero is True
 
 
 def numeric(value: Expr) -> float:
-    """With numbers in the place of letters that differ and are below one: any lengths, and acute angles."""
+    """The value with different numbers below one for its symbols, which suit lengths and acute angles."""
     letters = sorted(value.free_symbols, key=str)
     return float(value.xreplace({letter: Float(0.6 + 0.07 * i) for i, letter in enumerate(letters)}).evalf())
 
@@ -90,7 +90,7 @@ def same(a: Location, b: Location) -> bool:
 
 
 def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link | None:
-    """What holds a particle by a rod, or is the origin of its polar coordinates; known and fixed places first."""
+    """The link to a particle from the end of its rod or from its polar origin; known and fixed places come first."""
     end = system.particles[index].at
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
     known += [place for place in named if not same(place, end)]
@@ -104,7 +104,7 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
 
 
 def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, str]:
-    """How likely something is there: a known place, one at rest, one that only slides or is carried."""
+    """The rank of a likely start: a known place, a fixed place, one that only slides or is carried, any other."""
     order = 0 if any(same(start, each) for each in known) else 1 if is_fixed(system, start) else 2
     if order == 2 and any(system.coordinates.get(q) == "angle" for q in moving_in(system, *start.components)):
         order = 3
@@ -112,7 +112,7 @@ def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, 
 
 
 def _without(place: Location, q: Symbol) -> Location | None:
-    """The terms of a place in which a letter does not occur, if it occurs in a sine or a cosine of every other."""
+    """The terms of a place without a symbol, if all other terms contain it in a sine or cosine."""
     parts = [expand(c).as_independent(q, as_Add=True) for c in place.components]
     if any(rest != 0 and not rest.has(sin, cos) for _, rest in parts):
         return None
@@ -120,7 +120,7 @@ def _without(place: Location, q: Symbol) -> Location | None:
 
 
 def _link(system: System, start: Location, end: Location) -> Link | None:
-    """The way between two places, if no angle and no motion that is prescribed changes its length."""
+    """The link between two places, if no angle and no prescribed motion changes its length."""
     square = Add(*(c**2 for c in (end - start).components))
     turning = {q for q in moving_in(system, square) if system.coordinates.get(q) != "length"}
     if square == 0 or not turning or _varies(square, turning):
@@ -134,22 +134,22 @@ def _link(system: System, start: Location, end: Location) -> Link | None:
 
 
 def _varies(value: Expr, turning: set[Symbol]) -> bool:
-    """Whether it does, as two samples show; it may still vary if they do not."""
+    """Whether two samples show that the value varies; if they do not, it may still vary."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    # the angles differ by other amounts in the other sample, for a distance may depend on their differences alone
+    # the differences of the angles also vary between the samples: a distance may depend on differences only
     angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))
 
 
 def link_from_fixed(system: System, end: Location) -> Link | None:
-    """The way to a moving place from one at rest from which its distance is constant."""
+    """The link to a moving place from a fixed place at a constant distance."""
     return next((link for link in links_about_fixed(system, end) if link.is_constant), None)
 
 
 def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
-    """The ways to a moving place from those at rest about which it turns."""
+    """The links to a moving place from the fixed places about which it rotates."""
     for start in (_without(end, q) for q in moving_in(system, *end.components)):
         link = _link(system, start, end) if start is not None and is_fixed(system, start) else None
         if link is not None:
@@ -160,7 +160,7 @@ def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
 
 
 def angle_of_link(system: System, link: Link) -> tuple[Expr, Location] | None:
-    """The angle by which a link turns, and the fixed direction in which it is zero."""
+    """The angle by which a link rotates, and the fixed direction in which this angle is zero."""
     e = tuple(tidied(c / link.length) for c in link.way.components)
     for angle in _angles(e):
         zero = tuple(c.xreplace({sin(angle): ZERO, cos(angle): Integer(1)}) for c in e)
@@ -172,7 +172,7 @@ def angle_of_link(system: System, link: Link) -> tuple[Expr, Location] | None:
 
 
 def _angles(direction: Iterable[Expr]) -> list[Expr]:
-    """What sines and cosines are taken of, those with a coordinate alone first."""
+    """The arguments of sines and cosines; single symbols come first."""
     found = {function.args[0] for c in direction for function in c.atoms(sin, cos)}
     return sorted(found, key=lambda angle: (not angle.is_Symbol, str(angle)))
 
@@ -181,7 +181,7 @@ def _angles(direction: Iterable[Expr]) -> list[Expr]:
 
 
 def track_of(system: System, place: Location) -> Track | None:
-    """The line along which a place moves by one length, the last that was named, in a fixed direction."""
+    """The line along which a place moves in a fixed direction with one length, the last such coordinate."""
     for q in reversed(list(system.coordinates)):
         if system.coordinates[q] != "length":
             continue
@@ -192,7 +192,7 @@ def track_of(system: System, place: Location) -> Track | None:
 
 
 def carrier_of(system: System, index: int, track: Track) -> int | None:
-    """The particle with which the line itself moves, if there is one."""
+    """The particle with which the line itself moves, if any."""
     for j, other in enumerate(system.particles):
         if j != index and not is_fixed(system, other.at) and is_fixed(system, track.start - other.at):
             return j
@@ -210,7 +210,7 @@ def is_rod(system: System, a: Location, b: Location) -> bool:
 
 
 def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
-    """Pairs of particles that move by one coordinate so that what the one gains on its line the other loses."""
+    """Pairs of particles that move with one coordinate, one away from the foot of its line and the other towards it."""
     found: list[tuple[int, int]] = []
     for i, one in tracks.items():
         for j, other in tracks.items():
@@ -221,7 +221,7 @@ def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
 
 
 def strings_of(system: System, tracks: dict[int, Track]) -> list[tuple[int, int]]:
-    """Pairs of particles on lines of which a constraint keeps the sum of the coordinates: a string joins them."""
+    """Pairs of particles on lines with a constraint on the sum of their coordinates: a string joins them."""
     held = [(each, set(each.coordinates)) for each in system.constraints if not each.in_rates]
     pairs = [(i, j) for i in tracks for j in tracks if i < j and tracks[i].is_unit and tracks[j].is_unit]
     return [
@@ -235,7 +235,7 @@ def strings_of(system: System, tracks: dict[int, Track]) -> list[tuple[int, int]
 
 
 def kept_length(system: System, length: Expr) -> Expr | None:
-    """What a constraint keeps a distance at: R of r - R = 0."""
+    """The value at which a constraint keeps a distance: R for r - R = 0."""
     for each in system.constraints:
         if not each.in_rates and set(each.coordinates) == {length}:
             share = each.along(length)
@@ -246,8 +246,8 @@ def kept_length(system: System, length: Expr) -> Expr | None:
 
 
 def through_hole(system: System, link: Link, other: Location) -> Symbol | None:
-    """The letter of the length of a string that leads from a particle through the start of its link, straight down to
-    another: as the one goes out the other rises.
+    """The symbol for the length of a string from a particle through the start of its link and straight down to another
+    particle: as one moves outwards, the other rises.
     """
     way = other - link.start
     *across, height = way.components
@@ -263,7 +263,7 @@ def through_hole(system: System, link: Link, other: Location) -> Symbol | None:
 
 
 def _way_from_foot(track: Track) -> float:
-    """How far along its line a particle is from the foot, with every letter one and the coordinate a half."""
+    """The distance of a particle from the foot of its line, with all symbols 1 and the coordinate 1/2."""
     along = Add(*(a * b for a, b in _pairs(track.start, track.way))) + track.by
     numbers = {letter: Float(1) for letter in along.free_symbols - {track.by}}
     return float(along.xreplace({**numbers, track.by: Float(0.5)}).evalf())

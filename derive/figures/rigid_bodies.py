@@ -1,4 +1,4 @@
-"""A rigid body of which only the principal moments are known: drawn as the ellipsoid that has them, with its axes."""
+"""Draw a rigid body with known principal moments only, as the ellipsoid with these moments, with its axes."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from derive.steps.step import Quantity
 
 __all__ = ["principal_outline"]
 
-THICK = Rational(1, 12)  # of the sum of the moments, by which a body is thicker than one that is flat or a line
-LONG = Rational(6, 5), Rational(19, 20)  # of arrows, in terms of the body
+THICK = Rational(1, 12)  # fraction of the sum of the moments that is added so that flat or thin bodies have a thickness
+LONG = Rational(6, 5), Rational(19, 20)  # lengths of arrows, relative to the body
 
 
 def principal_outline(moments: Sequence[Any], *vectors: Quantity, name: str = "a rigid body") -> list[Mark]:
     """A body with these principal moments about its centre of mass, and its principal axes.
 
     moments   three, about x, y and z
-    vectors   quantities, vectors (3) along these axes, which begin at the centre of mass
+    vectors   quantities: vectors (3) in these axes, drawn from the centre of mass
     """
     sizes = _semi_axes([moment.value if isinstance(moment, Quantity) else moment for moment in moments])
     marks: list[Mark] = [EllipsoidMark(ORIGIN, sizes, name=name), PointMark(ORIGIN)]
@@ -36,7 +36,7 @@ def principal_outline(moments: Sequence[Any], *vectors: Quantity, name: str = "a
 
 
 def _semi_axes(moments: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
-    """Those of a uniform ellipsoid with such moments, but for a common factor: I_x is as b^2 + c^2."""
+    """The semi-axes of a uniform ellipsoid with these moments, up to a factor: I_x is proportional to b^2 + c^2."""
     whole = Add(*moments)
     a, b, c = (sqrt(whole - 2 * moment + THICK * whole) for moment in moments)
     return a, b, c

@@ -1,7 +1,7 @@
-"""What rolls on a straight line, as its formulas say: a circle whose middle moves along the line as it turns.
+"""Rolling on a straight line, recognised from formulas: the centre of a circle moves along the line as it rotates.
 
-The circle is that of all places of a thing that turns which are at rest one after the other. Its radius is how far the
-middle goes, in terms of the angle, and it touches the line on the side on which the turning takes the motion away.
+The circle consists of all body points that come to rest one after another. Its radius is the displacement of its centre
+per unit angle, and it touches the line on the side where the rotation cancels the motion of the centre.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ from derive.mechanics.model.system import Particle, System
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-FAR = Rational(5, 2)  # how far a roller has come, in terms of its radius
+FAR = Rational(5, 2)  # displacement of a roller in the drawing, relative to its radius
 ROUND = "a round body"
 
 
 @dataclass(frozen=True)
 class Roller:
-    """A circle that rolls on a straight line at rest.
+    """A circle that rolls on a fixed straight line.
 
-    hub    the middle of the circle
-    foot   where it touches the line
-    by     the coordinate by which the middle moves
+    hub    the centre of the circle
+    foot   the point of contact with the line
+    by     the coordinate with which the centre moves
     """
 
     hub: Location
@@ -46,7 +46,7 @@ class Roller:
 
 
 def roller_of(system: System, placed: Any) -> Roller | None:
-    """The circle on which a body rolls that moves in a plane and whose outline is not known."""
+    """The rolling circle of a body that moves in a plane and has no known outline."""
     if not placed.is_plane:
         return None
     hub = _steady_part(system, placed.centre)
@@ -57,7 +57,7 @@ def roller_of(system: System, placed: Any) -> Roller | None:
 
 
 def roller_with(system: System, particle: Particle) -> tuple[Roller, Link] | None:
-    """The circle that carries a particle with a single coordinate as it rolls, and the way to it from the middle."""
+    """The rolling circle that carries a particle with a single coordinate, and the link from its centre to it."""
     hub = _steady_part(system, particle.at)
     moving = moving_in(system, *particle.at.components)
     if len(hub.components) != 2 or len(moving) != 1 or not moving_in(system, *hub.components):
@@ -73,7 +73,7 @@ def roller_with(system: System, particle: Particle) -> tuple[Roller, Link] | Non
 
 
 def _steady_part(system: System, place: Location) -> Location:
-    """A place without the terms that go round with an angle."""
+    """A place without the terms that rotate with an angle."""
     components = []
     for each in place.components:
         terms = Add.make_args(each.expand())
@@ -100,7 +100,7 @@ def _roller(system: System, hub: Location, turned: Expr) -> Roller | None:
 
 
 def _rates_of(system: System, angle: Symbol, q: Symbol) -> Expr | None:
-    """How fast an angle changes in terms of a coordinate, as a condition has it."""
+    """The rate of change of an angle with respect to a coordinate, from a constraint."""
     if angle == q:
         return Integer(1)
     for each in system.constraints:
@@ -110,7 +110,7 @@ def _rates_of(system: System, angle: Symbol, q: Symbol) -> Expr | None:
 
 
 def arm_of(placed: Any, roller: Roller) -> Expr:
-    """How far the centre of mass of a body is from the middle of the circle on which it rolls."""
+    """The distance of a body's centre of mass from the centre of its rolling circle."""
     return sqrt(tidied(Add(*(c**2 for c in (placed.centre - roller.hub).components))))
 
 
@@ -118,7 +118,7 @@ def arm_of(placed: Any, roller: Roller) -> Expr:
 
 
 def rolling_marks(system: System, placed: Any, roller: Roller) -> Iterable[Mark]:
-    """A wheel in the place of a body of which only the moments are known, and where in it the centre of mass is."""
+    """A wheel in place of a body with known moments only, and the place of its centre of mass."""
     size = arm_of(placed, roller)
     ahead = Location((cos(placed.turned), sin(placed.turned)))
     pointer = column_of(ahead) if size == 0 else None
@@ -131,14 +131,14 @@ def rolling_marks(system: System, placed: Any, roller: Roller) -> Iterable[Mark]
 
 
 def arm_marks(system: System, link: Link) -> Iterable[Mark]:
-    """A dashed way from the middle of what rolls to a place in it, and its angle."""
+    """A dashed line from the centre of a rolling circle to a place in it, and its angle."""
     yield Line(column_of(link.start), column_of(link.end), "construction", label=link.length)
     yield PointMark(column_of(link.end))
     yield from angle_marks(system, link)
 
 
 def carrying_marks(system: System, particle: Particle, roller: Roller, link: Link) -> Iterable[Mark]:
-    """The curve of a particle that a rolling circle carries, the circle, and the line on which that rolls."""
+    """The curve of a particle on a rolling circle, the circle, and the line on which the circle rolls."""
     q = roller.by
     yield ParticleMark(column_of(particle.at), label=particle.mass)
     yield WayMark(column_of(particle.at), q, -pi, pi, "wire")
@@ -157,5 +157,5 @@ def carrying_marks(system: System, particle: Particle, roller: Roller, link: Lin
 
 
 def way_marks(start: Location, end: Location, aside: Location, by: Symbol, clear: Any = ZERO) -> Sequence[Mark]:
-    """How far something has come, in the letter of the coordinate that says so."""
+    """A dimension line for a displacement, labelled with its coordinate."""
     return [LengthMark(column_of(start), column_of(end), column_of(aside), clear, label=by)]

@@ -1,8 +1,8 @@
-"""The words in which a script describes a drawing, in terms of the bodies and quantities that it derives with.
+"""Functions with which a script describes a drawing, in terms of its bodies and quantities.
 
     drawing("vectors", outline(block), arrow(omega, block.middle), arrow(L, block.middle), arc(omega, L, theta))
 
-A quantity brings its name and its key along; a plain expression is taken as it is.
+A quantity supplies its name and its key; a plain expression is used unchanged.
 """
 
 from __future__ import annotations
@@ -35,18 +35,18 @@ from derive.steps.step import Quantity
 
 __all__ = ["arc", "arrow", "axes", "axis_of_rotation", "drawing", "plot", "point_mark", "turn", "vectors_in"]
 
-DEGREES = (34, 52, 22, 44, 16, 38)  # with which angles are drawn that are coordinates
-LONG, SMALL = Rational(5, 4), Rational(1, 4)  # in terms of the size of the body
+DEGREES = (34, 52, 22, 44, 16, 38)  # values in the drawing for coordinates that are angles
+LONG, SMALL = Rational(5, 4), Rational(1, 4)  # relative to the size of the body
 
 
 def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[Any, Any] | None = None) -> Drawing:
-    """A drawing of these marks, put on the record of the problem.
+    """A drawing of these marks, recorded for the problem.
 
     key      its name, for `drawings:` in the problem
-    marks    marks or lists of them; solids hide what is behind them, everything else is drawn over them
+    marks    marks or lists of them; solids hide marks behind them, all other marks are drawn over them
     view     "space" (seen from the front, a little from above, z upwards) or "plane" (x to the right, y upwards);
-             without one it is the plane if there is a place with two components
-    values   numbers or proportions with which letters are drawn, unless the problem says otherwise: `{x: l/4}`
+             by default "plane" if a place has two components
+    values   numbers or proportions for symbols in the drawing, unless the problem gives numbers: `{x: l/4}`
     """
     if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
@@ -63,7 +63,7 @@ def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[An
 
 
 def _drawn_at(moving: Mapping[Symbol, str]) -> dict[Symbol, Expr]:
-    """An angle for each coordinate that is one, no two neighbours alike."""
+    """A value for each coordinate that is an angle; neighbouring values differ."""
     angles = [q for q, kind in moving.items() if kind == "angle"]
     return {q: size * pi / 180 for q, size in zip(angles, cycle(DEGREES), strict=False)}
 
@@ -76,12 +76,12 @@ def plot(
     of: str = "angle",
     shown: Expr | None = None,
 ) -> Plot:
-    """The curve of a quantity against a letter, put on the record of the problem; its numbers come from the problem.
+    """The curve of a quantity against a symbol, recorded for the problem; its numbers come from the problem.
 
     quantity   a scalar with a kind, such as an energy
-    against    the letter on the horizontal axis, and `of`, the kind of what it stands for
+    against    the symbol on the horizontal axis; `of` is its kind
     between    the two ends of the range, in radians or SI units
-    shown      what is drawn in the quantity's place: the same with its coordinate as a plain letter, for example
+    shown      an expression drawn instead of the quantity, for example with its coordinate as a plain symbol
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
@@ -98,25 +98,25 @@ def plot(
 
 
 def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, asked: bool = True) -> Mark:
-    """A vector in its true direction; its length is for the eye, since vectors of two kinds have no common scale.
+    """A vector in its true direction; its length is arbitrary, because vectors of two kinds have no common scale.
 
-    vector   vector (3), in the axes of the drawing; none is drawn if it vanishes
+    vector   vector (3), in the axes of the drawing; not drawn if it vanishes
     at       the place where it begins
-    size     its length in terms of the size of the body
+    size     its length relative to the size of the body
     label    its name, if it is not the quantity's own
-    asked    whether it is what the problem asks for, and so drawn strongly
+    asked    whether the problem asks for the vector, so that it is emphasised
     """
     (value, own), (start, others), (_, named) = vector_of(vector), vector_of(at), value_and_keys(label)
     return Arrow(start, value, size, asked, label=name_of(vector, label), keys=own + others + named)
 
 
 def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
-    """The arc from one direction to another; none where they are parallel.
+    """The arc from one direction to another; not drawn if they are parallel.
 
     a, b     vectors (3)
-    label    its name, or the quantity that the angle is
+    label    its name, or the quantity of the angle
     at       the vertex
-    radius   length; without one the arc is as large as the eye needs
+    radius   length; by default a readable size
     """
     (u, first), (v, second), (vertex, third) = (vector_of(thing) for thing in (a, b, at))
     _, own = value_and_keys(label)
@@ -124,7 +124,7 @@ def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None)
 
 
 def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
-    """The axis of a rotation, past the body on both sides; with the rate, the sense in which it turns.
+    """The axis of a rotation, beyond the body on both sides; with a rate, also the sense of rotation.
 
     along     vector (3)
     through   a place on the axis
@@ -136,18 +136,18 @@ def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mar
 
 
 def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
-    """An arrow round a direction, right-handed, for an angle that grows or the rate at which it does.
+    """A right-handed arrow round a direction, for a growing angle or its rate.
 
     along   vector (3)
-    at      the middle of the turn
-    size    its radius in terms of the size of the body
+    at      the centre of the arrow's circle
+    size    its radius relative to the size of the body
     """
     (direction, first), (place, second) = vector_of(along), vector_of(at)
     return Turn(place, direction, size, label=label, keys=first + second)
 
 
 def point_mark(at: Any, label: Any = None) -> Mark:
-    """A point; a derived place brings its name along.
+    """A point; a derived place supplies its name.
 
     at   a place: a column of lengths, a body's point, or a quantity
     """
@@ -156,9 +156,9 @@ def point_mark(at: Any, label: Any = None) -> Mark:
 
 
 def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[Mark]:
-    """The coordinate axes from their origin, two of them if it is in a plane.
+    """The coordinate axes from their origin; two axes if it is in a plane.
 
-    reach   how long they are: one length, or one each
+    reach   their length, or a length for each
     """
     place, keys = vector_of(at)
     names = names[: place.rows]
@@ -170,13 +170,13 @@ def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[
 def vectors_in(
     body: Any, *vectors: Quantity, angle: Any = None, at: Any = None, about: str | None = None
 ) -> list[Mark]:
-    """A body with vectors in their true directions, the first of them along the axis of its rotation.
+    """A body with vectors in their true directions, the first along its axis of rotation.
 
     body      a body, for its outline
-    vectors   quantities, vectors (3) in the body's axes; each arrow is a little shorter than the one before
-    angle     the angle between the first two: a quantity or a name; without it no arc is drawn
-    at        the place where they begin, otherwise the middle of the body
-    about     the name of a point at which they begin in its place, with the axes of the body there
+    vectors   quantities: vectors (3) in the body's axes; each arrow is a little shorter than the one before
+    angle     the angle between the first two, a quantity or a name; by default no arc is drawn
+    at        the place where they begin; by default the centre of mass of the body
+    about     the name of a point where they begin instead, with the axes of the body there
     """
     if about is not None:
         start: Any = ORIGIN

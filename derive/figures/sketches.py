@@ -1,8 +1,8 @@
 """A drawing of a system from its formulas alone: `sketch("pendulum", System(...))`.
 
-A particle at a constant distance from a place hangs on a rod, one that moves on a line is a block on a floor, on a
-wedge or on a string, and one with a single coordinate is on the curve of its place. What is not recognised is drawn
-as a particle where it is; nothing is drawn that the formulas do not say.
+A particle at a constant distance from a place hangs on a rod; a particle that moves on a line is a block on a floor, a
+wedge or a string; a particle with a single coordinate is on the curve of its place. All others are drawn as particles
+at their places. The drawing shows only parts that follow from the formulas.
 """
 
 from __future__ import annotations
@@ -51,12 +51,12 @@ from derive.mechanics.model.system import Central, Particle, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-HANGING = Rational(5, 2)  # a string through a hole, in terms of what of it is on the table
-FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
+HANGING = Rational(5, 2)  # length of a string through a hole, relative to its part on the table
+FAR = Rational(8, 5)  # drawn range of a curve, relative to its coordinate
 ECCENTRICITY = Rational(1, 2)
-WEIGHT = Rational(2, 5)  # how long the arrow of a weight is, in terms of the size of the whole
-BROADSIDE = 23 * pi / 36  # across the way in which one usually looks
-ON_A_TABLE = 17 * pi / 36  # so that two level axes and the vertical are seen apart
+WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
+BROADSIDE = 23 * pi / 36  # angle at which a plane faces the usual viewing direction
+ON_A_TABLE = 17 * pi / 36  # angle at which two horizontal axes and the vertical are clearly separate
 
 
 def sketch(
@@ -69,17 +69,17 @@ def sketch(
     start: Moment | None = None,
     blow: Moment | None = None,
 ) -> Drawing | None:
-    """A drawing of a system, made of its places and forces, and put on the record of the problem; none where it would
-    leave out something that the system has.
+    """A drawing of a system, made from its places and forces and recorded for the problem; None if it would not show
+    the whole system.
 
     key      its name, for `drawings:` in the problem
     system   its particles, bodies, springs, central forces and weight
     more     further marks
-    values   numbers or proportions with which letters are drawn
-    named    further places at which there is something, such as a pivot
-    weights  whether the weight of each particle and body is drawn where it acts, and not the gravity beside them
-    start    the state in which a motion begins
-    blow     the moment of a blow, which is then what is drawn
+    values   numbers or proportions for symbols in the drawing
+    named    further places of parts, such as a pivot
+    weights  whether the weight of each particle and body is drawn at its place, instead of one arrow for gravity
+    start    the initial state of a motion
+    blow     the state at an impact, which is then drawn
     """
     scene = _Scene(system, named, weights, start, blow)
     if not more and not scene.is_whole:
@@ -88,7 +88,7 @@ def sketch(
 
 
 class _Scene:
-    """What is recognised of a system, and the marks for it."""
+    """The recognised parts of a system, and their marks."""
 
     def __init__(
         self,
@@ -114,7 +114,7 @@ class _Scene:
         self.rods = self._rigid() if self.rows == 2 else []
 
     def _rigid(self) -> list[tuple[int, int]]:
-        """Pairs of particles on no line and on no other rod that keep their distance."""
+        """Pairs of particles with a constant distance that are not on a line or on another rod."""
         at = [particle.at for particle in self.system.particles]
         return [(i, j) for i, j in combinations(self.free, 2) if is_rod(self.system, at[i], at[j])]
 
@@ -140,7 +140,7 @@ class _Scene:
         return {**found, **self._carried_round(), **hanging}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
-        """What turns about the vertical at a given rate is drawn when its plane is that of the paper."""
+        """The time at which a system with a prescribed rotation about the vertical faces the viewer well."""
         if (rate := self._rate_round()) is None:
             return {}
         level = len(self.system.coordinates) > 1 and not moving_in(
@@ -150,21 +150,21 @@ class _Scene:
         return {TIME: angle / rate}
 
     def _rate_round(self) -> Expr | None:
-        """At which constant rate all that is carried round in space is."""
+        """The constant rate of the prescribed rotation in space, if there is exactly one."""
         components = [c for place in self.system.places for c in place.components]
         angles = {f.args[0] for c in components for f in c.atoms(sin, cos)}
         rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
         return rates[0] if self.rows == 3 and len(rates) == 1 and not rates[0].has(TIME) else None
 
     def _axis_of_table(self) -> list[Mark]:
-        """The vertical about which something is carried round at a given rate, where nothing else shows it."""
+        """The vertical axis of the prescribed rotation, if no other mark shows it."""
         if (rate := self._rate_round()) is None:
             return []
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
 
     def _two_bodies(self) -> Iterable[Mark]:
-        """Of two particles the components of the way from one to the other, and the axes on which their centre of
-        mass is, where these are coordinates."""
+        """For two particles, the components of their relative position, and the coordinate axes of their centre of
+        mass, if these are coordinates."""
         if self.rows != 2 or len(self.system.particles) != 2 or self.system.bodies:
             return
         one, other = self.system.particles
@@ -187,7 +187,7 @@ class _Scene:
 
     @cached_property
     def strings(self) -> Mapping[int, tuple[Link, Location, Symbol]]:
-        """By the number of a particle that hangs: the way of the other one to the hole, its own place, their string."""
+        """By the number of a hanging particle: the link from the hole to the other one, its own place, their string."""
         found = {}
         for link in self.links.values():
             for i in self.free if self.rows == 3 else ():
@@ -198,7 +198,7 @@ class _Scene:
 
     @cached_property
     def tied(self) -> Mapping[int, tuple[Link, ...]]:
-        """In space, what keeps its distance from particles that hang on rods from a place that is known."""
+        """In space, particles at constant distances from particles that hang on rods, with the links of these."""
         held = [link for link in self.links.values() if link.is_constant]
         found: dict[int, tuple[Link, ...]] = {}
         for i in self.free if self.rows == 3 and self.named else ():
@@ -212,7 +212,7 @@ class _Scene:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
         if not any(isinstance(mark, AxisOfRotation) for mark in found):
             found += self._axis_of_table()
-        if self.blow is not None:  # nothing moves on in it, and no way is told
+        if self.blow is not None:  # positions are fixed during an impact, so no displacement is shown
             found = [mark for mark in found if not is_of_the_moment(mark, self.blow)]
             found += blow_marks(self.system, self.blow)
         return list(dict.fromkeys(found))
@@ -252,7 +252,7 @@ class _Scene:
         yield from self._fields()
 
     def _rod(self, i: int, j: int) -> Iterable[Mark]:
-        """From the lower particle to the other one, with its angle."""
+        """A rod from the lower particle to the upper one, with its angle."""
         low, up = sorted((self.system.particles[k].at for k in (i, j)), key=lambda at: numeric(at.components[1]))
         link = Link(low, up, sqrt(tidied(Add(*(c**2 for c in (up - low).components)))), True)
         yield BarMark(column_of(link.start), column_of(link.end), label=link.length)
@@ -262,7 +262,7 @@ class _Scene:
                 yield FloorMark((column_of(end),))
 
     def _round(self, link: Link) -> Iterable[Mark]:
-        """The circle on which a place is seen from above that is at a distance from an axis, and that axis."""
+        """The circle of a place at a distance from a vertical axis, and this axis."""
         *across, height = link.start.components
         if (
             link.is_constant
@@ -280,13 +280,13 @@ class _Scene:
             yield Axis(column_of(link.start) * 0, column_of(Rational(5, 3) * link.start), label=height)
 
     def _rods(self) -> Iterable[Mark]:
-        """In space, what else keeps its distance from a particle that hangs on a rod."""
+        """In space, rods from particles on rods to further particles at a constant distance."""
         for i, links in self.tied.items():
             for link in links:
                 yield BarMark(column_of(link.end), column_of(self.system.particles[i].at))
 
     def _fields(self) -> Iterable[Mark]:
-        """Uniform fields beside everything else."""
+        """Uniform fields, next to all other marks."""
         beside = 0
         for each in self.system.charges:
             for field in (each.electric, each.magnetic):
@@ -305,7 +305,7 @@ class _Scene:
             yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
-        """Whether something is drawn there that is no end of a spring or a force."""
+        """Whether the place moves or has a particle, so that it is not a fixed end."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
     # --- forces between two places ---
@@ -330,7 +330,7 @@ class _Scene:
             yield ConnectionMark(a, b)
 
     def _orbit(self, each: Central, centre: Location) -> Iterable[Mark]:
-        """An ellipse about the centre of a force that falls with the square of the distance."""
+        """An ellipse about the centre of an inverse-square force."""
         other = each.end if same(each.start, centre) else each.start
         link = next((link for link in self.links.values() if same(link.end, other) and same(link.start, centre)), None)
         turned = angle_of_link(self.system, link) if link is not None and self.rows == 2 else None
@@ -342,7 +342,7 @@ class _Scene:
         e = explicit(ImmutableDenseMatrix(tuple(tidied(c / link.length) for c in link.way.components)))
         yield WayMark(column_of(centre) + size * e.xreplace({angle: u}), u, -pi, pi)
 
-    # --- what is free ---
+    # --- free particles ---
 
     def _free(self, particle: Particle) -> Iterable[Mark]:
         at = particle.at
@@ -358,7 +358,7 @@ class _Scene:
             yield from self._ways(at)
 
     def _centre(self, at: Location) -> Iterable[Mark]:
-        """Of a body that leans on something, how far its centre is from there, where its coordinates say so."""
+        """For a leaning body, the distances of its centre from the axes, if these are its coordinates."""
         if self.rows != 2 or not self.touching.shown or not all(c in self.system.coordinates for c in at.components):
             return
         x, y = at.components
@@ -374,7 +374,7 @@ class _Scene:
                 yield ConnectionMark(column_of(at), column_of(ahead))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
-        """The curves of its place, one coordinate after the other; a thing that is there if it is the only one."""
+        """The curves of a place for each coordinate; a single curve is drawn as a wire."""
         moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
         for q in moving if len(moving) < self.rows else ():
             ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)

@@ -1,4 +1,4 @@
-"""What moves on straight lines, as its formulas say: blocks on floors, on wedges and on strings over pulleys."""
+"""Motion on straight lines, recognised from formulas: blocks on floors, on wedges and on strings over pulleys."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 
 ZERO = Integer(0)
-PAST = Rational(8, 5)  # how far a slope goes past what slides on it, in terms of its coordinate
+PAST = Rational(8, 5)  # length of a slope, relative to the coordinate of the block on it
 
 
 class Sliding:
-    """The particles of a plane system that move on lines; those on links are not among them."""
+    """The particles of a plane system that move on lines, except those on links."""
 
     def __init__(self, system: System, links: Mapping[int, Link]):
         self.system, self.links = system, links
@@ -70,14 +70,14 @@ class Sliding:
             yield from self._rope(*pair)
 
     def _is_held(self, track: Track, carrier: int | None) -> bool:
-        """Whether its line is at rest, is carried by a particle, or moves as is prescribed."""
+        """Whether a line is fixed, is carried by a particle, or has a prescribed motion."""
         return carrier is not None or moving_in(self.system, *track.start.components) <= {TIME}
 
     def _mass(self, i: int) -> Any:
         return self.system.particles[i].mass
 
     def _at(self, i: int) -> Location:
-        """Where a particle is drawn: beside its place where two would hang on one line."""
+        """The drawn place of a particle: shifted sideways if two particles hang on one line."""
         at = self.system.particles[i].at
         return at + self.moved[i] if i in self.moved else at
 
@@ -101,12 +101,12 @@ class Sliding:
             yield DistanceMark(column_of(start), column_of(at), aside, off, label=track.by)
 
     def _lies(self, track: Track) -> bool:
-        """Whether there is weight, or a wall that holds a spring, so that what moves on a level line is a block."""
+        """Whether there is weight or a wall with a spring: then a particle on a horizontal line is drawn as a block."""
         walls = [end for each in self.system.between for end in (each.start, each.end) if is_fixed(self.system, end)]
         return bool(self.system.weights or walls) or track.way.components[1] != 0
 
     def _afloat(self, i: int, track: Track) -> Iterable[Mark]:
-        """A particle on a line on which nothing lies, and how far it has moved."""
+        """A particle on a line without a floor, and its displacement."""
         at, start = column_of(self._at(i)), column_of(track.start)
         yield ParticleMark(at, label=self._mass(i))
         if track.is_unit:
@@ -114,21 +114,21 @@ class Sliding:
             yield DistanceMark(start, at, ImmutableDenseMatrix([0, 1]), CLEAR + 10 + 16 * len(before), label=track.by)
 
     def _free_side(self, i: int) -> int:
-        """Of what hangs: the side on which nothing hangs or lies at the other end of its string, nor a pulley."""
+        """For a hanging particle, the side without the other end of its string and without a pulley, 1 or -1."""
         other = next((k for pair in (*self.ropes, *self.strings) if i in pair for k in pair if k != i), None)
         beside = [self._at(other)] if other is not None else [placed.centre for placed in self.system.bodies]
         ways = [self._numeric((place - self._at(i)).components[0]) for place in beside]
         return 1 if ways and max(ways) < 0 else -1
 
     def _is_measured(self, i: int) -> bool:
-        """Of two on a string that one from whose line's foot the coordinate is counted, else the first."""
+        """Whether the coordinate is labelled here: of two particles on a string, at the one measured from its foot."""
         for pair in self.ropes:
             if i in pair:
                 return i == next((k for k in pair if same(self.tracks[k].start, self.tracks[k].foot)), pair[0])
         return True
 
     def _floor(self, i: int, track: Track, off: float) -> Mark:
-        """Under all that slides at this height: up to walls and pulleys, and past everything else."""
+        """The floor below all particles that slide at this height, up to walls and pulleys, and beyond all others."""
         alike = {k: t for k, t in self.tracks.items() if _same_height(t, track)}
         above = [self.system.particles[k].at for k in alike]
         above += [t.start for k, t in alike.items() if self._is_measured(k)]
@@ -143,13 +143,13 @@ class Sliding:
         return FloorMark(tuple(column_of(each) for each in (*above, *walls, *corners)), off, (left, right))
 
     def _walls_at(self, track: Track) -> list[Location]:
-        """The fixed ends of springs at the height of a floor, which it does not pass."""
+        """The fixed ends of springs at the height of a floor, which does not extend beyond them."""
         ends = [end for each in self.system.between for end in (each.start, each.end)]
         height = track.start.components[1]
         return [end for end in ends if is_fixed(self.system, end) and vanishes(end.components[1] - height)]
 
     def _on_wedge(self, i: int, track: Track) -> Iterable[Mark]:
-        """A slope from where the coordinate is zero to a little past the block, down to what carries it."""
+        """A slope from the zero of the coordinate to a little beyond the block, down to its carrier."""
         at, carrier = self._at(i), self.carriers[i]
         top, low = self._slope(i, track)
         foot = Location((top.components[0], low.components[1]))
@@ -180,7 +180,7 @@ class Sliding:
         return top, low if carrier is None else self._down_to(top, low, self.system.particles[carrier].at)
 
     def _down_to(self, top: Location, low: Location, base: Location) -> Location:
-        """Where the line from one place to another comes to the height of a third, if that is below the first."""
+        """The point on the line from `top` through `low` at the height of `base` if that is below `top`, else `low`."""
         fall, whole = top.components[1] - base.components[1], top.components[1] - low.components[1]
         if self._numeric(fall) < 1e-9:
             return low
@@ -189,13 +189,13 @@ class Sliding:
         return top + fallen
 
     def _numeric(self, value: Expr) -> float:
-        """With coordinates small, and other letters 0.6: an acute angle, and any length."""
+        """The value with small coordinates, and 0.6 for all other symbols: an acute angle, or any length."""
         small = {q: Rational(1, 5) for q in self.system.coordinates}
         found = value.xreplace({**dict.fromkeys(value.free_symbols, Rational(3, 5)), **small})
         return float(found.evalf())
 
     def _past(self, i: int) -> Location:
-        """A little further down its line than a block on a string."""
+        """A place a little further down the line than the block on it."""
         gone: Location = PAST * (self.system.particles[i].at - self.tracks[i].foot)
         return self.tracks[i].foot + gone
 
@@ -213,7 +213,7 @@ class Sliding:
         yield from (wheel, BarMark(wheel.centre, top), FixedEnd(top, ImmutableDenseMatrix([0, -1])))
 
     def _moved_apart(self) -> dict[int, Location]:
-        """Two that hang on one vertical line on both sides of a pulley are drawn beside each other."""
+        """Sideways shifts for two particles on one vertical line on both sides of a pulley."""
         found: dict[int, Location] = {}
         for i, j in self.ropes:
             one, other = self.tracks[i], self.tracks[j]
@@ -227,7 +227,7 @@ class Sliding:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Small displacements where a coordinate is one, and half a string where it divides it."""
+        """Values of coordinates in the drawing: small displacements, or a fraction of a string that they divide."""
         found: dict[Symbol, Expr] = {}
         for q, kind in self.system.coordinates.items():
             slides = any(track.by == q and _is_slope(track) and i in self.carriers for i, track in self.tracks.items())
@@ -245,7 +245,7 @@ class Sliding:
         return found
 
     def _string(self, q: Symbol, size: Expr) -> Expr:
-        """As many of these lengths as a string has of which a coordinate is the part on one side."""
+        """The length of the string that the coordinate divides, if it is a multiple of `size`; else `size`."""
         for i, j in self.ropes:
             if self.tracks[i].by == q:
                 whole = abs(tidied((self.tracks[i].start - self.tracks[j].start).components[1]))
@@ -253,12 +253,12 @@ class Sliding:
         return size
 
     def _radius(self, i: int, j: int) -> Expr:
-        """Half of what is between the two lines on which masses hang."""
+        """Half the distance between the two lines of the hanging masses."""
         between = (self.tracks[j].foot - self.tracks[i].foot).components[0]
         return abs(tidied(between / 2))
 
     def _at_zero(self, q: Symbol) -> list[Expr]:
-        """Of each component with the coordinate in it what is left where all coordinates are zero: one letter of it."""
+        """For each component with the coordinate, one symbol that is left when all coordinates are zero, or zero."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         holding = [c for place in self.system.places for c in place.components if q in c.free_symbols]
         return [min(c.xreplace(zero).free_symbols, key=str, default=ZERO) for c in holding]

@@ -1,4 +1,4 @@
-"""Vectors of numbers, in space and on paper: what places and directions are once the letters have numbers."""
+"""Numerical vectors in space and on paper: places and directions after numbers are substituted for the symbols."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Vector: TypeAlias = tuple[float, float, float]
 Spot: TypeAlias = tuple[float, float]
 
 NOUGHT: Vector = (0.0, 0.0, 0.0)
-STEPS = 96  # of a whole circle
+STEPS = 96  # for a full circle
 
 
 def plus(a: Vector, b: Vector, times: float = 1.0) -> Vector:
@@ -32,7 +32,7 @@ def size_of(a: Vector) -> float:
 
 
 def unit(a: Vector) -> Vector:
-    """The direction of a vector; of one that is zero, zero."""
+    """The direction of a vector; zero for a zero vector."""
     size = size_of(a)
     return (a[0] / size, a[1] / size, a[2] / size) if size > 0 else a
 
@@ -51,7 +51,7 @@ def across(a: Vector) -> tuple[Vector, Vector]:
 
 
 def rim(centre: Vector, radius: float, normal: Vector) -> list[Vector]:
-    """The places of a circle about a direction, the last of them the first once more."""
+    """The places of a circle about a direction; the last equals the first."""
     u, v = across(normal)
     angles = [2 * pi * i / STEPS for i in range(STEPS + 1)]
     return [plus(plus(centre, u, radius * cos(t)), v, radius * sin(t)) for t in angles]
@@ -74,7 +74,7 @@ def midway(a: Spot, b: Spot) -> Spot:
 
 
 def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
-    """The convex outline of spots, anticlockwise: sorted by angle about the lowest, turns to the right dropped."""
+    """The convex outline of spots, anticlockwise: sorted by angle about the lowest, without right turns."""
     first = min(spots, key=lambda s: (s[1], s[0]))
     rest = sorted(
         {s for s in spots if s != first},
@@ -89,7 +89,7 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
 
 def is_within(spot: Spot, corners: Sequence[Spot]) -> bool:
-    """Whether a spot lies in an outline: a line from it to the right meets that an odd number of times."""
+    """Whether a spot lies in an outline: a line from it to the right crosses the outline an odd number of times."""
     x, y = spot
     if not (min(c[0] for c in corners) < x < max(c[0] for c in corners)):
         return False
@@ -106,7 +106,7 @@ def _turns_right(a: Spot, b: Spot, c: Spot) -> bool:
 
 @dataclass(frozen=True)
 class Stance:
-    """A parallel projection: the directions on paper that are right and up, and the one to the eye."""
+    """A parallel projection: the directions in space that are right and up on paper, and towards the viewer."""
 
     right: Vector
     up: Vector

@@ -1,4 +1,4 @@
-"""The surfaces of bodies: whatever is round about an axis, whatever has flat faces, and what is thin."""
+"""The surfaces of bodies: bodies of revolution, bodies with flat faces, and thin bodies."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Str
 from derive.figures.space import NOUGHT, Spot, Vector, dot, hull, plus, rim, unit
 
 UPWARDS = (0.0, 0.0, 1.0)
-SIGHT = 120  # steps on the way to the eye
-EVERY = 8  # of the places of a circle, one in so many says how large it is
+SIGHT = 120  # steps along the line to the viewer
+EVERY = 8  # step between the places of a circle that determine its size
 
 
 @dataclass(frozen=True)
 class Revolved(Surface):
-    """A convex body that is round about an axis.
+    """A convex body of revolution.
 
     profile          heights along the axis and the radius there: two pairs if its side is straight, many if curved
-    through, along   where the height zero is, and the unit vector in which heights are counted
+    through, along   the place of height zero, and the unit vector along which heights are measured
     """
 
     profile: tuple[tuple[Any, Any], ...]
@@ -41,7 +41,7 @@ class Revolved(Surface):
         return paper.revolved(*self._rings(paper.numbers))
 
     def nearest_rim(self, paper: Paper) -> tuple[Spot, ...]:
-        """The circle of the end on the side of the eye."""
+        """The circle at the end that faces the viewer."""
         along, rings = paper.numbers.vector(self.along), list(zip(*self._rings(paper.numbers), strict=True))
         centre, radius = max((rings[0], rings[-1]), key=lambda ring: dot(ring[0], paper.stance.eye))
         return paper.spots(*rim(centre, radius, along))
@@ -51,7 +51,7 @@ class Revolved(Surface):
 class SliceMark(Revolved):
     """A thin slice of a round body across its axis, with its radius as its label.
 
-    height, thickness   the letter of its height and the label of its thickness
+    height, thickness   the symbol of its height and the label of its thickness
     """
 
     height: Any = field(default=None, metadata=BESIDE)
@@ -77,7 +77,7 @@ class SliceMark(Revolved):
 
 @dataclass(frozen=True)
 class EllipsoidMark(Surface):
-    """An ellipsoid with its axes along those of the drawing: its outline, and sections through two axes in front."""
+    """An ellipsoid with axes along those of the drawing: its outline, and the visible parts of its main sections."""
 
     centre: Position
     semi_axes: tuple[Any, Any, Any]
@@ -105,7 +105,7 @@ class EllipsoidMark(Surface):
 
 @dataclass(frozen=True)
 class TorusMark(Surface):
-    """A ring of round cross-section about the z axis; `radius` leads from its centre to the middle of the section."""
+    """A ring of round cross-section about the z axis; `radius` is from its centre to the centre of the section."""
 
     centre: Position
     radius: Any
@@ -130,7 +130,7 @@ class TorusMark(Surface):
         return numbers.vector(self.centre), numbers.of(self.radius), numbers.of(self.section)
 
     def _contour(self, paper: Paper, side: float) -> list[Vector]:
-        """Where its surface turns away from the eye: the normal there is across the way to the eye."""
+        """The curve where its surface turns away from the viewer: the normal is perpendicular to the line of sight."""
         centre, big, small = self._sizes(paper.numbers)
         eye = paper.stance.eye
         found = []
@@ -140,14 +140,14 @@ class TorusMark(Surface):
         return found
 
     def _hole(self, paper: Paper, edge: Sequence[Vector]) -> list[Spot]:
-        """Where one looks through it, between its inner edges behind and in front."""
+        """The visible opening, between its inner edges behind and in front."""
         centre, eye = paper.numbers.vector(self.centre), paper.stance.eye
         behind = [paper.spot(place) for place in edge if dot(plus(place, centre, -1.0), eye) < 0]
         ends = [x for x, _ in behind]
         return [spot for spot in paper.spots(*edge) if min(ends) <= spot[0] <= max(ends)] if len(behind) > 2 else []
 
     def _is_seen(self, paper: Paper, place: Vector) -> bool:
-        """Whether nothing of it is between the place and the eye."""
+        """Whether no part of the torus is between the place and the viewer."""
         centre, big, small = self._sizes(paper.numbers)
         for k in range(1, SIGHT):
             x, y, z = plus(plus(place, paper.stance.eye, 4.0 * big * k / SIGHT), centre, -1.0)
@@ -161,7 +161,7 @@ def _unit_along(k: int) -> Vector:
 
 
 def _runs(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]:
-    """The stretches of a closed curve at which a flag holds."""
+    """The parts of a closed curve where the flag is true."""
     found: list[list[Vector]] = []
     for i, (place, flag) in enumerate(zip(places, flags, strict=True)):
         if flag:
@@ -175,8 +175,8 @@ def _runs(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]
 class Polyhedron(Surface):
     """A convex body with flat faces, or a plane figure.
 
-    faces     each by its corners in order, from either side; none if the corners are those of one face alone
-    lengths   names that are written beside one of the edges that have this length
+    faces     each by its corners in order, from either side; empty if the corners form a single face
+    lengths   labels, each written at one of the edges with this length
     """
 
     corners: tuple[Position, ...]
@@ -201,7 +201,7 @@ class Polyhedron(Surface):
 
 @dataclass(frozen=True)
 class ThinRod(Surface):
-    """A rod, too thin to show its thickness, or a piece of one."""
+    """A rod without visible thickness, or a piece of one."""
 
     start: Position
     end: Position
@@ -237,7 +237,7 @@ class Circle(Surface):
 
 @dataclass(frozen=True)
 class Cavity(Mark):
-    """What is cut out within a body: its outline, dashed."""
+    """A cavity inside a body, drawn as a dashed outline."""
 
     of: Surface
 
@@ -251,7 +251,7 @@ class Cavity(Mark):
 
 @dataclass(frozen=True)
 class Bore(Cavity):
-    """What is cut out all the way through a body: its rim on the side of the eye, and the rest of it dashed."""
+    """A bore through a body: its rim on the viewer's side, and its other lines dashed."""
 
     layer: ClassVar[int] = 2
 
@@ -264,7 +264,7 @@ class Bore(Cavity):
 
 @dataclass(frozen=True)
 class Hole(Cavity):
-    """What is cut out of a flat body: one looks through it."""
+    """A hole in a flat body, which can be seen through."""
 
     layer: ClassVar[int] = 2
 

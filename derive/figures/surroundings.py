@@ -1,4 +1,4 @@
-"""What stands round the parts of a machine: ground, fixed ends, angles, lengths, gravity, the way of a place."""
+"""The surroundings of the parts of a machine: ground, fixed ends, angles, lengths, gravity, the path of a place."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from derive.figures.marks import LAST, InWords, Mark, Position, Surface
 from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
 
-HATCH = 4.0  # points: between two hatches, and how far they reach
+HATCH = 4.0  # points: between two hatches, and their length
 STAND = 9.0  # half the length of the piece of wall that holds a fixed end
 ARC = (11.0, 27.0)  # the radius of an arc
-FREE = 16.0  # between everything and the arrow of gravity
+FREE = 16.0  # between all other marks and the arrow of gravity
 ARROW = 24.0
-ROOM = 26.0  # from the middle of what stands on a floor to its end
+ROOM = 26.0  # from the centre of a body on a floor to the end of the floor
 STEPS = 120
 
 
@@ -38,8 +38,8 @@ def hatched(start: Spot, end: Spot, solid: Spot) -> list[Piece]:
 class GroundMark(Surface):
     """A floor, a ceiling or a wall: a line that is hatched on its solid side.
 
-    solid   a direction to that side
-    off     points by which the line is set off to that side, for what stands on it and has no size of its own
+    solid   a direction towards that side
+    off     points by which the line is shifted to that side, for a body of fixed drawn size on it
     """
 
     start: Position
@@ -94,8 +94,8 @@ def _across(start: Spot, end: Spot, side: Spot) -> Spot:
 
 @dataclass(frozen=True)
 class FixedEnd(Surface):
-    """A place that is held by a piece of wall behind it; `away` is the direction from the wall, without which there
-    is none. A pivot has a joint."""
+    """A place fixed by a piece of wall behind it; `away` is the direction from the wall, and no wall is drawn if it is
+    zero. A pivot has a joint."""
 
     at: Position
     away: Position
@@ -120,9 +120,9 @@ class FixedEnd(Surface):
 
 @dataclass(frozen=True)
 class WayMark(Surface):
-    """The way of a place while one letter goes from one end to the other: what it is bound to, if nothing else moves.
+    """The path of a place as one symbol varies over a range: the curve to which it is bound if nothing else moves.
 
-    pen   `trace`, or `wire` for a thing that is there
+    pen   `trace`, or `wire` for a solid object
     """
 
     place: Position
@@ -150,9 +150,9 @@ class WayMark(Surface):
 
 @dataclass(frozen=True)
 class AngleBetween(Mark):
-    """The arc from one way to another at a vertex, within both; `dashed` draws the first way, which nothing else does.
+    """The arc from one line to another at a vertex, shorter than both; `dashed` also draws the first line.
 
-    a, b   ways from the vertex, of which the lengths count
+    a, b   vectors from the vertex, whose lengths limit the arc
     """
 
     vertex: Position
@@ -175,7 +175,7 @@ class AngleBetween(Mark):
         if not size_of(a) or not size_of(b) or size > pi - 1e-6:
             return []
         reach = far if self.dashed else min(far, size_of(a) * paper.scale)
-        # A small angle has a large arc, so that there is something to see; none is so large that it meets the ends.
+        # A small angle has an arc with a large radius, so that it is visible, but the arc never reaches the ends.
         points = min(max(0.4 * reach, ARC[0]), ARC[1]) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
         along, across = unit(a), unit(plus(b, unit(a), -dot(b, unit(a))))
         radius = points / paper.scale
@@ -200,7 +200,7 @@ class AngleBetween(Mark):
 
 @dataclass(frozen=True)
 class UprightAngle(AngleBetween):
-    """An angle in an upright plane that is drawn from its front: nothing needs to be turned for it to be seen."""
+    """An angle in a vertical plane that faces the viewer, so it does not affect the choice of the view."""
 
     @property
     def directions(self) -> tuple[Position, ...]:
@@ -209,7 +209,7 @@ class UprightAngle(AngleBetween):
 
 @dataclass(frozen=True)
 class DistanceMark(Mark):
-    """A dimension line between two places, set off to a side, or away from the middle of the drawing."""
+    """A dimension line between two places, shifted to a side, or away from the centre of the drawing."""
 
     start: Position
     end: Position
@@ -247,7 +247,7 @@ class DistanceMark(Mark):
 
 @dataclass(frozen=True)
 class GravityMark(Mark):
-    """An arrow downwards beside everything else: the field in which it is."""
+    """An arrow downwards next to all other marks, for the gravitational field."""
 
     down: Position
     layer: ClassVar[int] = LAST
@@ -264,7 +264,7 @@ class GravityMark(Mark):
 
 @dataclass(frozen=True)
 class FieldMark(Mark):
-    """The arrow of a uniform field beside everything else, below those that stand `before` it."""
+    """The arrow of a uniform field next to all other marks, below `before` earlier ones."""
 
     along: Position
     before: int = 0

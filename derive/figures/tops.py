@@ -1,4 +1,4 @@
-"""What turns about a point by Euler's angles: the line of nodes, the axes that follow it, its turns and its sizes."""
+"""Bodies with Euler angles about a fixed point: line of nodes, axes that follow it, rotation arrows, dimensions."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
-TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
-# So that the line of nodes comes towards the reader, to the left; the axis then leans to the left and a little away.
+TO_THE_RIGHT = 2 * pi / 3  # in the usual view of a drawing
+# The line of nodes points towards the viewer, to the left; the axis then leans to the left and slightly away.
 NODES_IN_FRONT = -pi / 18
-LONGER, BESIDE, ROUND = Rational(27, 20), Rational(6, 5), Rational(1, 8)  # of the axis, where it turns, how wide
-ACROSS = Rational(4, 5)  # how long the axes across are, in terms of the body's own
-CLEAR, APART = 14.0, 20.0  # points from the axis to its dimension lines, past the arrow of the weight, and between them
+LONGER, BESIDE, ROUND = Rational(27, 20), Rational(6, 5), Rational(1, 8)  # of axes, and place and radius of arrows
+ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the body's own
+CLEAR, APART = 14.0, 20.0  # points from the axis to its dimension lines, beyond the weight arrow, and between them
 CENTRE = "C"
 
 
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
-    """Of a body turned about the vertical, inclined and turned about itself: arrows round the vertical and round its
-    axis, for the angles of precession and of spin, and for a symmetric one the axes that follow it without its spin.
+    """For a body with precession, nutation and spin, arrows round the vertical and its axis for the precession and spin
+    angles. For a symmetric body, also the axes that follow it without its spin.
 
-    end   where its axis ends
+    end   the end of its axis
     """
     axes: Any = placed.turned
     turns = [(i, angle) for i, angle in axes.turns if moving_in(system, 0 * angle + angle)]
@@ -62,7 +62,7 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
 
 
 def follows_nodes(placed: Any) -> bool:
-    """Whether it is a symmetric body turned by Euler's angles, so that the line of nodes is a principal axis of it."""
+    """Whether the body is symmetric and has Euler angles, so that the line of nodes is one of its principal axes."""
     turns = getattr(placed.turned, "turns", ())
     moments = getattr(placed.body, "moments", None)
     if [i for i, _ in turns] != [2, 0, 2]:
@@ -74,19 +74,19 @@ def follows_nodes(placed: Any) -> bool:
 
 
 def following_axes(placed: Any) -> list[ImmutableDenseMatrix]:
-    """The unit vectors of the axes that share all turns of a body but the last one."""
+    """The unit vectors of the axes that follow all rotations of a body except the last."""
     frame = after(placed.turned.turns[:-1])
     return [ImmutableDenseMatrix(frame[:, k]) for k in range(3)]
 
 
 def seen_upright(mark: Mark) -> Mark:
-    """An angle, as it is where the body itself was turned to be seen well."""
+    """The angle as a mark that does not affect the view, because the body is already rotated to face the viewer."""
     return UprightAngle(**{f.name: getattr(mark, f.name) for f in fields(mark)}) if type(mark) is AngleBetween else mark
 
 
 def stance_values(system: System) -> dict[Symbol, Expr]:
-    """With which angle of precession a body is drawn that is inclined after it: its line of nodes comes to the front,
-    or, where it is inclined the other way, its axis leans to the right."""
+    """The precession angle at which an inclined body is drawn: its line of nodes is in front, or for other systems and
+    bodies its axis leans to the right."""
     found: dict[Symbol, Expr] = {}
     for placed in system.bodies:
         turns: Any = getattr(placed.turned, "turns", ())
@@ -98,12 +98,12 @@ def stance_values(system: System) -> dict[Symbol, Expr]:
     return found
 
 
-# --- how large it is -------------------------------------------------------------------------------------------------
+# --- dimensions ------------------------------------------------------------------------------------------------------
 
 
 def sizes_of_top(placed: Any) -> Iterable[Mark]:
-    """The radii and lengths of the round parts on the axis of a body that follows its line of nodes, how far they are
-    from the point that is held, and its centre of mass."""
+    """The radii of the round parts on the axis of a body that follows its line of nodes, the distances of their ends
+    from its fixed point, and its centre of mass."""
     if not follows_nodes(placed):
         return
     _, across, along = following_axes(placed)
@@ -123,7 +123,7 @@ def sizes_of_top(placed: Any) -> Iterable[Mark]:
 
 
 def _parts(placed: Any) -> list[tuple[RoundBody, Expr]]:
-    """The round bodies of which it is made, with where their own z is zero, from the point that is held."""
+    """The round parts of a body, each with the place of its own z = 0, measured from the fixed point."""
     held = placed.point.position[2]
     if isinstance(placed.body, RoundBody):
         return [(placed.body, -held)]
@@ -132,7 +132,7 @@ def _parts(placed: Any) -> list[tuple[RoundBody, Expr]]:
 
 
 def _is_on_axis(part: Any) -> bool:
-    """Whether a part is round about the axis of the whole, along which its own z points."""
+    """Whether a part is round about the axis of the whole body, with its own z axis along it."""
     if not isinstance(part.body, RoundBody):
         return False
     low, high = part.seen(_on_axis(0)), part.seen(_on_axis(1))
@@ -154,6 +154,6 @@ def _radius(body: RoundBody, foot: Position, along: Position, aside: Position) -
 
 
 def _lengths(body: RoundBody, low: Expr) -> list[Expr]:
-    """From the point that is held to both ends of a part, of a flat one to its middle."""
+    """The distances from the fixed point to both ends of a part; only one distance for a flat part."""
     lower, upper = body.ends
     return [tidied(as_expr(low) + end) for end in dict.fromkeys((lower, upper))]

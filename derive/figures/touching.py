@@ -1,7 +1,7 @@
-"""What bodies and particles of a plane lean on, hang on or roll on, as their conditions say.
+"""Supports of bodies and particles in a plane, on which they lean, hang or roll, recognised from conditions.
 
-A condition that keeps a place at a height or beside a vertical line is a floor or a wall; one that keeps both holds it;
-one by which a round body rolls on a circle at rest is that circle, and on a vertical line a string wound on it.
+A condition that fixes the height or the horizontal position of a place is a floor or a wall; both together are a fixed
+joint. If a round body rolls on a fixed circle, this circle is drawn; on a vertical line, a string wound on the body.
 """
 
 from __future__ import annotations
@@ -42,14 +42,14 @@ from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
-PAST = Rational(6, 5)  # how far a wall goes past what leans on it
-ROLLING = 60.0  # points of ground on either side of what rolls there
-TENSIONS = ("S", "T")  # letters of the force of a string, which is no floor
+PAST = Rational(6, 5)  # height of a wall, relative to that of the leaning place
+ROLLING = 60.0  # points of ground on either side of a rolling body
+TENSIONS = ("S", "T")  # symbols for the force of a string; such a condition is not a floor
 
 
 @dataclass(frozen=True)
 class Leaning:
-    """A place whose component is kept by a constraint."""
+    """A place with a component that is fixed by a constraint."""
 
     constraint: Constraint
     place: Location
@@ -58,14 +58,14 @@ class Leaning:
 
 
 class Touching:
-    """The marks for what a condition of a plane system stands for, and which constraints they show."""
+    """The marks for the conditions of a plane system, and the constraints that they show."""
 
     def __init__(self, system: System):
         self.system = system
         self.shown: set[Constraint] = set()
         self.values: dict[Symbol, Expr] = {}
-        self.told = False  # whether a condition of rolling says what a body rolls on
-        self.rolls_at_rest: list[Any] = []  # bodies of which it is known what they roll on
+        self.told = False  # whether a rolling condition specifies the surface
+        self.rolls_at_rest: list[Any] = []  # bodies whose rolling surface is known
         is_plane = len(system.places[0].components) == 2
         self.marks: list[Mark] = [*self._leaning(), *self._wound(), *self._round()] if is_plane else []
 
@@ -90,7 +90,7 @@ class Touching:
                 yield self._wall(each, [other.at for other in free if other.component == 1])
 
     def _wall(self, lean: Leaning, floors: list[Expr]) -> Mark:
-        """From the floor, or from what is lowest, to a little past the place that touches it."""
+        """The wall from the floor, or from the lowest place, to a little beyond the place that touches it."""
         height = lean.place.components[1]
         others = [at for _, at in self.system.masses]
         low = floors[0] if floors else min((at.components[1] for at in others), key=self._numeric)
@@ -102,7 +102,7 @@ class Touching:
     def _numeric(self, value: Expr) -> float:
         return numeric(value.subs(self.values))
 
-    # --- strings on what is round ---
+    # --- strings on round bodies ---
 
     def _wound(self) -> Iterable[Mark]:
         for placed, radius, _ in self._wheels():
@@ -112,7 +112,7 @@ class Touching:
                 yield from self._unwinding(placed, radius)
 
     def _wheels(self) -> Iterator[tuple[Any, Expr, Location]]:
-        """The bodies with a round edge in the plane, its radius and the middle of its circle."""
+        """The bodies with a round edge in the plane, its radius and the centre of its circle."""
         for placed in map(with_its_shape, self.system.bodies):
             roller = roller_of(self.system, placed) if not placed_outline(placed) else None
             if roller is not None:
@@ -128,7 +128,7 @@ class Touching:
                     yield placed, radius, placed.at + placed.seen_in_space(own)
 
     def _pulley(self, placed: Any, radius: Expr) -> Iterable[Mark]:
-        """Strings from a wheel with a fixed axle to what moves on lines that touch its rim."""
+        """Strings from a wheel with a fixed axle to particles that move on tangents of its rim."""
         hung = False
         for each in self.system.constraints:
             for particle in self.system.particles:
@@ -149,7 +149,7 @@ class Touching:
             yield FixedEnd(above, downwards(2))
 
     def _unwinding(self, placed: Any, radius: Expr) -> Iterable[Mark]:
-        """The string that is wound on a wheel which moves up and down along it."""
+        """The string that is wound on a wheel that moves up and down along it."""
         track = track_of(self.system, placed.centre)
         if track is None or track.way.components[0] != 0 or not is_fixed(self.system, track.start):
             return
@@ -165,14 +165,14 @@ class Touching:
                 yield from way_marks(track.start, placed.centre, Location((-side, ZERO)), track.by, radius)
 
     def _has_come(self, q: Symbol, far: Expr) -> None:
-        """How far along its line a wheel is drawn, so that its way is seen beside it."""
+        """Set the displacement at which a wheel is drawn, so that its dimension line is visible."""
         if self.system.coordinates.get(q) == "length":
             self.values[q] = far
 
-    # --- circles at rest ---
+    # --- fixed circles ---
 
     def _round(self) -> Iterable[Mark]:
-        """The circle on which a wheel rolls, outside or inside of it, and on straight ground that it does so."""
+        """The circle outside or inside which a wheel rolls, or the straight ground on which it rolls."""
         told = any(condition.fact(Rolling) for condition in self.system.conditions)
         for placed, radius, hub in self._wheels():
             link = next(links_about_fixed(self.system, hub), None)
@@ -188,7 +188,7 @@ class Touching:
                         yield FloorMark((column_of(foot),), 0.0, (ROLLING, ROLLING))
 
     def _feet(self, hub: Location, radius: Expr) -> Iterable[Location]:
-        """Where a circle that moves along a straight line may touch straight ground under it."""
+        """The places where a circle that moves along a straight line may touch straight ground below it."""
         way = Location(tuple(tidied(c.diff(q)) for c in hub.components for q in self._moving(hub)))
         if len(way.components) == 2 and is_fixed(self.system, way):
             size = sqrt(tidied(way.components[0] ** 2 + way.components[1] ** 2))
@@ -209,7 +209,7 @@ class Touching:
             return
         size = tidied(far + radius if inside else far - radius)
         if size == 0:
-            return  # it is held there
+            return  # the body is fixed there
         start = column_of(link.start)
         bound = link.end if kept is None else bound_place(link.end, link.length, far)
         contact = column_of(link.start + (size / far) * (bound - link.start))
@@ -224,7 +224,7 @@ class Touching:
             self.values[link.length] = far
 
     def _is_inside(self, placed: Any, radius: Expr, link: Link, far: Expr) -> bool | None:
-        """Whether it touches a circle round it: as it rolls, or as the distance that is kept has it."""
+        """Whether the body is inside the circle that it touches, by rolling or a fixed distance; None if unknown."""
         if kept_length(self.system, link.length) is not None:
             sizes = [tidied(far - radius), tidied(far + radius)]
             plain = [size.is_Symbol for size in sizes]
@@ -236,10 +236,10 @@ class Touching:
                 return sign == 1
         return None
 
-    # --- what is at rest ---
+    # --- places at rest ---
 
     def at_rest(self, placed: Any, at: Location) -> set[Constraint] | None:
-        """The constraints by which the particle of a body at a place is at rest; nothing if they do not say so."""
+        """The constraints that keep the particle of a body at a place at rest; None if they do not."""
         moving = list(self.system.coordinates)
         found: set[Constraint] = set()
         for component in contact_velocity(placed, at, None):
@@ -253,7 +253,7 @@ class Touching:
 
 
 def leanings(system: System) -> Iterator[Leaning]:
-    """The places of which a constraint that no string keeps fixes a component."""
+    """The places with a component that is fixed by a constraint, except constraints by strings."""
     places = [particle.at for particle in system.particles]
     for placed in system.bodies:
         for mark in placed_outline(with_its_shape(placed)):
@@ -271,7 +271,7 @@ def leanings(system: System) -> Iterator[Leaning]:
 
 
 def _solved(constraint: Constraint, known: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """A coordinate that a constraint gives by the others."""
+    """A coordinate in terms of the others, from a constraint."""
     for q in constraint.coordinates:
         share = constraint.along(q)
         if share.is_number and q not in known:
@@ -280,7 +280,7 @@ def _solved(constraint: Constraint, known: Mapping[Symbol, Expr]) -> dict[Symbol
 
 
 def _follows(component: Expr, constraint: Constraint, moving: list[Symbol]) -> bool:
-    """Whether a velocity is a multiple of what a constraint makes vanish."""
+    """Whether a velocity is a multiple of the velocity that vanishes by a constraint."""
     kept = constraint.velocity(moving)
     pairs = [(component.diff(rate(q)), kept.diff(rate(q))) for q in moving]
     share = next((a / b for a, b in pairs if b != 0 and a != 0), None)

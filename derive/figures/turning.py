@@ -1,4 +1,4 @@
-"""What turns, as its formulas say: rods on pivots, ways of a length that changes, and their angles."""
+"""Rotating parts, recognised from formulas: rods on pivots, lines of variable length, and their angles."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from derive.mechanics.model.system import Particle, System
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
-HANGING = frozenset({"bob", "pendulum"})  # what particles are called that hang on a rod or a string
-THREADED = frozenset({"bead", "ring", "sleeve", "collar"})  # and those on a wire
+FAR = Rational(8, 5)  # drawn range of a curve, relative to its coordinate
+HANGING = frozenset({"bob", "pendulum"})  # names of particles that hang on a rod or a string
+THREADED = frozenset({"bead", "ring", "sleeve", "collar"})  # names of particles on a wire
 
 
 def turning_marks(system: System, link: Link, which: Particle, named: Sequence[Location] = ()) -> Iterable[Mark]:
-    """A particle on the way that holds it, and how that way lies; a rod leads from a place that was named, or moves."""
+    """A particle at the end of its link, with the link and its angle; a rod starts at a named or moving place."""
     start, end = column_of(link.start), column_of(link.end)
     rows = len(link.start.components)
     yield ParticleMark(end, label=which.mass)
@@ -76,8 +76,8 @@ def turning_marks(system: System, link: Link, which: Particle, named: Sequence[L
 
 
 def is_rod_for(system: System, link: Link, name: str) -> bool:
-    """Whether a constant distance is surely a rod or a string: of what is called so, between two particles, or of a
-    length that has the letter of one. On a radius about a place at rest, a bead may slide on a hoop as well."""
+    """Whether a constant distance is certainly a rod or a string: by the particle's name, between two particles, or by
+    a length called l. Otherwise it may also be the radius of a hoop on which a bead slides."""
     if _is_called(name, THREADED) or _is_rim(system, link):
         return False
     if _is_called(name, HANGING) or _is_joint(system, link.start):
@@ -86,7 +86,7 @@ def is_rod_for(system: System, link: Link, name: str) -> bool:
 
 
 def _is_joint(system: System, place: Location) -> bool:
-    """Whether a particle is there, or the middle of a body."""
+    """Whether a particle or the centre of a body is at the place."""
     return any(same(place, at) for _, at in system.masses)
 
 
@@ -95,7 +95,7 @@ def _is_called(name: str, kinds: frozenset[str]) -> bool:
 
 
 def _is_rim(system: System, link: Link) -> bool:
-    """Whether a link is a radius of a round body: what is at its end is on the body."""
+    """Whether a link is a radius of a round body, so that its end is on the body."""
     for placed in system.bodies:
         radius = getattr(placed.body, "radius", None)
         if radius is not None and same(placed.centre, link.start) and is_zero(radius - link.length):
@@ -112,18 +112,18 @@ def downwards(rows: int) -> ImmutableDenseMatrix:
 
 
 def angle_marks(system: System, link: Link) -> Iterable[Mark]:
-    """The angle of a way with a fixed direction, and in space that of what is seen of it from above."""
+    """The angle of a link with a fixed direction, and in space also that of its horizontal projection."""
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned
-        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # in space the rate stands at the axis
+        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # in space the axis has the rate
             yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
     if len(link.way.components) == 3:
         yield from _round_the_vertical(system, link)
 
 
 def _components(system: System, link: Link) -> list[Mark]:
-    """The axes along which the components of a way are counted, where these are coordinates."""
+    """The axes along which the components of a link are measured, if these are coordinates."""
     lengths = [q for q in moving_in(system, link.length) if system.coordinates.get(q) == "length"]
     ways = {q: ImmutableDenseMatrix([diff(c, q) for c in link.way.components]) for q in lengths}
     if len(ways) < 2 or any(moving_in(system, *way) - {TIME} for way in ways.values()):
@@ -141,7 +141,7 @@ def _has_spring(system: System, link: Link) -> bool:
 
 
 def _shaken(system: System, support: Location) -> Iterable[Mark]:
-    """How far a support has moved, where it does so along one of the axes."""
+    """The displacement of a support that moves along one of the axes."""
     moving = moving_in(system, *support.components)
     rest = Location(tuple(_terms_without(c, moving) for c in support.components))
     moved = [c for c in (support - rest).components if c != 0]
@@ -151,7 +151,7 @@ def _shaken(system: System, support: Location) -> Iterable[Mark]:
 
 
 def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
-    """The angle of what is seen from above, or the axis round which it is carried at a given rate."""
+    """The angle of the horizontal projection, or the axis of its rotation at a given rate."""
     x, y, _ = link.way.components
     angles = sorted({f.args[0] for c in (x, y) for f in c.atoms(sin, cos)}, key=str)
     start, level = column_of(link.start), ImmutableDenseMatrix([x, y, 0])
@@ -170,12 +170,12 @@ def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
 
 
 def _on_the_axis(carried: Location) -> Location:
-    """Where the axis is round which a place is carried."""
+    """The place on the axis about which a place is carried round."""
     return Location(tuple(_terms_without(c, {TIME}) for c in carried.components))
 
 
 def _arm(system: System, carried: Location) -> Iterable[Mark]:
-    """What carries a place round an axis."""
+    """The arm that carries a place round an axis."""
     foot = _on_the_axis(carried)
     square = tidied(Add(*(c**2 for c in (carried - foot).components)))
     if square != 0 and not moving_in(system, square):

@@ -1,4 +1,4 @@
-"""Which values a letter can have that lies in a range, and a sine or a cosine."""
+"""The values that are possible for a symbol with a range, and for a sine or a cosine."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from derive.algebra.tidy import tidied
 from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import within_one
 
-DRAWN = 24  # sets of numbers for the letters
+DRAWN = 24  # sets of numbers for the symbols
 LITTLE = Rational(1, 10**12)
 
 
 def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
-    """The condition under which the letter of an unknown can be such that this has the value; and whether it never can.
+    """The condition under which an unknown can have the value, and whether it never can.
 
-    No cosine is greater than one, and no letter leaves its range.
+    A cosine is not greater than one, and a symbol does not leave its range.
     """
     exists, never = (None, False)
     if isinstance(unknown, sin | cos) and value not in (1, -1):
@@ -29,15 +29,15 @@ def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
 
 
 def is_out_of_range(unknown: Expr, value: Expr) -> bool:
-    """Whether the letter would be beyond its range."""
+    """Whether the value is outside the possible values of the unknown."""
     ends = ends_within(unknown)
     beyond = (value - ends[1], ends[0] - value) if ends else ()
     return any(end.is_finite is not False and sign_by_factors(tidied(end)) in (0, 1) for end in beyond)
 
 
 def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:
-    """Whether a value is in the range of a letter, by numbers for the letters for which it exists; None where it is so
-    for some of them only."""
+    """Whether a value is in the range of a symbol, tested with numbers for which the value exists; None if this is
+    true for some of these numbers only."""
     known, seen = range_of(letter), set()
     if known is None:
         return True

@@ -1,7 +1,7 @@
 """The eigenvalue problem K a = lambda M a, solved exactly: the roots of det(K - lambda M) = 0 and their columns.
 
-The matrices are freed of their common factors first, so that mostly numbers are left. Columns are worked out with
-lambda a letter, modulo the irreducible factor that it is a root of: whether a pivot vanishes is then decided exactly.
+Common factors are taken out of the matrices first, so that mostly numbers are left. Columns are computed with lambda as
+a symbol, modulo the irreducible factor that has it as a root: this decides exactly whether a pivot vanishes.
 """
 
 from __future__ import annotations
@@ -55,15 +55,15 @@ from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import sign_where
 from derive.steps.step import is_zero
 
-LARGEST, LETTERS = 12, 40  # coordinates; coordinates times letters of the matrices
-FINEST = 60  # parts of a right angle or two that a frequency of a chain is looked for in
+LARGEST, LETTERS = 12, 40  # coordinates; coordinates times symbols of the matrices
+FINEST = 60  # most parts of a right angle that are tried for the frequency of a chain
 
 
 @dataclass(frozen=True)
 class Root:
-    """A root lambda of det(K - lambda M): its columns, orthogonal with M between them, and its sign where known.
+    """A root lambda of det(K - lambda M): its columns, orthogonal with respect to M, and its sign if it is known.
 
-    A root that has no formula has no columns either.
+    A root without a formula has no columns.
     """
 
     value: Expr
@@ -81,9 +81,9 @@ class Root:
 
 @dataclass(frozen=True)
 class Pencil:
-    """K - lambda M, of symmetric matrices, where a condition holds.
+    """K - lambda M, with symmetric matrices; the condition `exists` is assumed to hold.
 
-    name   of the roots of a factor without formulas, which are numbered; without a name they are refused
+    name   of the numbered roots of a factor without formulas; by default such a factor is rejected
     """
 
     stiffness: MatrixBase
@@ -93,7 +93,7 @@ class Pencil:
 
     @cached_property
     def scale(self) -> Expr:
-        """What lambda is counted in, so that as few letters as possible are left: k/m."""
+        """The unit of lambda, such as k/m, for which as few symbols as possible are left."""
         return common_factor(list(self.stiffness)) / common_factor(list(self.mass))
 
     @cached_property
@@ -108,19 +108,19 @@ class Pencil:
         stiffness, mass = self._reduced
         size = stiffness.shape[0]
         if size > LARGEST or size > 3 and size * len((stiffness + mass).free_symbols) > LETTERS:
-            message = f"the frequencies of {size} coordinates with so many letters are too much to be worked out"
-            raise Rejected(Complaint("too-large", message, help="give equal masses and springs one letter"))
+            message = f"the frequencies of {size} coordinates with this many symbols cannot be computed"
+            raise Rejected(Complaint("too-large", message, help="use one symbol for equal masses or equal springs"))
         whole = determinant_of(stiffness - _LAMBDA * mass)
         try:
             found = Poly(whole, _LAMBDA).factor_list()[1]
         except PolynomialError:
             found = []
         if sum(part.degree() * times for part, times in found) != size:
-            raise Rejected(Complaint("no-closed-form", "the determinant is no polynomial that could be factored"))
+            raise Rejected(Complaint("no-closed-form", "the determinant is not a polynomial that can be factored"))
         return tuple((part, times) for part, times in found)
 
     def factored(self, unknown: Expr) -> Expr:
-        """The determinant but for a constant factor, in factors, with lambda put in."""
+        """The determinant up to a constant factor, factored, with `unknown` substituted for lambda."""
         parts = []
         for part, times in self.factors:
             value = tidied(part.as_expr().xreplace({_LAMBDA: unknown / self.scale}))
@@ -130,7 +130,7 @@ class Pencil:
 
     @cached_property
     def roots(self) -> tuple[Root, ...]:
-        """From the least to the greatest, where the letters have middling values; those without a formula come last."""
+        """The roots in ascending order for ordinary values of the symbols; those without a formula come last."""
         found = [root for part, times in self.factors for root in self._roots_of(part, times)]
         return tuple(sorted(found, key=lambda root: (not root.has_formula, _size(root.value))))
 
@@ -144,16 +144,16 @@ class Pencil:
         alone = [other.degree() for other, _ in self.factors if _roots_of(other) is None] == [degree]
         if not self.name or times > 1 or not alone or not self._are_positive(coefficients):
             message = f"the squares of {degree} frequencies are the roots of a polynomial that does not factor"
-            help_ = "give equal masses and springs one letter, or give all of them numbers"
+            help_ = "use one symbol for equal masses or equal springs, or give all of them numbers"
             if self.name:
-                help_ = "numbers help for small oscillations about a stable equilibrium, of one such polynomial"
+                help_ = "for small oscillations about a stable equilibrium with one such polynomial, give numbers"
             raise Rejected(Complaint("no-closed-form", message, help=help_))
         names = [scalar(f"{self.name}_{n + 1}") for n in range(degree)]
         return [Root(OrderedRoot(coefficients, n + 1, name), (), 1) for n, name in enumerate(names)]
 
     def _are_positive(self, coefficients: Sequence[Expr]) -> bool:
-        """Whether all roots of that factor are: they are real where M is positive, and by Descartes' rule none that is
-        real is negative or zero where the signs of the coefficients alternate."""
+        """Whether all roots of that factor are positive. They are real if M is positive definite; by Descartes' rule,
+        no real root is negative or zero if the signs of the coefficients alternate."""
         signs = [sign_by_factors(tidied(each)) for each in coefficients]
         alternate = None not in signs and 0 not in signs and all(u == -v for u, v in pairwise(signs))  # type: ignore[operator]
         return alternate and self._has_positive_minors(self.mass)
@@ -165,12 +165,12 @@ class Pencil:
             for column in _null_columns(stiffness - _LAMBDA * mass, part)
         ]
         if len(columns) != times:
-            raise Rejected(Complaint("no-closed-form", "a repeated frequency has fewer shapes than it should"))
+            raise Rejected(Complaint("no-closed-form", "a repeated frequency has too few independent mode shapes"))
         exact = _of_plain_sign(tidied(self.scale * value))
         return Root(exact, tuple(_presentable(c) for c in _orthogonal(columns, mass)), self._sign(exact))
 
     def _sign(self, value: Expr) -> int | None:
-        """Of a root: by itself; else positive where both matrices are positive, by their leading minors."""
+        """Return the sign of a root: its own sign if known; else 1 if both matrices have positive leading minors."""
         if is_zero(value):
             return 0
         own = 1 if value.is_positive else -1 if value.is_negative else sign_where(value, self.exists)
@@ -190,14 +190,14 @@ _LAMBDA = Dummy("lambda")
 
 
 def _leading_positive(value: Expr, unknown: Expr) -> Expr:
-    """Without a minus sign before the highest power, where that is known."""
+    """The value without a minus sign before the highest power, if its sign is known."""
     letters = unknown.free_symbols
     leading = value.as_poly(*letters)
     return -value if leading is not None and leading.LC().could_extract_minus_sign() else value
 
 
 def _by_powers(value: Expr, unknown: Expr) -> Expr:
-    """Each power with one coefficient in factors before it."""
+    """Collect by powers, each with one factored coefficient, if that is shorter."""
     polynomial = value.as_poly(*unknown.free_symbols)
     if polynomial is None:
         return value
@@ -206,7 +206,7 @@ def _by_powers(value: Expr, unknown: Expr) -> Expr:
 
 
 def _roots_of(part: Poly) -> list[Expr] | None:
-    """Of an irreducible polynomial: linear, quadratic, or that of a uniform chain; nothing of any other."""
+    """The roots of a linear or quadratic polynomial, or of that of a uniform chain; None for any other."""
     if part.degree() == 1:
         a, b = part.all_coeffs()
         return [_of_plain_sign(tidied(-b / a))]
@@ -218,7 +218,7 @@ def _roots_of(part: Poly) -> list[Expr] | None:
 
 
 def _of_plain_sign(value: Expr) -> Expr:
-    """With sin^2 in place of cos^2, or the other way, where that shows a sign: M + m sin^2 a, not M + m - m cos^2 a."""
+    """Replace cos^2 by sin^2, or the reverse, if that shows a sign: M + m sin^2 a, not M + m - m cos^2 a."""
     if sign_by_factors(value) is not None:
         return value
     above, below = fraction(together(value))
@@ -230,23 +230,23 @@ def _of_plain_sign(value: Expr) -> Expr:
 
 
 def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
-    """b^2 - 4 a c, tidy or with its two terms in factors, whichever is shorter."""
+    """b^2 - 4 a c, tidied or with its two terms factored, whichever is shorter."""
     common = gcd(b**2, a * c)
     apart = factor(common) * (factor(b**2 / common) - 4 * factor(a * c / common))
     return min((tidied(b**2 - 4 * a * c), apart), key=length)
 
 
 def _sum_with_root(plain: Expr, before: Expr, root: Expr) -> Expr:
-    """u + v sqrt(D), u and v in factors where that is shorter, over one denominator."""
+    """u + v sqrt(D) over one denominator, with u and v factored if that is shorter."""
     below = lcm(*(fraction(together(part))[1] for part in (plain, before)))
     apart = (factor(plain * below) + factor(before * below) * root) / factor(below)
     return min((tidied(plain + before * root), apart), key=length)
 
 
 def _of_chain(part: Poly) -> list[Expr] | None:
-    """4 sin^2(a pi/2b) for all roots: then the polynomial divides T_b(1 - lambda/2) -+ 1, with Chebyshev's T_b.
+    """The roots if all are 4 sin^2(a pi/2b): then the polynomial divides T_b(1 - lambda/2) -+ 1, with Chebyshev's T_b.
 
-    T_(b + 1) = 2 x T_b - T_(b - 1) is worked out modulo the polynomial, so that no power is higher than its own.
+    T_(b + 1) = 2 x T_b - T_(b - 1) is computed modulo the polynomial, so all powers are below its degree.
     """
     if not part.get_domain().is_ZZ and not part.get_domain().is_QQ:
         return None
@@ -266,7 +266,7 @@ def _of_chain(part: Poly) -> list[Expr] | None:
 
 
 def _entry_at(entry: Expr, value: Expr) -> Expr:
-    """An entry with lambda put in; of a chain, 4 sin^2 u, with multiples of the angle in place of powers."""
+    """An entry with the value of lambda substituted; for a chain, 4 sin^2 u, with multiple angles instead of powers."""
     roots = [p for p in value.atoms(Pow) if p.exp == Rational(1, 2) and p.has(Symbol)]
     if len(roots) == 1 and (split := value.as_poly(roots[0])) is not None and split.degree() == 1:
         before, plain = split.all_coeffs()
@@ -280,7 +280,7 @@ def _entry_at(entry: Expr, value: Expr) -> Expr:
 
 
 def _null_columns(matrix: MatrixBase, part: Poly) -> list[MatrixBase]:
-    """A basis of what the matrix takes to zero, where lambda is a root of the irreducible polynomial."""
+    """A basis of the null space of the matrix, where lambda is a root of the irreducible polynomial."""
     size = matrix.shape[0]
 
     def reduced(entry: Expr) -> Poly:
@@ -325,7 +325,7 @@ def _first_is_one(entries: list[Poly], modulus: Poly) -> MatrixBase:
 
 
 def _orthogonal(columns: Iterable[MatrixBase], mass: MatrixBase) -> list[MatrixBase]:
-    """Gram and Schmidt's way, with M between the columns."""
+    """Orthogonalise the columns with respect to M by the Gram-Schmidt method."""
     found: list[MatrixBase] = []
     for column in columns:
         for other in found:
@@ -336,7 +336,7 @@ def _orthogonal(columns: Iterable[MatrixBase], mass: MatrixBase) -> list[MatrixB
 
 
 def _presentable(column: MatrixBase) -> MatrixBase:
-    """(2, 3) for (1, 3/2), where all entries are rational numbers."""
+    """(2, 3) for (1, 3/2), if all entries are rational numbers."""
     if not all(entry.is_Rational for entry in column):
         return column
     return ImmutableDenseMatrix(column * ilcm(1, *(entry.q for entry in column)))
@@ -350,13 +350,13 @@ def _size(value: Expr) -> tuple[float, str]:
 
 
 def _is_power_of_one_sum(value: Expr) -> bool:
-    """m A^2/(l^2 + m c A)^(3/2), of which no other factor stands under the root."""
+    """Whether the value is like m A^2/(l^2 + m c A)^(3/2): one root of a sum, with no other factor under a root."""
     halves = [p for p in Mul.make_args(value) if not p.as_base_exp()[1].is_Integer]
     return len(halves) == 1 and halves[0].base.is_Add and abs(halves[0].exp) > 1
 
 
 def root_of(square: Expr) -> Expr:
-    """sqrt(k/m) under one root; a rational root is drawn, and so is that of a sine."""
+    """The square root, with one root sign as in sqrt(k/m); a rational root, or one of a sine, is evaluated."""
     drawn = tidied(sqrt(square))
     if drawn == 0 or square.has(sin) or not is_irrational(drawn):
         return drawn

@@ -1,4 +1,4 @@
-"""Refuse values that a result does not have: infinite ones, undefined ones and complex ones."""
+"""Reject values of a result that are infinite, undefined or complex."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from derive.errors import Complaint, Rejected
 
 
 def check_defined(verb: str, called: str, where: str, value: Any, put: Callable[[Any], Any]) -> None:
-    """Refuse what has no real value once letters are replaced.
+    """Reject a result that has no real value after symbols are replaced.
 
-    verb     the verb that replaces them, and `called`, the result in which it does
-    where    what is put in, in words: `alpha = pi/2`
-    value    the result before
-    put      replaces the letters in an expression
+    verb     the verb that replaces them; `called` is the name of the result
+    where    the substitution in words: `alpha = pi/2`
+    value    the result before the substitution
+    put      replaces the symbols in an expression
     """
     sides = value.sides if isinstance(value, Relation) else value if isinstance(value, MatrixBase) else (value,)
     for side in sides:
@@ -32,13 +32,13 @@ def check_defined(verb: str, called: str, where: str, value: Any, put: Callable[
             _refuse(f"`{verb}`: for {where}, `{called}` has no finite value")
         if is_not_real(after) and not is_not_real(side):
             below = next((p.base for p in explicit(side).atoms(Pow) if _is_negative_root(p, put)), None)
-            why = f", because {below} is negative below a root" if below is not None else ""
+            why = f", because {below} is negative under a root" if below is not None else ""
             message = f"`{verb}`: for {where}, `{called}` is not a real number{why}"
-            raise Rejected(Complaint("not-real", message, help="give values for which it is real"))
+            raise Rejected(Complaint("not-real", message, help="give values for which the result is real"))
 
 
 def _refuse(message: str) -> None:
-    help_line = "`limit` gives what a result tends to; else give another value"
+    help_line = "use `limit` for the limit of a result, or give another value"
     raise Rejected(Complaint("no-value", message, help=help_line))
 
 

@@ -1,7 +1,7 @@
-"""The roots of det(K + i omega G - omega^2 M), exactly: frequencies where what is linear in rates does no work.
+"""The exact roots of det(K + i omega G - omega^2 M): frequencies with forces linear in the rates that do no work.
 
-G is antisymmetric, so that the determinant is a polynomial in omega^2. It often falls into two factors in omega, mirror
-images, one for either sense of turning; then their roots are simpler than those in omega^2.
+G is antisymmetric, so the determinant is a polynomial in omega^2. It often splits into two mirror-image factors in
+omega, one for each sense of rotation; then their roots are simpler than the roots in omega^2.
 """
 
 from __future__ import annotations
@@ -43,14 +43,14 @@ class Part:
 
     @cached_property
     def coefficients(self) -> tuple[Expr, ...]:
-        """From the highest power to the lowest, of omega or of omega^2, the first positive where that is known."""
+        """From the highest power of omega or omega^2 to the lowest, with the first positive if its sign is known."""
         found = self.polynomial.all_coeffs()
         found = found if self.mirrored else found[::2]
         return tuple(-c for c in found) if sign_by_factors(found[0]) == -1 else tuple(found)
 
     @cached_property
     def needs(self) -> tuple[Expr, ...]:
-        """What must be positive for all its roots omega to be real, different and not zero."""
+        """Expressions that must be positive for all roots omega to be real, different and nonzero."""
         if self.is_free:
             return ()
         if len(self.coefficients) == 2:
@@ -63,9 +63,9 @@ class Part:
 
 @dataclass(frozen=True)
 class Swing:
-    """A root: the frequency, whether it is real (1), zero (0), imaginary (-1, the rate of growth) or open (None).
+    """A root: the frequency, and whether it is real (1), zero (0), imaginary (-1, a growth rate) or unknown (None).
 
-    turn   1 or -1: the root of the factor is the frequency or its negative; 0 where that is open
+    turn   1 or -1: the root of the factor is the frequency or its negative; 0 if this is unknown
     """
 
     value: Expr
@@ -99,7 +99,7 @@ class GyroscopicPencil:
     def parts(self) -> tuple[Part, ...]:
         size = self.mass.shape[0]
         if size > LARGEST:
-            message = f"the frequencies of {size} coordinates with such forces are too much to be worked out"
+            message = f"the frequencies of {size} coordinates with forces linear in the rates cannot be computed"
             raise Rejected(Complaint("too-large", message))
         s = Dummy("s")
         whole = Poly(determinant_of(ImmutableDenseMatrix(self.stiffness + s * self.turning + s**2 * self.mass)), s)
@@ -109,7 +109,7 @@ class GyroscopicPencil:
         except PolynomialError:
             found = []
         if sum(part.degree() * times for part, times in found) != 2 * size:
-            raise Rejected(Complaint("no-closed-form", "the determinant is no polynomial that could be factored"))
+            raise Rejected(Complaint("no-closed-form", "the determinant is not a polynomial that can be factored"))
         return tuple(self._parts(found))
 
     def _parts(self, found: list[tuple[Poly, int]]) -> list[Part]:
@@ -130,13 +130,13 @@ class GyroscopicPencil:
         return parts
 
     def _forwards(self, part: Poly) -> Poly:
-        """Of two mirror images that whose roots have a positive sum, where that is known."""
+        """Of two mirror images, the one whose roots have a positive sum, if this is known."""
         a, b = part.all_coeffs()[:2]
         return Poly(part.as_expr().subs(OMEGA, -OMEGA), OMEGA) if sign_by_factors(tidied(b / a)) == 1 else part
 
     @cached_property
     def is_minimum(self) -> bool:
-        """Whether the energy is least at rest, and the kinetic energy nowhere negative: then nothing grows."""
+        """Whether the energy has a minimum at rest and the kinetic energy is never negative: then no motion grows."""
         return is_positive_definite(self.stiffness, self.sign) and sign_of_form(self.mass, self.sign) in (0, 1)
 
     def sign(self, value: Expr) -> int | None:
@@ -144,7 +144,7 @@ class GyroscopicPencil:
 
     @cached_property
     def swings(self) -> tuple[Swing, ...]:
-        """From the least to the greatest, where the letters have middling values."""
+        """The roots in ascending order for ordinary values of the symbols."""
         return tuple(sorted((s for part in self.parts for s in self._swings(part)), key=lambda swing: swing.size))
 
     def _swings(self, part: Part) -> list[Swing]:
@@ -154,16 +154,16 @@ class GyroscopicPencil:
             message = (
                 f"{len(part.coefficients) - 1} of the frequencies are the roots of a polynomial that does not factor"
             )
-            raise Rejected(Complaint("no-closed-form", message, help="equal masses and springs let it factor"))
+            raise Rejected(Complaint("no-closed-form", message, help="with equal masses and springs it may factor"))
         return self._mirrored(part) if part.mirrored else self._by_squares(part)
 
     def _mirrored(self, part: Part) -> list[Swing]:
-        """omega = (b +- sqrt(b^2 - 4 a c))/2a of a omega^2 - b omega + c, and the sizes of these."""
+        """The frequencies |omega| for a omega^2 - b omega + c = 0, with omega = (b +- sqrt(b^2 - 4 a c))/2a."""
         _, minus_b, c = part.coefficients
         (discriminant,) = part.needs
         real = self._is_real(discriminant)
         both_ways = self.sign(tidied(c))
-        if both_ways == -1:  # one root either way: the sizes are what they are whatever sign b has
+        if both_ways == -1:  # one root of each sign: the sizes do not depend on the sign of b
             pairs = [((-1, 1), -1), ((1, 1), 1)]
             return [self._swing(part, tidied(-minus_b), ways, real, turn) for ways, turn in pairs]
         forwards = self.sign(tidied(-minus_b)) == 1
@@ -179,8 +179,8 @@ class GyroscopicPencil:
     def _is_real(self, discriminant: Expr) -> int | None:
         sign = self.sign(discriminant)
         if sign == -1:
-            message = "there is no normal mode: two motions of one frequency spiral outwards and inwards"
-            raise Rejected(Complaint("no-oscillation", message, help="ask for its `stability`"))
+            message = "there is no normal mode: two motions of the same frequency spiral, one outwards and one inwards"
+            raise Rejected(Complaint("no-oscillation", message, help="use `stability` instead"))
         return 1 if sign == 1 or self.is_minimum else None
 
     def _by_squares(self, part: Part) -> list[Swing]:
@@ -199,7 +199,7 @@ class GyroscopicPencil:
         return found
 
     def _sign_of_square(self, square: Expr, part: Part) -> int | None:
-        """Of one root of a z^2 + b z + c: both are positive where all that is needed is; one where c is negative."""
+        """The sign of a root of a z^2 + b z + c: both are positive if all `needs` are; one is positive if a c < 0."""
         if all(self.sign(need) == 1 for need in part.needs):
             return 1
         if len(part.needs) == 3 and self.sign(part.needs[2]) == -1:
@@ -207,10 +207,10 @@ class GyroscopicPencil:
         return -1 if len(part.needs) == 1 and self.sign(part.needs[0]) == -1 else None
 
     def column(self, swing: Swing) -> tuple[Expr, ...] | None:
-        """The amplitudes by the name OMEGA of the root, the first that is not zero being 1; nothing where there is no
-        one column, or the amplitudes are neither real nor imaginary.
+        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1. None if there is not exactly
+        one column, or if an amplitude is neither real nor imaginary.
 
-        Of what grows OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
+        For a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
         """
         if swing.part.times > 1 or swing.sign == 0 or not swing.turn:
             return None
@@ -230,7 +230,7 @@ class GyroscopicPencil:
 
 
 def _reduced(entry: Expr, modulus: Poly) -> Expr:
-    """A polynomial in the root, of lower degree than what it is a root of."""
+    """A polynomial in the root, reduced modulo the polynomial of this root."""
     parts = [Poly(p.expand(), OMEGA) for p in entry.expand().as_real_imag()]
     field, _ = construct_domain([c for each in (modulus, *parts) for c in each.all_coeffs()], field=True)
     over = Poly(modulus.as_expr(), OMEGA, domain=field)
@@ -264,7 +264,7 @@ def _size(value: Expr) -> float:
 
 
 def factored(parts: tuple[Part, ...], letter: Symbol) -> Expr:
-    """The determinant but for a constant factor, in its factors."""
+    """The determinant up to a constant factor, factored."""
     found = []
     for part in parts:
         value = Add(*(c * OMEGA**n for n, c in zip(_powers(part), part.coefficients, strict=True)))

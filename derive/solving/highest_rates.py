@@ -15,14 +15,14 @@ HIGHEST = 2  # the order of the rates that equations of motion determine
 
 
 def highest_rates(equations: Sequence[Quantity], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """What the equations of motion make of their highest rates: solved for them, as linear equations."""
+    """Solve the equations of motion for their highest rates, as linear equations."""
     residuals = [_equation(equation).residual.expand() for equation in equations]
     unknown = [highest for q in moving if (highest := _highest(q, residuals)) is not None]
     matrix = Matrix([[diff(residual, a) for a in unknown] for residual in residuals])
     rest = Matrix([bound(residual, dict.fromkeys(unknown, Integer(0))) for residual in residuals])
     if not unknown or matrix.rows != matrix.cols or matrix.has(*unknown) or tidied(matrix.det()) == 0:
         count = "1 equation of motion does" if len(equations) == 1 else f"{len(equations)} equations of motion do"
-        message = f"{count} not give {', '.join(a.name for a in unknown) or 'any rate'}"
+        message = f"{count} not determine {', '.join(a.name for a in unknown) or 'any rate'}"
         raise Rejected(Complaint("wrong-argument", message, help="give one equation for each coordinate that moves"))
     return dict(zip(unknown, (tidied(value) for value in matrix.LUsolve(-rest)), strict=True))
 

@@ -1,4 +1,4 @@
-"""The terms with which a result begins where a letter is small, large or near a value, and two ways to check them."""
+"""The leading terms of a result for a small or large symbol or near a value, and two methods to check them."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ def entries_of(value: Any) -> list[Expr]:
 
 
 def entry_by_entry(change: Callable[[Expr], Expr], value: Any) -> Any:
-    """What becomes of a number, or of each entry of a vector or a tensor."""
+    """Apply the change to a number, or to each entry of a vector or tensor."""
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(*value.shape, [change(entry) for entry in value])
     return change(value)
 
 
 def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | None) -> list[Series]:
-    """The terms of each entry; where no order is given, those of the power with which the largest entry begins."""
+    """The terms of each entry; if no order is given, only those with the leading power of the largest entry."""
     is_one = not isinstance(value, MatrixBase)
     each = [expansion_of(of, entry, x, place, order, is_one) for entry in entries_of(value)]
     if order is None:
@@ -62,9 +62,9 @@ def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | No
 
 
 def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None, is_one: bool = True) -> Series:
-    """Its terms to that order, the leading one alone without; refused where there are none in powers.
+    """The terms to that order, by default the leading term only; rejected if there is no expansion in powers.
 
-    is_one   whether it must begin within that order, as one entry of several need not
+    is_one   whether the first term must be within that order; an entry of a vector need not have one
     """
     try:
         return expanded(value, x, place, None if order is None else Rational(order))
@@ -76,12 +76,12 @@ def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int |
 
 def _has_none(of: Quantity, x: Symbol, place: Expr, order: int | None) -> Rejected:
     message = f"`{of.key}` has no expansion in powers at {x.name} = {place}"
-    help_line = None if order is None else "leave `order` out for the leading term alone"
+    help_line = None if order is None else "omit `order` to get only the leading term"
     return Rejected(Complaint("no-expansion", message, help=help_line))
 
 
 def _of_squares_drawn(value: Expr) -> Expr:
-    """With |l_1 - l_2| for sqrt((l_1 + l_2)^2 - 4 l_1 l_2)."""
+    """Replace roots of squares: |l_1 - l_2| for sqrt((l_1 + l_2)^2 - 4 l_1 l_2)."""
     drawn = {}
     for root in value.atoms(Pow):
         letters = root.base.free_symbols
@@ -97,7 +97,7 @@ def _of_squares_drawn(value: Expr) -> Expr:
 
 
 def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: Expr, power: Rational) -> Any | None:
-    """The same terms without a derivative, by adding and multiplying series; nothing where those rules do not reach."""
+    """The same terms without derivatives, by series arithmetic; None if its rules are not enough."""
     first = min((n for each in series for n in each), default=Rational(0))
     if not first.is_Integer or not power.is_Integer:
         return None
@@ -117,7 +117,7 @@ def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: 
 
 
 def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
-    """Whether the terms are the same; of a series that is cut off that is said to an order, of a limit it is all."""
+    """Whether the terms are the same; for a truncated series this holds to an order, for a limit (`whole`) exactly."""
     verdict = equal(found, again)
     if whole or verdict.grade is Grade.REFUTED:
         return verdict
@@ -125,20 +125,20 @@ def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
 
 
 def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rational) -> Verdict:
-    """At two distances, one a tenth of the other: the rest over the last power kept is smaller by a root at least.
+    """Compare the remainder at two distances: divided by the last power kept, it must shrink by at least a half.
 
-    On both sides of a place that is not at the end of what the letter may be: |m - M| has two leading terms at m = M.
+    Both sides of a place are tested, except at the end of a range: |m - M| has two leading terms at m = M.
     """
     for before, after in zip(entries_of(value), entries_of(found), strict=True):
         for side in _sides(x, place):
             verdict = _rest_of_entry(before, after, x, place, power, side)
             if verdict.grade is Grade.REFUTED:
                 return verdict
-    return Verdict(Grade.APPROXIMATION, f"to order {power} in what is small, in numbers")
+    return Verdict(Grade.APPROXIMATION, f"to order {power} in the small quantity, numerically")
 
 
 def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
-    """On which sides of a place the letter may be."""
+    """The sides of a place on which the symbol may be."""
     known = range_of(x)
     if place in (oo, -oo):
         return (1,)
@@ -148,7 +148,7 @@ def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
 
 
 def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int) -> Verdict:
-    """Close to the place; where the rest is too small there to be told from zero, as what dies away is, farther off."""
+    """Compare close to the place, or farther away if the remainder is zero there numerically, as for exp(-1/x)."""
     seen = 0
     letters = (letters_of(value) | letters_of(found) | letters_of(place)) - {x}
     for point in islice(points(letters, seed_of(value)), POINTS):
@@ -158,16 +158,16 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
         seen += 1
         if sizes[1] > sizes[0] * Rational(1, 2):
             where = tuple((str(name), str(number)) for name, number in point.items())
-            return Verdict(Grade.REFUTED, f"the rest does not vanish to order {power} in what is small", where)
+            return Verdict(Grade.REFUTED, f"the remainder does not vanish to order {power}", where)
     if not seen:
         return Verdict(Grade.REFUTED, "undefined wherever it was tried")
-    return Verdict(Grade.APPROXIMATION, "in numbers")
+    return Verdict(Grade.APPROXIMATION, "numerically")
 
 
 def _sizes(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
 ) -> list[Expr] | None:
-    """The rest over that power of what is small, at both distances; nothing where it has no value."""
+    """The remainder over that power of the small quantity, at both distances; None if it has no value."""
     sizes = []
     for near in distances:
         there = {**point, x: _at(place, near, point, side)}

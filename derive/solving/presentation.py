@@ -1,4 +1,4 @@
-"""Write expressions as a textbook does: factored or term by term, squares completed, roots as one fraction."""
+"""Write expressions as in a textbook: factored or term by term, squares completed, roots as one fraction."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
 
 ZERO = Integer(0)
-LARGEST = 2500  # operations of what is still multiplied out and factored
+LARGEST = 2500  # number of operations up to which an expression is multiplied out and factored
 
 
-SHORT = 40  # of what may be written with multiples of an angle
+SHORT = 40  # number of operations up to which multiples of an angle are tried
 
 
 def presented(value: Expr, *, in_sums: bool = True) -> Expr:
-    """The value as one writes it down: factored, or its terms apart, whichever is shorter.
+    """The value in textbook form: factored, or as separate terms, whichever is shorter.
 
-    in_sums     products of sines and cosines may become sums of them; not under a root, out of which squares are drawn
+    in_sums     products of sines and cosines may become sums; not under a root, where squares must stay visible
     """
     value = explicit(value)
     tidy = tidied(value)
@@ -57,7 +57,7 @@ def presented(value: Expr, *, in_sums: bool = True) -> Expr:
             forms.append(Add(*(tidied(without_sine_below(term)) for term in Add.make_args(value))))
     apart = shortest(forms)
     product = factored(tidy) if size <= LARGEST else tidy
-    return product if length(product) < length(apart) else apart  # a^2 - b^2 stays
+    return product if length(product) < length(apart) else apart  # a^2 - b^2 is kept
 
 
 def without_sine_below(value: Expr) -> Expr:
@@ -80,22 +80,22 @@ def _is_power_of(sine: Expr, e: Expr) -> bool:
 
 
 def _by_cosine(c: Expr, power: Expr) -> Expr:
-    """sin^2 as 1 - c^2, one sine left over of an odd power."""
+    """sin^2 as 1 - c^2; for an odd power one sine is left."""
     return (1 - c**2) ** (power.exp // 2) * power.base ** (power.exp % 2)
 
 
 def _turns_under_root(value: Expr) -> bool:
-    """Products of sines and cosines under a root stay, or no square could be drawn out of it."""
+    """Whether a root contains sines or cosines; their products are kept so that squares can be taken out of it."""
     roots = (power for power in value.atoms(Pow) if not power.exp.is_Integer)
     return any(root.base.has(sin, cos) for root in roots)
 
 
-MOST_LETTERS = 4  # whose squares are completed
-LONGEST_SQUARED = 120  # operations of a quadratic form whose squares are completed
+MOST_LETTERS = 4  # number of symbols for which squares are completed
+LONGEST_SQUARED = 120  # number of operations of a quadratic form for which squares are completed
 
 
 def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
-    """A polynomial in the letters: squares completed where that is shorter, else by products, else one fraction."""
+    """A polynomial in the symbols: squares completed if that is shorter, else by products, else one fraction."""
     value = explicit(value)
     present = [p for p in letters if value.has(p)]
     if not present:
@@ -115,11 +115,11 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
     apart = Add(*(by_one_square(part) for part in (quadratic, linear, rest)))
     if not parts.get(1) or len(present) > MOST_LETTERS:
         return apart
-    return _shortest([apart, _squares(chain(*parts.values()), present)])  # (p - q A)^2, with what is linear in p
+    return _shortest([apart, _squares(chain(*parts.values()), present)])  # (p - q A)^2, including terms linear in p
 
 
 def by_one_square(value: Expr) -> Expr:
-    """m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; and below a fraction no sum that begins with a minus."""
+    """m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; and no sum in a denominator begins with a minus."""
     if not value.has(sin, cos):
         return value
     if value.is_Add:
@@ -154,7 +154,7 @@ def _is_taken_off(term: Expr) -> bool:
 
 
 def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
-    """A quadratic form as products, as one fraction, or with its squares completed, whichever is shortest."""
+    """A quadratic form as products, as one fraction, or with squares completed, whichever is shortest."""
     mixed = {p for monomial, _ in terms if monomial.is_Mul for p in monomial.free_symbols}
     if not mixed:
         return _added(terms)
@@ -166,7 +166,7 @@ def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
 
 
 def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Expr:
-    """a (p + b q/a)^2 + ..., letter after letter, each bracket with no denominator of its own."""
+    """a (p + b q/a)^2 + ..., symbol by symbol, each bracket without a denominator."""
     squares: list[Expr] = []
     rest = {_letters_in(monomial): c for monomial, c in terms}
     for p in order:
@@ -203,8 +203,8 @@ def _shortest(forms: Sequence[Expr]) -> Expr:
 
 
 def roots_together(value: Expr) -> Expr:
-    """p c/sqrt(p^2 + m^2 c^2), not p/(m sqrt(1 + p^2/(m^2 c^2))): one fraction below each root, outside it what is
-    known to be positive."""
+    """p c/sqrt(p^2 + m^2 c^2), not p/(m sqrt(1 + p^2/(m^2 c^2))): one fraction under each root, and positive factors
+    outside."""
 
     def in_one(base: Expr, exponent: Expr) -> Expr:
         whole = together(roots_together(base))

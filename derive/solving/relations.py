@@ -1,4 +1,4 @@
-"""Solve a relation, v > 0 or v = 0, for one letter; which values the letter must have, and what must not vanish."""
+"""Solve a relation, v > 0 or v = 0, for one symbol; find its possible values and the divisors that must not vanish."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
 
 
 def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
-    """The relation of a value and zero, solved for a letter where that can be told from the letters alone."""
+    """The relation between a value and zero, solved for a symbol; None if that is not possible without numbers."""
     try:
         alone, solved, turned = solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
     except Rejected:
@@ -30,7 +30,7 @@ def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Rela
 
 
 def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
-    """What the sentence says must hold."""
+    """The conditions that the sentence states."""
     return {
         role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
         for role, each in conditions.items()
@@ -39,23 +39,23 @@ def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, 
 
 
 def existence(of: Quantity, alone: Expr, mark: str, solved: Expr) -> Relation | None:
-    """For which letters there is such a value; an inequality holds or fails where there is none."""
+    """The condition under which a solution of an equation exists; an inequality holds or fails without one."""
     exists, never = reached(alone, solved) if mark == "=" else (None, False)
     if never:
         letters = ", ".join(sorted(s.name for s in alone.free_symbols))
-        message = f"`{of.key}` would be so at {alone} = {solved}, which no value of {letters} reaches"
+        message = f"the condition on `{of.key}` requires {alone} = {solved}, but no value of {letters} gives this"
         raise Rejected(Complaint("no-condition", message))
     return exists
 
 
 def number_of(of: Quantity) -> Expr:
     if not isinstance(of.value, Expr) or isinstance(of.value, Relation):
-        raise Rejected(Complaint("wrong-argument", f"`{of.key}` is no number that could be compared"))
+        raise Rejected(Complaint("wrong-argument", f"`{of.key}` is not a number, so it cannot be compared"))
     return of.value
 
 
 def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[Expr, Expr, str]:
-    """What stands alone, the unknown or its square; its bound, and the mark between."""
+    """The left side, which is the unknown or its square; its bound, and the mark between them."""
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
     if left_over(written, unknown):
@@ -80,12 +80,12 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
 
 
 def _without_sign(value: Expr) -> Expr | None:
-    """The first factor of which no sign is known."""
+    """The first factor whose sign is unknown."""
     return next((f for f in Mul.make_args(tidied(value)) if sign_known(f) is None), None)
 
 
 def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
-    """The factor by which the two sides differ, where its sign is known from the numbers."""
+    """The factor by which the two sides differ, made positive; empty if its sign is unknown."""
     slope = tidied(difference.diff(alone)) if alone.is_Symbol else alone
     factor = slope if slope != 0 and not slope.has(alone) else tidied(difference / (alone - solved))
     return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())
@@ -93,9 +93,9 @@ def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]
 
 def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None) -> Rejected:
     if factor is not None:
-        message = f"`{of.key}` cannot be compared by {unknown} alone: it would be divided by {factor}, of unknown sign"
+        message = f"`{of.key}` cannot be solved for {unknown}: it would be divided by {factor}, whose sign is unknown"
         letters = ", ".join(sorted(f"`{s}`" for s in factor.free_symbols))
-        help_line = f"say what is known of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
+        help_line = f"declare the sign of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
         return Rejected(Complaint("no-condition", message, help=help_line))
-    message = f"`{of.key}` cannot be compared by {unknown} alone: it is not linear in it"
-    return Rejected(Complaint("no-condition", message, help="give another of the letters it depends on"))
+    message = f"`{of.key}` cannot be solved for {unknown}: it is not linear in {unknown}"
+    return Rejected(Complaint("no-condition", message, help="give another symbol that it depends on"))

@@ -1,4 +1,4 @@
-"""One root of a linear or of a quadratic factor of a polynomial: its formula, and its value as one writes it."""
+"""One root of a linear or quadratic factor of a polynomial: its formula, and its value in textbook form."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ FOUR = Integer(4)
 
 @dataclass(frozen=True)
 class RootOf(Fact):
-    """One root of a factor of the polynomial: the coefficients of the factor, from the highest, and the sign taken.
+    """One root of a factor of the polynomial, with the coefficients of the factor from the highest power.
 
-    sign   that of the square root; none for a linear factor
+    sign   the sign of the square root; it has no meaning for a linear factor
     """
 
     coefficients: tuple[Expr, ...]
@@ -50,7 +50,7 @@ class RootOf(Fact):
 
 
 def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
-    """k (-b/k +- sqrt(D/k^2))/(2 a), with what b and the root have in common in front."""
+    """k (-b/k +- sqrt(D/k^2))/(2 a), with the common factor k of b and the root in front."""
     under = sqrt(discriminant)
     if not any(isinstance(part, Pow) and part.exp == Rational(1, 2) and part.free_symbols for part in under.atoms(Pow)):
         return presented((-b + sign * under) / (2 * a))
@@ -63,7 +63,7 @@ def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
 
 
 def _common_root(b: Expr, discriminant: Expr) -> Expr:
-    """The largest k of positive factors for which b/k and D/k^2 have no new denominators."""
+    """The largest product k of positive factors for which b/k and D/k^2 have no new denominators."""
     try:
         content, factors = factor_list(gcd(b**2, discriminant))
     except PolynomialError:

@@ -1,4 +1,4 @@
-"""The sign of a product by those of its factors, and of what size a difference of known sign is."""
+"""The sign of a product from the signs of its factors, and a difference of known sign in terms of its size."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=":
 
 
 def of_the_size(value: Expr, mark: str) -> Expr:
-    """What a difference must be if the mark is right: of the value's size, with the sign that the mark says."""
+    """The difference expected if the mark is right: the size of the value with the sign that the mark requires."""
     return {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}.get(mark, nan)
 
 
 def sign_by_factors(value: Expr) -> int | None:
-    """The sign of a product by those of its factors, multiplied out where that shows it."""
+    """The sign of a product from the signs of its factors, which are multiplied out if that shows the sign."""
     if is_zero(value):
         return 0
     found = 1
@@ -42,15 +42,15 @@ def sign_by_factors(value: Expr) -> int | None:
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
-    """An even power of a real letter that stands below a fraction, or is assumed not to vanish."""
+    """Whether it is an even power of a real symbol in a denominator, or of one that is assumed not to vanish."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 
 
 def _sign_by_means(total: Expr) -> int | None:
-    """1 where each negative term is at most twice a product of square roots of positive ones: a^2 - 2 a b + b^2 + c.
+    """1 if each negative term is at most twice the geometric mean of two positive terms: a^2 - 2 a b + b^2 + c.
 
-    Each positive term may serve once, and one that serves for none must be left.
+    Each positive term is used at most once, and at least one must be left over.
     """
     terms = Add.make_args(total)
     above = [term for term in terms if term.is_positive]

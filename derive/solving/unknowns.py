@@ -1,7 +1,7 @@
-"""What an equation may be solved for, and what may be put into one: a letter, a rate, its square, a cosine.
+"""Unknowns: expressions that an equation may be solved for or that may be substituted, such as a symbol or a cosine.
 
-An unknown is an expression of one letter, such as theta_dot^2 or cos(theta). Where it stands, something else is put;
-where its letter stands in any other way, it cannot be taken for an unknown.
+An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). It is replaced wherever it occurs; if its
+symbol also occurs in another form, it cannot be an unknown.
 """
 
 from __future__ import annotations
@@ -43,23 +43,23 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """The unknown of an equation that this is a root of: its value replaces that unknown, whatever it is called."""
+    """The unknown of the equation that has this root: the root replaces that unknown, whatever its own name is."""
 
     missing = "is not a root of an equation"
     unknown: Expr
 
 
 def unknown_of(verb: str, given: Any) -> Expr:
-    """The expression of an unknown: that of a coordinate is its letter, that of a quantity what it is called."""
+    """The expression of an unknown: for a coordinate or a quantity, its symbol."""
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found
-    message = f"`{verb}` needs a letter, a rate, a square of one or a cosine as its unknown, but it is {found}"
+    message = f"the unknown of `{verb}` must be a symbol, a rate, a square of these or a cosine, but it is {found}"
     raise Rejected(Complaint("wrong-argument", message))
 
 
 def _letter_within(unknown: Any) -> Symbol | None:
-    """The letter of theta_dot^2 or of cos(theta)."""
+    """The symbol in theta_dot^2 or in cos(theta)."""
     if isinstance(unknown, Pow) and isinstance(unknown.base, Symbol) and unknown.exp.is_Integer and unknown.exp > 0:
         return unknown.base
     if isinstance(unknown, Function) and unknown.func in INVERSE and isinstance(unknown.args[0], Symbol):
@@ -68,15 +68,15 @@ def _letter_within(unknown: Any) -> Symbol | None:
 
 
 def letter_of(unknown: Expr) -> Symbol:
-    """The letter that an unknown is made of."""
+    """The only symbol of an unknown."""
     found = unknown if isinstance(unknown, Symbol) else _letter_within(unknown)
     if found is None:
-        raise Rejected(Complaint("wrong-argument", f"{unknown} is made of more than one letter"))
+        raise Rejected(Complaint("wrong-argument", f"{unknown} contains more than one symbol"))
     return found
 
 
 def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
-    """What the letter of an unknown is where the unknown has that value: theta of cos(theta) = 2/3."""
+    """The symbol of an unknown with its value, given the value of the unknown: theta from cos(theta) = 2/3."""
     if isinstance(unknown, Symbol):
         return {unknown: value}
     letter = letter_of(unknown)
@@ -86,7 +86,7 @@ def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
 
 
 def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
-    """The expression with a value where the unknown stands: of theta_dot^2 also in theta_dot^4, of cos in sin^2."""
+    """Substitute a value for the unknown: for theta_dot^2 also in theta_dot^4, for cos also in sin^2."""
     if isinstance(unknown, Symbol):
         return expr.xreplace({unknown: value})
     if isinstance(unknown, Pow):
@@ -109,22 +109,22 @@ def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
 
 
 def left_over(expr: Expr, unknown: Expr) -> bool:
-    """Whether the letter of an unknown still stands in an expression."""
+    """Whether an expression still contains the symbol of an unknown."""
     return letter_of(unknown) in explicit(expr).free_symbols
 
 
 def is_number(quantity: Quantity) -> bool:
-    """Whether it is a value, and no equation."""
+    """Whether the quantity is a value, not an equation."""
     return isinstance(quantity.value, Expr) and not isinstance(quantity.value, Relation)
 
 
 def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
-    """Left less right of an equation; or the value that is to vanish, where one will do too."""
+    """Left minus right of an equation; with `or_value`, also a value that is to vanish."""
     value = equation.value
     if or_value and is_number(equation):
         return explicit(value)
     if not isinstance(value, Relation) or value.mark != "=":
-        message = f"`{verb}` needs an equation, but `{equation.key}` is none"
+        message = f"`{verb}` needs an equation, but `{equation.key}` is not one"
         raise Rejected(
             Complaint(
                 "wrong-argument",
@@ -138,7 +138,7 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
 
 
 def mark_for(unknown: Expr) -> Dummy:
-    """A letter that stands for the unknown, and is known to be positive where that is."""
+    """A symbol in place of the unknown, positive if the unknown is positive."""
     return Dummy("u", positive=True) if unknown.is_positive else Dummy("u", real=True)
 
 
@@ -154,13 +154,13 @@ def polynomial_in(
         if unsure and not or_value:
             assume(Relation(Mul(*unsure), "!=", Integer(0)))
         if left_over(left, unknown):
-            message = f"`{verb}`: `{equation.key}` contains {letter_of(unknown).name} otherwise than in {unknown}"
+            message = f"`{verb}`: `{equation.key}` contains {letter_of(unknown).name} outside {unknown}"
             raise Rejected(Complaint("wrong-argument", message))
     return left, marks
 
 
 def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
-    """Of sin(theta)(a cos(theta) - b) the sine, for the unknown cos(theta), where it is not known to last."""
+    """The other factors, which may vanish: for the unknown cos(theta), the sine in sin(theta)(a cos(theta) - b)."""
     mark = mark_for(unknown)
     _, beside = without_factors_beside(with_unknown(value, unknown, mark), unknown, mark)
     above = (f.as_base_exp() for f in beside if not never_vanishes_within(f))
@@ -168,7 +168,7 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 
 def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
-    """Of sin(theta)(a cos(theta) - b) the bracket, for the unknown cos(theta); and what it is multiplied by."""
+    """For the unknown cos(theta), split sin(theta)(a cos(theta) - b) into the bracket and its other factors."""
     for form in (left, factored(left)) if left.is_Add and left.count_ops() <= LARGEST else (left,):
         factors = Mul.make_args(form)
         beside = [f for f in factors if left_over(f, unknown) and not f.has(mark)]
@@ -179,7 +179,7 @@ def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr
 
 
 def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:
-    """The kind of a coordinate, of its rate or of its acceleration; of another letter that an equation brings in."""
+    """The kind of a coordinate, of its rate or acceleration, or of another symbol in `known`; None if unknown."""
     if not isinstance(unknown, Symbol):
         return None
     if unknown in known:
@@ -202,7 +202,7 @@ def coordinates_of(*quantities: Quantity) -> dict[Symbol, str]:
 
 
 def linear_coefficients(expressions: Sequence[Expr], marks: Sequence[Symbol]) -> tuple[Matrix, Matrix] | None:
-    """Matrix and right side of linear equations A u = b; nothing where one is not linear."""
+    """The matrix and right side of linear equations A u = b; None if an equation is not linear."""
     matrix = Matrix([[tidied(each.diff(mark)) for mark in marks] for each in expressions])
     if matrix.has(*marks):
         return None

@@ -1,7 +1,7 @@
-"""All real zeros of a force, in closed form: by its factors, each of which is solved or the whole refused.
+"""All real zeros of a force in closed form: each factor is solved, or the whole force is rejected.
 
-A product vanishes where a factor does, and nowhere else; each factor is solved completely: a polynomial in the cosine
-or in the sine, a cos q + b sin q, a polynomial, a square root less a constant. So what is found are all zeros.
+A product vanishes only where a factor does. Each factor is solved completely: a polynomial in the cosine or in the
+sine, a cos q + b sin q, a polynomial, a square root minus a constant. So all zeros are found.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume
 from derive.steps.step import is_zero
 
-HIGHEST = 6  # power of a coordinate
-LARGEST_PRODUCT = 60  # operations of a sum that may be a product
+HIGHEST = 6  # highest power of a coordinate
+LARGEST_PRODUCT = 60  # number of operations of a sum that is tested for being a product
 ZERO, ONE = Integer(0), Integer(1)
 
 
 class Unsolved(Exception):
-    """A factor whose zeros have no closed form, or none that is known here."""
+    """A factor whose zeros have no closed form, or none that this module can find."""
 
     def __init__(self, factor: Expr):
         self.factor = factor
@@ -60,14 +60,14 @@ class Unsolved(Exception):
 
 @dataclass(frozen=True)
 class Zero:
-    """A value of the coordinate, and the condition under which it is one, if there is any."""
+    """A zero: a value of the coordinate, and the condition under which it is a zero, if any."""
 
     value: Expr
     exists: Relation | None = None
 
 
 def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
-    """All real zeros, those of an angle from -pi (without it) to pi; positive ones where q is positive."""
+    """All real zeros: for an angle those with -pi < q <= pi, for a positive coordinate only positive ones."""
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):
@@ -76,14 +76,14 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def _order(zero: Zero) -> tuple[bool, int, str]:
-    """Those that always are first, 0 before all, pi before fractions of it."""
+    """Sort key: zeros without a condition come first, with 0 before pi and pi before all others."""
     value = zero.value
     rank = 0 if value == 0 else 1 if value == pi else 2 if not value.could_extract_minus_sign() else 3
     return zero.exists is not None, rank, str(value)
 
 
 def factors_of(force: Expr, q: Symbol) -> Iterator[Expr]:
-    """The factors that hold the coordinate, of what stands above the fraction."""
+    """The factors of the numerator that contain the coordinate."""
     value = together(force.rewrite(cos) if force.has(tan) else force).as_numer_denom()[0]
     value = _in_sine_and_cosine(value, q)
     try:
@@ -96,7 +96,7 @@ def factors_of(force: Expr, q: Symbol) -> Iterator[Expr]:
 
 
 def _in_sine_and_cosine(value: Expr, q: Symbol) -> Expr:
-    """In sin q and cos q, or in those of a part of q; with cos^2 in place of sin^2."""
+    """Write in sin q and cos q, or those of a fraction of q, with cos^2 for sin^2 if the result has more factors."""
     angles = {f.args[0] for f in value.atoms(sin, cos) if f.has(q)}
     if not angles:
         return expand(value)
@@ -122,7 +122,7 @@ def _factors_or_none(value: Expr) -> list[Expr]:
 
 
 def _part(angles: set[Expr], q: Symbol) -> Expr:
-    """The largest part of q of which all angles are multiples, but for constants added."""
+    """The largest fraction of q of which all angles are multiples, up to added constants."""
     numbers = [angle.coeff(q) for angle in (expand(angle) for angle in angles)]
     if not all(number.is_Rational and number != 0 for number in numbers):
         raise Unsolved(next(iter(angles)))
@@ -145,7 +145,7 @@ def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _is_one_turn(value: Expr, parts: int) -> bool:
-    """Of an angle that was found from a part of it, what is within one turn."""
+    """Whether an angle found from a fraction of it is within one full turn."""
     return parts == 1 or not value.is_number or bool(-pi < value and value <= pi)
 
 
@@ -183,7 +183,7 @@ def _with_sine(value: Expr) -> list[Zero]:
 
 
 def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, if it needs one; and whether it can never be."""
+    """The condition for -1 < v < 1, if one is needed, and whether it is impossible."""
     sign = sign_by_factors(value)
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
     known = sign_by_factors(room)
@@ -193,9 +193,9 @@ def within_one(value: Expr) -> tuple[Relation | None, bool]:
 
 
 def positive(value: Expr, letter: Symbol | None = None) -> Relation:
-    """The condition v > 0, without factors that are positive, solved for a letter if it occurs in a square alone.
+    """The condition v > 0 without positive factors, solved for a symbol if that is possible.
 
-    What is added stands on one side, what is subtracted on the other: R omega^2 > g.
+    Positive terms are on one side, negative terms on the other: R omega^2 > g.
     """
     above, below = tidied(value).as_numer_denom()
     open_ = (f for part in (above, below) for f in Mul.make_args(part) if strict_sign_within(f) != 1)
@@ -212,7 +212,7 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
 
 
 def _in_factors(core: Expr) -> Expr:
-    """The product that a sum is, (k - m w^2) (c - m w^2), if it is one."""
+    """The sum as a product, (k - m w^2) (c - m w^2), if it is one."""
     if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
         return tidied(core)
     number, factors = factor_list(core)
@@ -221,7 +221,7 @@ def _in_factors(core: Expr) -> Expr:
 
 
 def different_from_zero(value: Expr) -> Relation | None:
-    """What must be so that a value by which one divides does not vanish, omega^2 != k/m; nothing where it cannot."""
+    """The condition that a divisor does not vanish, omega^2 != k/m; None if its sign is known."""
     if sign_known(value) is not None:
         return None
     condition = positive(tidied(value).as_numer_denom()[0])
@@ -237,7 +237,7 @@ def _solved(core: Expr, letter: Symbol) -> Relation | None:
 
 
 def _roots(factor: Expr, x: Expr) -> list[Expr]:
-    """Of a polynomial of the first or second degree in x."""
+    """The real roots of a polynomial of first or second degree in x."""
     polynomial = factor.as_poly(x)
     if polynomial is None or polynomial.degree() > 2:
         raise Unsolved(factor)
@@ -255,7 +255,7 @@ def _roots(factor: Expr, x: Expr) -> list[Expr]:
 
 
 def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
-    """Of a polynomial in q, or of sqrt(P(q)) less a constant."""
+    """The zeros of a polynomial in q, or of sqrt(P(q)) minus a constant."""
     if q.is_positive and any(p.exp.free_symbols for p in factor.atoms(Pow) if p.base == q):
         return [Zero(value) for value in _of_two_powers(factor, q)]
     roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
@@ -273,7 +273,7 @@ def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
-    """The root of A q^a + B q^b, q^(a - b) = -B/A, where the exponents depend on letters and are never the same."""
+    """The root of A q^a + B q^b, q^(a - b) = -B/A, where the exponents contain symbols and are never equal."""
     terms: dict[Expr, Expr] = {}
     for term in Add.make_args(expand(factor)):
         outside, inside = term.as_independent(q, as_Add=False)
@@ -295,7 +295,7 @@ def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
 
 
 def _exponent(product: Expr, q: Symbol) -> Expr:
-    """Of q^a q^b the sum, of 1 zero; of anything else q itself."""
+    """The exponent of q: a + b for q^a q^b, zero for 1; for any other expression q itself."""
     parts = [f.as_base_exp() for f in Mul.make_args(product) if f != 1]
     return Add(*(power for _, power in parts)) if all(base == q for base, _ in parts) else q
 
@@ -311,7 +311,7 @@ def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
 
 
 def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
-    """A sqrt(P) + B = 0 with A and B constant: P = (B/A)^2, where -B/A is not negative."""
+    """The zeros of A sqrt(P) + B with A and B constant: P = (B/A)^2, if -B/A is not negative."""
     root = roots[0]
     linear = factor.as_poly(root)
     if len(roots) > 1 or root.exp != Rational(1, 2) or linear is None or linear.degree() != 1:
@@ -338,7 +338,7 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
 
 
 def _allowed(value: Expr, q: Symbol) -> list[Zero]:
-    """A distance is positive."""
+    """The zero, without values that are not positive if the coordinate is positive."""
     if not q.is_positive:
         return [Zero(value)]
     sign = sign_by_factors(value)
@@ -348,7 +348,7 @@ def _allowed(value: Expr, q: Symbol) -> list[Zero]:
 
 
 def _is_square_of_letters(value: Expr) -> bool:
-    """Whether it is positive once some letters do not vanish, which is then assumed: l^2 of a momentum."""
+    """Whether the value is positive if some symbols do not vanish, which is then assumed: l^2 of a momentum."""
     above, below = value.as_numer_denom()
     parts = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]
     letters = [base.args[0] if isinstance(base, Abs) else base if power.is_even else None for base, power in parts]
@@ -360,13 +360,13 @@ def _is_square_of_letters(value: Expr) -> bool:
 
 
 def _is_size(below: Expr) -> bool:
-    """Whether what stands below a fraction, and so does not vanish, is positive: c^2, or the size of c."""
+    """Whether a denominator, which does not vanish, is positive: c^2, or |c|."""
     parts = (f.as_base_exp() for f in Mul.make_args(below) if not f.is_positive)
     return all(isinstance(base, Abs) or bool(base.is_real and power.is_even) for base, power in parts)
 
 
 def sign_where(value: Expr, exists: Relation | None) -> int | None:
-    """The sign of a value, where a condition of existence holds: a letter of it a little beyond its border."""
+    """The sign of a value if a condition of existence holds: a symbol of the condition is put beyond its boundary."""
     own = sign_by_factors(value)
     border = border_of(exists) if own is None and exists is not None else None
     if border is None or exists is None:
@@ -378,7 +378,7 @@ def sign_where(value: Expr, exists: Relation | None) -> int | None:
 
 
 def border_of(condition: Relation) -> Relation | None:
-    """The letter of a condition and its value on the border."""
+    """The symbol of a condition and its value at the boundary."""
     left, right = condition.sides
     if isinstance(left, Symbol):
         return Relation(left, "=", right)
@@ -392,8 +392,8 @@ def border_of(condition: Relation) -> Relation | None:
 
 
 def check_no_resonance(stiffness: Expr) -> None:
-    """Refuse a driving for which c - a w^2 vanishes by the given numbers, where the result in letters has no value."""
+    """Reject a driving frequency for which c - a w^2 vanishes with the given numbers: the result then has no value."""
     if not is_zero(stiffness) and sign_known(stiffness) == 0:
         message = f"with the given numbers {stiffness} vanishes: this motion is at resonance"
-        help_line = "write the frequency of the driving in letters, such as `sqrt(k/m)`"
+        help_line = "write the driving frequency in symbols, such as `sqrt(k/m)`"
         raise Rejected(Complaint("resonance", message, help=help_line))

@@ -1,4 +1,4 @@
-"""What holds at every moment of a motion: equations of motion, multipliers, conserved quantities."""
+"""Tests of statements that hold at each instant of a motion: equations of motion, multipliers, conserved quantities."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ OF_MOTION = frozenset(
         "hamilton.rate_by_momenta",
     ]
 )
-PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # what follows from a statement that holds at every moment
+PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # rules whose result holds at each instant if their inputs do
 CONSERVED = frozenset(["energy", "conserved", "given_conserved"])
 
 
 def holds_along(step: Quantity) -> bool:
-    """Whether a step states something that is true at every moment of a motion."""
+    """Whether the statement of a step is true at each instant of a motion."""
     if step.step.rule in OF_MOTION:
         return True
     if step.step.rule not in PASSED_ON:
@@ -39,7 +39,7 @@ def holds_along(step: Quantity) -> bool:
 
 
 def equation(claim: Claim) -> Verdict | None:
-    """Its two sides are equal at every moment."""
+    """Test whether the two sides of an equation are equal at each instant."""
     residuals = claim.residuals
     if not residuals or not holds_along(claim.quantity):
         return None
@@ -59,14 +59,14 @@ def equation(claim: Claim) -> Verdict | None:
 
 
 def substitution(claim: Claim) -> Verdict | None:
-    """What is substituted agrees with the constraints; the equation holds where all of it is so."""
+    """Test whether substituted values agree with the constraints, and whether the equation holds with them."""
     contradiction = _fits_together(claim)
     return equation(claim) if contradiction is None else contradiction
 
 
 def _fits_together(claim: Claim) -> Verdict | None:
-    """Whether the described system has a state of which all that is given is true; rates that contradict a condition
-    refute it."""
+    """Test whether the described system has a state with all given values; rates that contradict a constraint refute
+    the claim."""
     letters = {*claim.blueprint.coordinates, *claim.blueprint.rates}
     plain = [each for each in claim.states_given if each.target in letters]
     if not plain or not claim.blueprint.of.conditions:
@@ -84,7 +84,7 @@ def _fits_together(claim: Claim) -> Verdict | None:
 
 
 def kinetic_energy(claim: Claim) -> Verdict | None:
-    """It is half the sum of m v . v"""
+    """Test whether the value is half the sum of m v . v."""
     count = 0
     for trial in claim.trials():
         formulas = trial.formulas([claim.value])
@@ -97,7 +97,7 @@ def kinetic_energy(claim: Claim) -> Verdict | None:
 
 
 def conserved(claim: Claim) -> Verdict | None:
-    """A value that is stated to be constant does not change along the motion."""
+    """Test whether a value that is stated to be constant does not change along the motion."""
     if claim.rule == "lagrange.energy_function" and claim.outcome not in CONSERVED:
         return None
     if not isinstance(claim.value, Expr) or isinstance(claim.value, Relation):
@@ -106,7 +106,7 @@ def conserved(claim: Claim) -> Verdict | None:
 
 
 def kept(claim: Claim) -> Verdict | None:
-    """An energy keeps the value that it has at the start."""
+    """Test whether an energy keeps its initial value."""
     return _unchanging(claim, explicit(claim.value).left) if isinstance(claim.value, Relation) else None
 
 
@@ -124,6 +124,6 @@ def _unchanging(claim: Claim, value: Expr) -> Verdict | None:
 
 
 def _terms(residual: Expr) -> list[Expr]:
-    """The terms whose sizes the difference is compared with."""
+    """The terms with whose sizes the difference is compared."""
     terms = list(residual.args) if residual.is_Add else [residual]
     return [part for term in terms for part in ((term.args) if term.is_Add else [term])]

@@ -1,4 +1,4 @@
-"""A step that says something about a motion, with all that the witness needs to put it to the test."""
+"""A step that makes a statement about a motion, with all data that the witness needs to test it."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ REDUCED = frozenset(["hamilton.routhian", "hamilton.effective_potential"])
 APPROXIMATE = frozenset(
     ["answers.equation_in_limit", "answers.limiting_case", "answers.known_case", "answers.case_in_letters"]
 )
-CLOSE = 1e-6  # to which the two must agree, relative to the terms that are compared
+CLOSE = 1e-6  # relative accuracy of agreement, compared with the size of the terms
 TRIALS = 2
 STATES = 3
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A step with the system that it belongs to.
+    """A step and the system to which it belongs.
 
-    momenta   the letters of conserved or conjugate momenta, each with its coordinate
-    assumed   what the page assumes of its letters
+    momenta   the symbols of conserved or conjugate momenta, each with its coordinate
+    assumed   the assumptions of the page about its symbols
     """
 
     quantity: Quantity
@@ -46,7 +46,7 @@ class Claim:
 
     @property
     def is_approximate(self) -> bool:
-        """Whether it, or something that it rests on, is a limit or a series: no motion satisfies it exactly."""
+        """Whether the step or one of its ancestors is a limit or a series, which no motion satisfies exactly."""
         return any(each.step.rule in APPROXIMATE for each in self.quantity.ancestors())
 
     @property
@@ -63,22 +63,22 @@ class Claim:
 
     @property
     def residuals(self) -> list[Expr]:
-        """What vanishes if the step is right: the sides of an equation, or a symbol and its value."""
+        """Differences that vanish if the step is right: of the sides of an equation, or of a symbol and its value."""
         if isinstance(self.value, Relation):
             return [self.value.residual] if self.value.mark == "=" else []
         if isinstance(self.symbol, Symbol) and self.symbol not in self.moving and self.symbol not in self.momenta:
-            return []  # a letter of its own
+            return []  # a separate symbol
         return [explicit(self.symbol) - self.value] if isinstance(self.symbol, Expr) else []
 
     @cached_property
     def moving(self) -> set[Symbol]:
-        """All letters that are not constant."""
+        """All symbols that are not constant."""
         q = self.blueprint.coordinates
         return {*q, *(rate(s, n) for s in q for n in (1, 2, 3)), *self.blueprint.multipliers, TIME}
 
     @cached_property
     def givens(self) -> list[Given]:
-        """What was substituted on the way to this step: it holds only where these are so."""
+        """The values substituted in the ancestors of this step: the step holds only for these values."""
         found: dict[Given, None] = {}
         for ancestor in self.quantity.ancestors():
             if ancestor.step.rule == PUT_IN:
@@ -87,7 +87,7 @@ class Claim:
 
     @cached_property
     def constants(self) -> dict[Symbol, Expr]:
-        """Cyclic coordinates that were eliminated by their constant momenta, with the values of these."""
+        """Cyclic coordinates that were eliminated by their constant momenta, with the values of these momenta."""
         found: dict[Symbol, Expr] = {}
         reduced = [each for each in self.quantity.ancestors() if each.step.rule in REDUCED]
         for each in (ancestor for step in reduced for ancestor in step.ancestors()):
@@ -112,7 +112,7 @@ class Claim:
         return [each for each in self.givens if self.is_of_a_state(each)]
 
     def trials(self, count: int = TRIALS, also: Sequence[Relation] = ()) -> Iterator[Trial]:
-        """The system with several sets of numbers, which satisfy what is assumed, and `also` these conditions."""
+        """The system with several sets of numbers, which satisfy the assumptions and the conditions in `also`."""
         for number in range(count):
             try:
                 yield Trial(
@@ -122,7 +122,7 @@ class Claim:
                 return
 
     def moments(self, trial: Trial, given: Sequence[Given] | None = None) -> Iterator[tuple[State, Response]]:
-        """States of the motion with what follows from them; those at which nothing is determined are left out."""
+        """States of the motion with their responses, except states at which the accelerations are not determined."""
         for which in range(STATES):
             try:
                 state = trial.state(self.states_given if given is None else given, which)
@@ -133,7 +133,7 @@ class Claim:
                 continue
 
     def refuted(self, detail: str, trial: Trial, state: State | None = None) -> Verdict:
-        """With the numbers at which the motion says otherwise."""
+        """A refutation with the numbers for which the motion contradicts the claim."""
         shown = sorted(trial.used, key=str)
         point = [(letter.name, f"{trial.numbers[letter]:.4g}") for letter in shown]
         if state is not None:
@@ -143,7 +143,7 @@ class Claim:
 
 
 def substituted(step: Quantity) -> list[Given]:
-    """The replacements that one substitution made: values of letters, and results for the letters that they have."""
+    """The replacements made by one substitution: values for symbols, and results that replace their own symbols."""
     found = [
         Given(relation.left, explicit(relation.right))
         for role, relation in step.step.roles
@@ -166,5 +166,5 @@ def agree(found: Reals, expected: Reals, scale: float = 1.0) -> bool:
 
 
 def seen(count: int, what: str) -> Verdict | None:
-    """What the witness says where nothing contradicted the claim; nothing where it saw nothing."""
+    """The verdict if nothing contradicted the claim; None if nothing was tested."""
     return Verdict(Grade.SAMPLED, f"{count} {what}") if count else None

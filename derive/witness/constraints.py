@@ -1,6 +1,6 @@
-"""Whether a force can keep a condition: its gradient does not vanish where the condition holds.
+"""Whether a constraint force can enforce a condition: the gradient does not vanish where the condition holds.
 
-That of (x - y)^2 vanishes on the condition itself, so that no multiple of it is a force there.
+The gradient of (x - y)^2 vanishes where the condition holds, so no multiple of it gives a force there.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Trial
 
 TRIALS, STATES = 2, 3
-NO_GRADIENT = 1e-4  # where letters are of order one, and a place is found to 1e-5 at a double zero
+NO_GRADIENT = 1e-4  # symbols are of order one, and a position at a double zero is found to 1e-5
 
 
 def without_gradient(of: Description) -> list[int]:

@@ -1,4 +1,4 @@
-"""What is there: masses, bodies, forces and constraints, as formulas in coordinates, rates, the time and letters."""
+"""The described system: masses, bodies, forces and constraints, as formulas in coordinates, rates, time and symbols."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Vector: TypeAlias = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Particle:
-    """A mass, kg, at a place, m."""
+    """A mass in kg, at a place in m."""
 
     mass: Expr
     place: Vector
@@ -20,15 +20,15 @@ class Particle:
 
 @dataclass(frozen=True)
 class Body:
-    """A rigid body, by a point of it whose place is known and by how it is rotated.
+    """A rigid body, given by the place of one of its points and by its orientation.
 
     mass     kg
-    place    of the known point, in space, m
+    place    place of the known point in space, m
     arm      from that point to the centre of mass, along the axes of the body, m
     spread   second moments, the sums of m r_i r_j about the centre of mass along the axes of the body, kg m^2
-    turns    rotations one after another, each about an axis (0, 1, 2) that the earlier ones led to, by an angle; in a
-             vertical plane there is one, about the normal
-    axes     in a plane, the numbers of the two axes of the body that lie in it; in space (0, 1, 2)
+    turns    successive rotations, each by an angle about an axis (0, 1, 2) as rotated by the earlier ones; in a
+             vertical plane there is one rotation, about the normal
+    axes     in a plane, the numbers of the two body axes in this plane; in space (0, 1, 2)
     """
 
     mass: Expr
@@ -41,7 +41,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Pair:
-    """A potential energy of the distance between two places, J."""
+    """A potential energy in J that depends on the distance between two places."""
 
     start: Vector
     end: Vector
@@ -51,9 +51,9 @@ class Pair:
 
 @dataclass(frozen=True)
 class Force:
-    """A force at a place, N; or a torque on an angle, N m, where the place has one component, the angle.
+    """A force in N at a place; or a torque in N m on an angle, if the place has one component, the angle.
 
-    body   the number of the body whose particle at that place it acts on; by default the place itself moves
+    body   number of the body with the particle on which the force acts; by default the force moves with the place
     """
 
     components: Vector
@@ -63,7 +63,7 @@ class Force:
 
 @dataclass(frozen=True)
 class Drag:
-    """A force -c v against the velocity of a place, or of the particle that a body has there; or against an angle's."""
+    """A force -c v against the velocity of a place, or of a body's particle there; or a torque, likewise."""
 
     constant: Expr
     place: Vector
@@ -72,7 +72,7 @@ class Drag:
 
 @dataclass(frozen=True)
 class Charge:
-    """A charge, C, in uniform fields; in a plane the magnetic field has the one component towards the reader."""
+    """A charge in C in uniform fields; in a plane the magnetic field has one component, towards the reader."""
 
     charge: Expr
     place: Vector
@@ -82,9 +82,9 @@ class Charge:
 
 @dataclass(frozen=True)
 class Condition:
-    """A formula that vanishes during the motion: of coordinates and the time, or linear in rates.
+    """A formula that vanishes during the motion: of coordinates and time, or linear in the rates.
 
-    multiplier   the letter of what keeps it, where it has one
+    multiplier   the symbol of its constraint force, if any
     """
 
     residual: Expr
@@ -94,12 +94,12 @@ class Condition:
 
 @dataclass(frozen=True)
 class Description:
-    """A system of mechanics as it is described, or a Lagrangian that is given in place of one.
+    """A mechanical system as described, or a given Lagrangian instead.
 
-    coordinates   with the kind of each: "angle", "length"
+    coordinates   each coordinate with its kind: "angle", "length"
     gravity       the acceleration of free fall against the last axis, m/s^2
     energies      potential energies in the coordinates, J
-    lagrangian    where it is given, J
+    lagrangian    the Lagrangian in J, if it is given
     """
 
     coordinates: tuple[tuple[Symbol, str], ...]
@@ -116,18 +116,18 @@ class Description:
 
     @property
     def multipliers(self) -> tuple[Symbol, ...]:
-        """The letters of what keeps the conditions."""
+        """The symbols of the constraint forces."""
         return tuple(each.multiplier for each in self.conditions if each.multiplier is not None)
 
 
 @dataclass(frozen=True)
 class Meeting:
-    """Two particles that meet, or one that meets what is at rest.
+    """A collision of two particles, or of one particle with an object at rest.
 
-    start, end    their places, as those of forces
-    normal        along which the impulse acts on the end; empty where the two stay together
-    restitution   the part of the speed of approach with which they part
-    letters       of the impulse, or of its components
+    start, end    their places, given as for forces
+    normal        the direction of the impulse on `end`; empty if the two stay together
+    restitution   the ratio of the speeds of separation and of approach
+    letters       the symbols of the impulse, or of its components
     """
 
     start: Force | None
@@ -139,10 +139,10 @@ class Meeting:
 
 @dataclass(frozen=True)
 class Impact:
-    """What happens to a system in a moment: given impulses and meetings.
+    """An impact on a system at one instant: given impulses and collisions.
 
-    at       coordinate -> its value in that moment
-    before   rate -> its value just before; the others are zero
+    at       coordinate -> its value at that instant
+    before   rate -> its value just before; all others are zero
     """
 
     system: Description

@@ -1,7 +1,7 @@
-"""Newton and Euler in numbers: the accelerations and the multipliers of a description at any state.
+"""The Newton-Euler equations, numerically: the accelerations and multipliers of a described system in any state.
 
-Every place X is differentiated along the coordinates and along the motion by complex steps. With the Jacobians J and
-the accelerations c that the rates alone cause, virtual work gives
+Each place X is differentiated by the coordinates and along the motion by complex steps. With the Jacobians J and the
+accelerations c at constant rates, virtual work gives
 
     sum of W J^T J a + sum of W J^T c = sum of J^T F + A^T lambda,    A a + b = 0,
 
@@ -26,20 +26,20 @@ from derive.witness.description import Description
 from derive.witness.geometry import AROUND, STEP, WEIGHTS, Place, Placed, Reals, State, formulas_of, placed
 from derive.witness.tape import Compiled, Tape
 
-NEAR = 1e-4  # of the points for second derivatives of a given Lagrangian, which may be singular at a close speed
-LEAST = 1e-12  # a row of the equations below this says nothing about the accelerations
-RANK = 1e-9  # singular values below this part of the largest count as zero
+NEAR = 1e-4  # step for second derivatives of a given Lagrangian, which may be singular at a nearby speed
+LEAST = 1e-12  # a row of the equations below this does not determine an acceleration
+RANK = 1e-9  # singular values below this fraction of the largest count as zero
 
 
 class Singular(Exception):
-    """The accelerations are not determined at this state: some mass or gradient vanishes there."""
+    """The accelerations are not determined in this state: a mass or gradient vanishes there."""
 
 
 @dataclass(frozen=True)
 class Response:
-    """What follows at a state: accelerations, and the multipliers of the conditions, in their order.
+    """The accelerations in a state, and the multipliers of the conditions in their order.
 
-    rank   the number of conditions of which none follows from the others
+    rank   the number of independent conditions
     """
 
     a: Reals
@@ -48,7 +48,7 @@ class Response:
 
 
 class Blueprint:
-    """The formulas of a description as operations, before the letters have numbers."""
+    """The formulas of a description as operations, before the symbols have numbers."""
 
     def __init__(self, description: Description):
         self.of = description
@@ -65,11 +65,11 @@ class Blueprint:
         self.conditions = Tape([c.residual for c in description.conditions], [*q, *self.rates, TIME])
         given = [description.lagrangian] if description.lagrangian is not None else []
         self.lagrangian = Tape(given, [*q, *self.rates, TIME])
-        self.known: dict[object, Any] = {}  # what was found with certain numbers, for the next step that asks
+        self.known: dict[object, Any] = {}  # cached results for certain numbers, for later steps
 
     @cached_property
     def letters(self) -> set[Symbol]:
-        """Every constant that needs a number."""
+        """All constants that need a number."""
         tapes = [self.places, self.weights, *self.pulls, self.energies, self.forces, self.conditions, self.lagrangian]
         return {letter for tape in tapes for letter in tape.letters}
 
@@ -90,7 +90,7 @@ def _weights(description: Description) -> list[Expr]:
 
 
 class Dynamics:
-    """A description whose letters have numbers."""
+    """A description whose symbols have numbers."""
 
     def __init__(self, blueprint: Blueprint, numbers: Mapping[Symbol, float]):
         self.blueprint, self.numbers = blueprint, numbers
@@ -120,7 +120,7 @@ class Dynamics:
         self._lagrangian = blueprint.lagrangian.bound(numbers) if of.lagrangian is not None else None
 
     def placed(self, state: State) -> Placed:
-        """Everything of the description at a state."""
+        """The places of all parts of the description in a state."""
         return placed(self.blueprint.of, self._places, [arm for _, arm, _ in self._bodies], state)
 
     # --- the equations ----------------------------------------------------------------------------------------------
@@ -136,7 +136,7 @@ class Dynamics:
         return matrix, forces
 
     def response(self, state: State) -> Response:
-        """The accelerations and multipliers at a state; raises `Singular` where they are not determined."""
+        """The accelerations and multipliers in a state; raises `Singular` if they are not determined."""
         at = self.placed(state)
         if self._lagrangian is not None:
             matrix, forces = self._of_lagrangian(state, self._lagrangian)
@@ -175,7 +175,7 @@ class Dynamics:
         return Response(known[: self.count], known[self.count :], rank)
 
     def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
-        """Masses with the places that carry them, and second moments with the pairs of axes that carry those."""
+        """Masses with their places, and second moments with their pairs of axes."""
         for mass, place in self._weighed(at):
             yield mass, place, place
         for body, (_, _, spread) in zip(at.bodies, self._bodies, strict=True):
@@ -184,7 +184,7 @@ class Dynamics:
                     yield spread[i, k], one, other
 
     def _matter(self, at: Placed) -> tuple[Reals, Reals]:
-        """The mass matrix and the forces of masses: the weight, minus the inertia that the rates alone cause."""
+        """The mass matrix and the forces of masses: the weight, minus the inertial forces at constant rates."""
         matrix, forces = np.zeros((self.count, self.count)), np.zeros(self.count)
         for weight, one, other in self._pairs_of_matter(at):
             matrix += weight * one.jacobian.T @ other.jacobian
@@ -194,7 +194,7 @@ class Dynamics:
         return matrix, forces
 
     def _weighed(self, at: Placed) -> Iterator[tuple[float, Place]]:
-        """Each mass with its place: of a body its centre of mass."""
+        """Each mass with its place; for a body, this is its centre of mass."""
         yield from zip(self._masses, at.particles, strict=True)
         for (mass, _, _), body in zip(self._bodies, at.bodies, strict=True):
             yield mass, body.centre
@@ -234,7 +234,7 @@ class Dynamics:
         return found
 
     def _kept(self, state: State) -> tuple[Reals, Reals]:
-        """The gradients of the conditions, A, and what is left of their second derivatives at zero acceleration, b."""
+        """The gradients A of the conditions, and their second time derivatives b at zero acceleration."""
         conditions, n = self.blueprint.of.conditions, self.count
         gradients, left = np.zeros((len(conditions), n)), np.zeros(len(conditions))
         if not conditions:
@@ -246,7 +246,7 @@ class Dynamics:
         return gradients, left
 
     def _slopes_of_conditions(self, state: State) -> tuple[Reals, Reals, Reals]:
-        """By coordinates, by rates, and along the motion with constant rates: the first derivative and the second."""
+        """Derivatives by coordinates, by rates, and along the motion with constant rates: the first and the second."""
         n = self.count
         here = np.concatenate([state.q, state.v, [state.t]])
         along = np.concatenate([state.v, np.zeros(n), [1.0]])
@@ -260,7 +260,7 @@ class Dynamics:
         return slopes[:, :n], slopes[:, n : 2 * n], np.stack([slopes[:, 2 * n], second], axis=1)
 
     def violation(self, state: State) -> tuple[Reals, Reals]:
-        """The conditions themselves, those in rates left out, and the rates at which all of them are violated."""
+        """The residuals of the conditions on places (zero for those in rates), and the rates of violation of all."""
         here = np.concatenate([state.q, state.v, [state.t]]).astype(complex)[:, None]
         residuals = np.real(self._conditions(here))[:, 0]
         in_rates = np.array([c.in_rates for c in self.blueprint.of.conditions], dtype=bool)
@@ -276,7 +276,7 @@ class Dynamics:
         return on_places, np.where(in_rates[:, None], by_rates, by_places)
 
     def momenta(self, state: State) -> Reals:
-        """The generalized momenta; a charge in a magnetic field has a share q A, with A = (1/2) B x r."""
+        """The generalized momenta; a charge in a magnetic field contributes q A, with A = (1/2) B x r."""
         if self._lagrangian is not None:
             return self._slopes_of_lagrangian(state, self._lagrangian)[self.count :]
         at = self.placed(state)
@@ -288,7 +288,7 @@ class Dynamics:
         return found
 
     def kinetic_energy(self, state: State) -> float:
-        """Half the sum of W v . v"""
+        """Half the sum of W v . v."""
         pairs = self._pairs_of_matter(self.placed(state))
         return sum(float(weight * one.velocity @ other.velocity) for weight, one, other in pairs) / 2
 
@@ -302,7 +302,7 @@ class Dynamics:
         return np.asarray(np.imag(function(points)[0]) / STEP, dtype=np.float64)
 
     def _of_lagrangian(self, state: State, function: Compiled) -> tuple[Reals, Reals]:
-        """The second derivatives of L by the rates, and dL/dq less what d(dL/dv)/dt has at zero acceleration."""
+        """The second derivatives of L by the rates, and dL/dq minus d(dL/dv)/dt at zero acceleration."""
         n = self.count
         reach = NEAR / (1 + float(np.max(np.abs(state.v), initial=0.0)))
         matrix = np.zeros((n, n))
@@ -319,7 +319,7 @@ class Dynamics:
 
 
 def jacobian_of(body: int | None, place: Place, at: Placed) -> Reals:
-    """Of the place itself, or of the particle that a body has there."""
+    """The Jacobian of the place itself, or of the particle of a body at that place."""
     return place.jacobian if body is None else at.bodies[body].jacobian_at(place.at)
 
 

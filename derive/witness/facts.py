@@ -1,4 +1,4 @@
-"""What a quantity says of a state of the system, for the verbs and for the witness alike."""
+"""Facts of a quantity about a state of the system, used by verbs and by the witness."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class Rest(Fact):
-    """A state of rest: the values of the coordinates, and where it exists; a coordinate left out may have any value."""
+    """An equilibrium: the values of the coordinates, and when it exists; an omitted coordinate may have any value."""
 
-    missing = "is not a state of rest"
+    missing = "is not an equilibrium"
     values: Mapping[Symbol, Expr]
     exists: Relation | None = None
 
 
 @dataclass(frozen=True)
 class Around(Fact):
-    """That an equation is one to first order about a place: the values of the coordinates there.
+    """A fact of an equation to first order about a place: the values of the coordinates there.
 
-    displaced   letter of a displacement -> the coordinate that it is a displacement of
+    displaced   symbol of a displacement -> the displaced coordinate
     """
 
     missing = "is not an equation to first order about a place"

@@ -1,7 +1,7 @@
-"""Where everything of a description is at a state, and how it moves: places with their derivatives.
+"""The places of all parts of a description in a state, with their derivatives.
 
-Complex steps give the first derivatives, along each coordinate and along the motion. The second derivative along the
-motion, at constant rates, is that of first derivatives at six points before and behind.
+Complex steps give the first derivatives, by each coordinate and along the motion. The second derivative along the
+motion, at constant rates, is computed from first derivatives at six points ahead and behind.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from derive.witness.tape import Compiled, Numbers
 
 Reals: TypeAlias = NDArray[np.float64]
 
-STEP = 1e-30  # of the imaginary part: it takes part in no sum, so that nothing cancels
-PATH = 0.004  # of the points on either side along the motion, for second derivatives
+STEP = 1e-30  # of the imaginary part: it is never added to the real part, so nothing cancels
+PATH = 0.004  # spacing of the points along the motion, for second derivatives
 AROUND = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
-WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60  # of a first derivative, to sixth order
+WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60  # weights of a first derivative, to sixth order
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class State:
 
     @property
     def reach(self) -> float:
-        """How far along the motion the points for second derivatives are apart."""
+        """The time between the points along the motion that are used for second derivatives."""
         return PATH / (1 + max(1.0, float(np.max(np.abs(self.v), initial=0.0))))
 
 
@@ -57,14 +57,14 @@ class PlacedBody:
     axes: dict[int, Place]
 
     def jacobian_at(self, place: Reals) -> Reals:
-        """Of the particle of the body that is at a place."""
+        """The Jacobian of the particle of the body at a place."""
         found = self.centre.jacobian.copy()
         for axis in self.axes.values():
             found += axis.jacobian * float(axis.at @ (place - self.centre.at))
         return found
 
     def velocity_at(self, place: Reals) -> Reals:
-        """Of that particle."""
+        """The velocity of the particle of the body at a place."""
         found = self.centre.velocity.copy()
         for axis in self.axes.values():
             found += axis.velocity * float(axis.at @ (place - self.centre.at))
@@ -73,7 +73,7 @@ class PlacedBody:
 
 @dataclass(frozen=True)
 class Placed:
-    """Everything of a description at a state, in its order."""
+    """The places of all parts of a description in a state, in its order."""
 
     particles: list[Place]
     bodies: list[PlacedBody]
@@ -102,7 +102,7 @@ def _acting_places(description: Description) -> list[Vector]:
 
 
 def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], state: State) -> Placed:
-    """Everything at a state. `arms` go from the known points of bodies to their centres of mass."""
+    """The places of all parts in a state. `arms` go from the known points of bodies to their centres of mass."""
     points, count = _points(state), len(state.q)
     found = formulas(points)
     rows = iter(found)
@@ -124,7 +124,7 @@ def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], 
 
 
 def _points(state: State) -> Numbers:
-    """The state, a complex step along each coordinate, one along the motion, and six more before and behind it."""
+    """The state, a complex step along each coordinate, one along the motion, and six more ahead and behind."""
     n = len(state.q)
     here, along = np.append(state.q, state.t), np.append(state.v, 1.0)
     points = np.tile(here.astype(complex)[:, None], (1, n + 8))

@@ -1,4 +1,4 @@
-"""What happens in a moment, in numbers: the momenta of all bodies jump by the impulses, and places stay.
+"""An impact, computed numerically: the impulses change the momenta of all bodies, and positions stay fixed.
 
     M (v - v_before) = sum of J^T K + A^T k,    n . (v_end - v_start) = -e n . (v_end - v_start)_before,    A v + b = 0
 
@@ -27,7 +27,7 @@ from derive.witness.trial import Contradiction, Given, Trial
 
 @lru_cache(maxsize=8)
 def _blueprint(of: Impact) -> Blueprint:
-    """The system with the places of all impulses as those of forces of no size."""
+    """The system with a zero force at the place of each impulse."""
     acting = [*of.impulses, *(end for meeting in of.meetings for end in _ends(meeting.start, meeting.end))]
     return Blueprint(replace(of.system, forces=tuple(acting), drags=(), charges=()))
 
@@ -38,14 +38,14 @@ def _ends(start: Force | None, end: Force) -> list[Force]:
 
 @dataclass(frozen=True)
 class After:
-    """The rates just after an impact, and the impulses by their letters."""
+    """The rates just after an impact, and the impulses by their symbols."""
 
     rates: dict[Symbol, float]
     impulses: dict[Symbol, float]
 
 
 def after(of: Impact, trial: Trial) -> After | None:
-    """What follows from the balance of momenta; nothing where it is not determined."""
+    """The result of the momentum balance; None if it is not determined."""
     blueprint = trial.blueprint
     q = blueprint.coordinates
     given = [Given(symbol, value) for symbol, value in of.at]
@@ -72,7 +72,7 @@ def after(of: Impact, trial: Trial) -> After | None:
 
 
 def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
-    """The share of the given impulses in the jump of each momentum."""
+    """The contribution of the given impulses to the change of each momentum."""
     at = trial.dynamics.placed(state)
     found = np.zeros(len(state.q))
     for impulse, place in zip(of.impulses, at.forces, strict=False):
@@ -82,7 +82,7 @@ def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
 
 
 def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Reals, Reals, list[Symbol]]:
-    """The mass matrix; for each unknown impulse what it does to the momenta, and the speed that it leaves."""
+    """The mass matrix; for each unknown impulse, its effect on the momenta and the required speed afterwards."""
     matrix, _ = trial.dynamics.inertia(state)
     at = trial.dynamics.placed(state)
     places = iter(at.forces[len(of.impulses) :])
@@ -105,7 +105,7 @@ def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Re
 
 
 def _normals(trial: Trial, normal: Vector, at: tuple[tuple[Symbol, Expr], ...], size: int) -> list[Reals]:
-    """The direction of the impulse, of length 1; every direction where two bodies stay together."""
+    """The direction of the impulse, of length 1; all directions if the two bodies stay together."""
     if not normal:
         return list(np.eye(size))
     components = np.array([trial.value(c.subs(dict(at))) for c in normal])
@@ -113,7 +113,7 @@ def _normals(trial: Trial, normal: Vector, at: tuple[tuple[Symbol, Expr], ...], 
 
 
 def testimony(of: Impact, quantity: Quantity) -> Verdict | None:
-    """Whether a rate after the impact, or an impulse, is the one that the balance of momenta gives."""
+    """Whether a rate after the impact, or an impulse, agrees with the momentum balance."""
     symbol = quantity.symbol
     blueprint = _blueprint(of)
     claim = Claim(quantity, Judged(quantity.value), quantity.step.outcome, blueprint)
@@ -129,6 +129,6 @@ def testimony(of: Impact, quantity: Quantity) -> Verdict | None:
         if expected is None:
             return None
         if abs(stated - expected) > CLOSE * (1 + abs(expected)):
-            return claim.refuted(f"the momenta balance with {expected:.6g}, but this is {stated:.6g}", trial)
+            return claim.refuted(f"the momentum balance gives {expected:.6g}, but this is {stated:.6g}", trial)
         count += 1
     return seen(count, "impacts")

@@ -1,4 +1,4 @@
-"""Which test belongs to the steps of which rule."""
+"""The witness's test for the steps of each rule."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ JUDGES: Mapping[str, Judge] = {
 }
 
 
-@lru_cache(maxsize=8)  # every step of a problem asks for its system
+@lru_cache(maxsize=8)  # each step of a problem needs its system
 def blueprint(description: Description) -> Blueprint:
     return Blueprint(description)
 
@@ -60,7 +60,7 @@ def testimony(
     momenta: Mapping[Symbol, Symbol],
     assumed: Sequence[Relation],
 ) -> Verdict | None:
-    """The verdict on a step; nothing where a formula cannot be computed, so that nothing was witnessed."""
+    """The verdict on a step; None if a formula cannot be computed, so that nothing was tested."""
     try:
         claim = Claim(quantity, judged, outcome, blueprint(description), momenta, tuple(assumed))
         return None if claim.is_approximate else judge(claim)

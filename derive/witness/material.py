@@ -1,4 +1,4 @@
-"""What moves at a place: whether some particle of the description moves as the place does.
+"""Whether a particle of the description moves in the same way as a given place.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9 (velocities in a rigid body).
 """
@@ -21,8 +21,8 @@ SAME = 1e-8
 
 
 def moving_alone(of: Description, places: Sequence[Vector]) -> list[int]:
-    """The numbers of the places that move like no particle of a body, of a massless rod to a particle, nor of the
-    ground; all states count, not only those that constraints allow."""
+    """The numbers of the places that do not move like any particle of a body, of a massless rod to a particle, or of
+    the ground; all states count, not only those that constraints allow."""
     zero = tuple(0 * c for c in places[0]) if places else ()
     asked = replace(of, forces=tuple(Force(zero, place) for place in places), drags=(), charges=(), conditions=())
     fitting: list[set[str] | None] = [None] * len(places)
@@ -42,7 +42,7 @@ def moving_alone(of: Description, places: Sequence[Vector]) -> list[int]:
 
 
 def _moves_like(at: Placed, place: Reals, jacobian: Reals) -> set[str]:
-    """Everything that moves as the place does in this state."""
+    """The names of all parts that move like the place in this state."""
     found = {"ground"} if np.max(np.abs(jacobian), initial=0.0) < SAME else set()
     for i, particle in enumerate(at.particles):
         apart = jacobian - particle.jacobian

@@ -1,7 +1,7 @@
-"""Motions followed from their start: speeds by conservation of energy, where contact is lost, periods, solutions.
+"""Motions simulated from their start: speeds by energy conservation, loss of contact, periods, solutions.
 
-SciPy integrates the accelerations of the described system (Dormand and Prince, order 8) and finds where an event takes
-place: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, sections II.5 and II.6.
+SciPy integrates the accelerations of the described system (Dormand and Prince, order 8) and finds when an event occurs:
+Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, sections II.5 and II.6.
 """
 
 from __future__ import annotations
@@ -21,22 +21,22 @@ from derive.witness.facts import Around
 from derive.witness.geometry import Reals, State
 from derive.witness.trial import Contradiction, Given, Trial
 
-LONG = 12.0  # the time for which a motion is followed, where masses, lengths and g are of order one
-CALLS = 6000  # of the accelerations in one motion
-MOMENTS, WATCHED = 12, 80  # steps at least, without and with an event that may be short
-CLEAR = 0.1  # by which a condition must be satisfied, or an event is too short to be seen
-FOLLOWED = 1e-5  # to which a followed motion and a formula agree
-MANY = 6  # motions from one start: whether they get somewhere may depend on the letters
-NUDGE = 2e-3  # part of the way by which a motion leaves an equilibrium in which it would stay
+LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
+CALLS = 6000  # most evaluations of the accelerations in one motion
+MOMENTS, WATCHED = 12, 80  # least number of steps, without and with an event that may be short
+CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
+FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
+MANY = 6  # motions from one start: whether they reach a place may depend on the values of the symbols
+NUDGE = 2e-3  # fraction of the distance by which a motion is displaced from an equilibrium at its start
 Event = Callable[[State], float]
 
 
 class TooLong(Exception):
-    """The motion takes more evaluations than one test may."""
+    """The motion needs more evaluations than one test is allowed."""
 
 
 class Run:
-    """One motion of the described system: its states, and the event that ended it, if one did."""
+    """One motion of the described system: its states, and its state at the event that ended it, if any."""
 
     def __init__(self, trial: Trial, start: State, length: float, event: Event | None, step: float):
         from scipy.integrate import solve_ivp
@@ -72,7 +72,7 @@ class Run:
 
 
 def followed(trial: Trial, start: State, length: float = LONG, event: Event | None = None) -> Run | None:
-    """The motion from a state; nothing where it meets a singularity or takes too long."""
+    """The motion from a state; None if it reaches a singularity or takes too long."""
     try:
         return Run(trial, start, length, event, length / (MOMENTS if event is None else WATCHED))
     except (Singular, TooLong, np.linalg.LinAlgError, FloatingPointError):
@@ -80,7 +80,7 @@ def followed(trial: Trial, start: State, length: float = LONG, event: Event | No
 
 
 def speed(claim: Claim) -> Verdict | None:
-    """The square of the rate, at every place that the motion from this start reaches."""
+    """Test the square of the rate at each place that the motion from this start reaches."""
     inputs = claim.judged.inputs
     q = inputs.get("coordinate")
     if not isinstance(q, Symbol) or q not in claim.blueprint.coordinates:
@@ -101,7 +101,7 @@ def speed(claim: Claim) -> Verdict | None:
         for each in run.states:
             stated, found = formulas.at(each)
             if not abs(stated - found) <= FOLLOWED * (1 + abs(found)):
-                return claim.refuted("the described motion from this start has another speed", trial, each)
+                return claim.refuted("the described motion from this start has a different speed", trial, each)
         count += 1
     return seen(count, "motions")
 
@@ -111,11 +111,11 @@ def _without_repeats(given: Sequence[Given]) -> list[Given]:
 
 
 def leaves(claim: Claim) -> Verdict | None:
-    """The force vanishes there, and the motion gets there from the start."""
+    """Test whether the motion reaches the place from the start, and whether the force vanishes there."""
     inputs = claim.judged.inputs
     if "unknown" not in inputs or "start" not in inputs or not isinstance(claim.value, Relation):
         return None
-    if claim.outcome == TURNS_THERE:  # the followed motion only comes close to the place
+    if claim.outcome == TURNS_THERE:  # the simulated motion only comes close to the place
         return None
     conditions = [each for each in inputs.values() if isinstance(each, Relation) and each.mark not in ("=", "!=")]
     place = inputs["place"].right if claim.outcome == TURNS_BACK else claim.value.right
@@ -134,7 +134,7 @@ TURNS_BACK, TURNS_THERE = "turns_back", "turns_there"
 
 
 def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Expr) -> Verdict | int:
-    """What refutes the claim in one motion; else whether it was seen."""
+    """The refutation of the claim by one motion; else the number of motions (0 or 1) that confirm it."""
     unknown, begin = explicit(inputs["unknown"]), explicit(inputs["start"])
     force = claim.judged.quantities.get("force")
     watched = trial.formulas([unknown, explicit(force.symbol) if force is not None else Integer(0)])
@@ -152,7 +152,7 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
     except Contradiction:
         if stays or not _can_start(claim, trial, unknown, begin):
             return 0
-        return claim.refuted("the described motion does not go there from this start", trial)
+        return claim.refuted("the described motion does not reach this place from this start", trial)
     state = _towards(trial, unknown, state, last - first)
 
     def pushing(here: State) -> float:
@@ -162,9 +162,9 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
     if run is None:
         return 0
     if stays:
-        return 1 if run.end is None else claim.refuted("in the described motion the force does vanish", trial, run.end)
+        return 1 if run.end is None else claim.refuted("in the described motion the force vanishes", trial, run.end)
     if run.end is None:
-        return claim.refuted("the described motion from this start does not get there", trial, state)
+        return claim.refuted("the described motion from this start does not reach this place", trial, state)
     found = float(watched.at(run.end)[0])
     if abs(found - last) > 10 * FOLLOWED + NUDGE * abs(last - first):
         return claim.refuted(f"in the described motion the force vanishes at {found:.4g} instead", trial, state)
@@ -185,7 +185,7 @@ def _can_go_on(claim: Claim, trial: Trial, unknown: Expr, begin: Expr, place: Ex
 
 
 def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
-    """The state with all rates turned round, if the motion would start away from the place."""
+    """The state with all rates reversed, if the motion would start away from the place."""
     from dataclasses import replace
 
     response = trial.dynamics.response(state)
@@ -194,10 +194,10 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 
 def solution(claim: Claim) -> Verdict | None:
-    """The coordinate as this function of the time, where the other coordinates do what the described system does."""
+    """Test a coordinate as this function of time; the other coordinates follow the described system."""
     (q,) = (claim.symbol,) if isinstance(claim.symbol, Symbol) else (None,)
     if any(each.fact(Around) is not None for each in claim.quantity.ancestors()):
-        return small.motion(claim)  # to first order it is another motion
+        return small.motion(claim)  # to first order it is a different motion
     if q is None or q not in claim.blueprint.coordinates:
         return None
     motion = claim.value
@@ -217,13 +217,13 @@ def solution(claim: Claim) -> Verdict | None:
         for each in run.states:
             (stated,) = formula.at(each)
             if not abs(stated - each.q[i]) <= FOLLOWED * size:
-                return claim.refuted("the described motion from this start is another one", trial, each)
+                return claim.refuted("the described motion from this start is a different one", trial, each)
         count += 1
     return seen(count, "motions")
 
 
 def period(claim: Claim) -> Verdict | None:
-    """The time of a swing from a release at the amplitude; a series comes closer to it the smaller the amplitude is."""
+    """Test the period of a swing released at the amplitude; the error of a series must shrink with the amplitude."""
     inputs = claim.judged.inputs
     if claim.outcome == INTEGRATED:
         integral, letters, numbers = (inputs[role] for role in ("integral", "letters", "numbers"))
@@ -255,11 +255,11 @@ def period(claim: Claim) -> Verdict | None:
 
 INTEGRATED = "integrated"
 LARGE = 0.8  # an amplitude
-TIMED = 1e-7  # to which the period of a followed motion is known
+TIMED = 1e-7  # accuracy of the period of a simulated motion
 
 
 def _shrinks(series: Expr, amplitude: Symbol) -> float:
-    """By what the error becomes smaller at least at half the amplitude: by more than the highest power does."""
+    """The largest allowed ratio of the errors at half and at full amplitude, below that of the highest power kept."""
     highest = series.as_poly(amplitude).degree()
     return float(0.5 ** (highest + 0.5))
 

@@ -1,7 +1,7 @@
-"""Equilibria and small motions about them: what stays, what returns, what leaves, and with which frequencies.
+"""Tests of equilibria and of small motions about them: stability, frequencies and decay.
 
-The described system is linearised in numbers on the manifold of its constraints, with the momenta of cyclic coordinates
-held constant. The eigenvalues s of the motion decide: Re s > 0 leaves, s = i omega oscillates.
+The described system is linearised numerically on the manifold of its constraints, at constant momenta of its cyclic
+coordinates. The eigenvalues s of the motion decide: for Re s > 0 it leaves, for s = i omega it oscillates.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.1 and 6.2; Meirovitch, *Methods of Analytical
 Dynamics*, section 6.
@@ -26,23 +26,23 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
 SMALL = 1e-3  # a displacement, for derivatives to fourth order
-SURE = 1e-3  # an eigenvalue below this part of the largest counts as zero
-FREQUENCY = 1e-5  # to which squares of frequencies agree
-STAYS = 1e-7  # an acceleration below this, with numbers of order one, is none
-DOUBLE = 1e-4  # to which exponents agree: two that nearly coincide are known less well
-SHORT, MOMENTS = 2.0, 6  # for which a small motion is followed, and at how many times it is looked at
+SURE = 1e-3  # an eigenvalue below this fraction of the largest counts as zero
+FREQUENCY = 1e-5  # accuracy to which squares of frequencies agree
+STAYS = 1e-7  # an acceleration below this counts as zero, with numbers of order one
+DOUBLE = 1e-4  # accuracy to which exponents agree: nearly equal exponents are less accurate
+SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which it is tested
 ZERO = Integer(0)
-DRAWS = 8  # sets of numbers among which both sides of a condition are sought
+DRAWS = 8  # sets of numbers that are tried for both sides of a condition
 DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
 WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
 
 
 @dataclass(frozen=True)
 class Neighbourhood:
-    """States near one at which the system stays, by as many coordinates as it has freedoms.
+    """States near an equilibrium, described by as many coordinates as there are degrees of freedom.
 
-    free     the coordinates that may be displaced: all but the cyclic ones whose momenta are known
-    momenta  of the cyclic ones
+    free     the coordinates that may be displaced: all except the cyclic ones whose momenta are known
+    momenta  the momenta of these cyclic coordinates
     """
 
     trial: Trial
@@ -60,7 +60,7 @@ class Neighbourhood:
         return np.array(rows[rank:].T)
 
     def at(self, basis: Reals, u: Reals, w: Reals) -> State:
-        """The state with these displacements along the basis and these rates of them."""
+        """The state with these displacements u along the basis, and their rates w."""
         q, v = self.state.q.copy(), self.state.v.copy()
         q[list(self.free)] += basis @ u
         v[list(self.free)] = self.state.v[list(self.free)] + basis @ w
@@ -73,11 +73,11 @@ class Neighbourhood:
         return np.asarray(basis.T @ response.a[list(self.free)])
 
     def eigenvalues(self) -> NDArray[np.complex128]:
-        """Of the linear motion."""
+        """The eigenvalues of the linear motion."""
         return np.asarray(np.linalg.eigvals(self.matrix()), dtype=np.complex128)
 
     def matrix(self) -> Reals:
-        """Of the linear motion d(u, w)/dt = (w, a(u, w))."""
+        """The matrix of the linear motion d(u, w)/dt = (w, a(u, w))."""
         basis = self.basis()
         n = basis.shape[1]
         matrix = np.zeros((2 * n, 2 * n))
@@ -90,7 +90,7 @@ class Neighbourhood:
 
 
 def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
-    """What surrounds an equilibrium; nothing where it is not known what the other coordinates do."""
+    """The neighbourhood of an equilibrium; None if the motion of the other coordinates is unknown."""
     q = claim.blueprint.coordinates
     cyclic = {q.index(of): value for of, value in claim.constants.items() if of not in place}
     if cyclic and claim.blueprint.of.conditions:
@@ -119,7 +119,7 @@ def _neighbourhoods(
 
 
 def rest(claim: Claim) -> Verdict | None:
-    """The system stays there."""
+    """Test whether the system stays at the equilibrium."""
     known = claim.quantity.fact(Rest)
     if known is None:
         return None
@@ -128,9 +128,9 @@ def rest(claim: Claim) -> Verdict | None:
         try:
             response = near.trial.dynamics.response(near.state)
         except Singular:
-            if near.momenta:  # a place at which the coordinates are singular, and the reduced ones are not
+            if near.momenta:  # the coordinates are singular here, but the reduced coordinates are not
                 continue
-            if _is_balanced(near):  # a part without mass has no acceleration, but is at rest where no force acts
+            if _is_balanced(near):  # a massless part has no defined acceleration, but is at rest if no force acts
                 count += 1
                 continue
             return claim.refuted("the accelerations are not determined there", near.trial, near.state)
@@ -141,7 +141,7 @@ def rest(claim: Claim) -> Verdict | None:
 
 
 def _is_balanced(near: Neighbourhood) -> bool:
-    """Whether no generalized force acts at rest, where no condition is kept."""
+    """Whether no generalized force acts at rest, for a system without conditions."""
     if near.trial.blueprint.of.conditions:
         return False
     _, forces = near.trial.dynamics.inertia(near.state)
@@ -153,7 +153,7 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 
 def stability(claim: Claim) -> Verdict | None:
-    """A small displacement stays small, or grows; where a condition decides, on its two sides."""
+    """Test whether a small displacement stays small or grows; if a condition decides this, test both of its sides."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None
@@ -190,11 +190,11 @@ def _neighbourhoods_with(
 
 
 def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdict | int:
-    """What refutes the statement; else whether it was seen."""
+    """The refutation of the statement; else the number of states (0 or 1) that confirm it."""
     try:
         growth = near.eigenvalues()
     except (Singular, Contradiction, np.linalg.LinAlgError):
-        if near.momenta:  # a place at which the coordinates are singular, and the reduced ones are not
+        if near.momenta:  # the coordinates are singular here, but the reduced coordinates are not
             return 0
         return claim.refuted("the accelerations are not determined near this state", near.trial, near.state)
     size = max(float(np.max(np.abs(growth), initial=0.0)), 1e-3)
@@ -217,7 +217,7 @@ def _around(claim: Claim) -> Around | None:
 
 
 def frequency(claim: Claim) -> Verdict | None:
-    """A small displacement oscillates with this frequency, or grows at this rate."""
+    """Test whether a small displacement oscillates with this frequency, or grows at this rate."""
     around = _around(claim)
     if around is None or claim.outcome == "neutral":
         return None
@@ -242,7 +242,7 @@ def _squares_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
 
 
 def damped(claim: Claim) -> Verdict | None:
-    """A small displacement decays at this rate, or oscillates with this frequency while it decays."""
+    """Test whether a small displacement decays at this rate, or oscillates with this frequency while it decays."""
     around = _around(claim)
     if around is None:
         return None
@@ -263,7 +263,7 @@ def damped(claim: Claim) -> Verdict | None:
                 {DECAYS: -stated, GROWS: -stated, OVERDAMPED: stated - decay}.get(claim.outcome, 1j * stated - decay),
             )
         if np.min(np.abs(found - wanted), initial=np.inf) > size:
-            return claim.refuted("small motions of the described system decay in another way", near.trial, near.state)
+            return claim.refuted("small motions of the described system decay differently", near.trial, near.state)
         count += 1
     return seen(count, "equilibria")
 
@@ -272,7 +272,7 @@ PAIR, DECAYS, GROWS, OVERDAMPED = "oscillator", "decay", "growth", "overdamped"
 
 
 def motion(claim: Claim) -> Verdict | None:
-    """A displacement as this function of the time, from the displacements and rates that are stated for the start."""
+    """Test a displacement as this function of time, for the stated initial displacements and rates."""
     from scipy.linalg import expm
 
     around, starts = _around(claim), _starts_of(claim)
@@ -295,13 +295,15 @@ def motion(claim: Claim) -> Verdict | None:
         stated = np.array([formula.at(replace(near.state, t=float(t)))[0] for t in times])
         size = max(float(np.max(np.abs(found))), float(np.max(np.abs(begin))), 1e-3)
         if not np.max(np.abs(stated - found)) <= FREQUENCY * 10 * size:
-            return claim.refuted("a small motion of the described system from this start is another one", near.trial)
+            return claim.refuted(
+                "a small motion of the described system from this start is a different one", near.trial
+            )
         count += 1
     return seen(count, "motions")
 
 
 def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
-    """The displacements and rates at the start, as the sentence tells them; what it does not tell is zero."""
+    """The initial displacements and rates that the sentence states; all others are zero."""
     told = [each for role, each in claim.judged.inputs.items() if role.startswith("start")]
     if not all(isinstance(each, Relation) for each in told):
         return None
@@ -309,13 +311,13 @@ def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
 
 
 def _stays(near: Neighbourhood) -> bool:
-    """Whether nothing drives it: at any time it would stay in the equilibrium."""
+    """Whether the system is not driven: it stays at the equilibrium at any time."""
     at_times = [near.trial.dynamics.response(replace(near.state, t=t)) for t in (0.0, 0.3)]
     return all(np.max(np.abs(each.a[list(near.free)]), initial=0.0) < STAYS * 10 for each in at_times)
 
 
 def _eigenvalues_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
-    """The same for all frequencies of one equilibrium."""
+    """The eigenvalues, cached for all frequencies of one equilibrium."""
     known, letters = near.trial.blueprint.known, sorted(near.trial.blueprint.letters, key=str)
     here = near.state.q.tobytes(), near.state.v.tobytes(), tuple(near.momenta.items())
     key = (tuple(near.trial.numbers[letter] for letter in letters), near.free, *here)

@@ -1,7 +1,7 @@
-"""A description with numbers drawn for its letters, and states at which the conditions and what is given hold.
+"""A description with random numbers for its symbols, and states that satisfy the conditions and the given values.
 
-Numbers are drawn by the names of letters and the number of the trial, so that every claim about one system meets the
-same numbers in every run. They lie in the ranges of their letters and satisfy what the page assumes.
+The seed is the name of the symbol and the number of the trial, so all claims about one system are tested with the same
+numbers in each run. The numbers lie in the ranges of their symbols and satisfy the assumptions of the page.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from derive.witness.dynamics import Blueprint, Dynamics, Response
 from derive.witness.geometry import STEP, Reals, State
 from derive.witness.tape import NotComputable, Tape
 
-SALTS = 60  # sets of numbers among which one is sought that satisfies what is assumed
-ROUNDS = 25  # of Newton's method
+SALTS = 60  # sets of numbers that are tried until one satisfies the assumptions
+ROUNDS = 25  # most iterations of Newton's method
 EXACT = 1e-10
-ATTEMPTS = 5  # states that are drawn before none is found
+ATTEMPTS = 5  # states that are drawn before the search fails
 
 HOLDS = {
     "=": lambda x: abs(x) < EXACT,
@@ -38,7 +38,7 @@ HOLDS = {
 
 
 class Contradiction(Exception):
-    """What is given cannot hold in the described system: `of_rates` if it is the rates that contradict each other."""
+    """The given values are impossible in the described system; `of_rates` if the contradiction is between rates."""
 
     def __init__(self, of_rates: bool):
         super().__init__()
@@ -47,14 +47,14 @@ class Contradiction(Exception):
 
 @dataclass(frozen=True)
 class Given:
-    """What holds at a state besides the conditions of the system: `target` has the value `value`."""
+    """A requirement on a state, in addition to the conditions of the system: `target` has the value `value`."""
 
     target: Expr
     value: Expr
 
 
 class Drawn(Mapping[Symbol, float]):
-    """A number for every letter, by its name; those that are `fixed` have theirs."""
+    """A number for each symbol, determined by its name, unless it is given in `fixed`."""
 
     def __init__(self, trial: int, salt: int = 0, fixed: Mapping[Symbol, float] | None = None):
         self.trial, self.salt, self.fixed = trial, salt, dict(fixed or {})
@@ -73,7 +73,7 @@ class Drawn(Mapping[Symbol, float]):
 
 
 def drawn(letter: Symbol, trial: int, salt: int = 0, wide: float = 1.0) -> float:
-    """A number of ordinary size that the letter can have."""
+    """A number of ordinary size that is allowed for the symbol."""
     source = Random(crc32(f"{letter.name} {trial} {salt}".encode()))
     known = range_of(letter)
     if known is not None:
@@ -94,9 +94,9 @@ def _fraction(number: float) -> Any:
 
 
 class Trial:
-    """A description in numbers: one set of them.
+    """A description with one set of numbers.
 
-    given   values that letters have, `m = 2 M`; coordinates and rates are given at states
+    letters   given values of symbols, `m = 2 M`; coordinates and rates are given for states
     """
 
     def __init__(
@@ -129,22 +129,22 @@ class Trial:
             residuals = np.real(tape.bound(numbers)(np.empty((0, 1), dtype=complex))[:, 0])
             if all(HOLDS[each.mark](x) for each, x in zip(constant, residuals, strict=True)):
                 return numbers
-        raise NotComputable("no numbers were found that satisfy what is assumed")
+        raise NotComputable("no numbers satisfy the assumptions")
 
     @property
     def used(self) -> set[Symbol]:
-        """The letters that have numbers here."""
+        """The symbols that have numbers here."""
         return self.blueprint.letters
 
     def value(self, formula: Expr, numbers: Mapping[Symbol, float] | None = None) -> float:
-        """A formula of constants."""
+        """The value of a formula of constants."""
         found = Tape([formula], []).bound(self.numbers if numbers is None else numbers)(np.empty((0, 1), dtype=complex))
         return _real(found[0, 0])
 
     # --- states -----------------------------------------------------------------------------------------------------
 
     def states(self, count: int, given: Sequence[Given] = (), still: bool = False) -> Iterator[State]:
-        """States at which the conditions hold and what is given; raises `Contradiction` where there are none."""
+        """States that satisfy the conditions and the given values; raises `Contradiction` if there are none."""
         for i in range(count):
             yield self.state(given, i, still)
 
@@ -161,7 +161,7 @@ class Trial:
         raise last
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
-        """Not far from zero after some attempts, but for what is positive or lies in a range."""
+        """A random state; with a small `wide` it is close to zero, except values that are positive or have a range."""
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:
             place = drawn(symbol, self.number, 7 + which)
@@ -173,7 +173,7 @@ class Trial:
         return State(np.array(q), np.array(v), abs(time))
 
     def _projected(self, state: State, given: Sequence[Given]) -> State:
-        """The places first, then the rates, each moved as little as it takes."""
+        """Project a state onto the conditions and given values by least changes: first the places, then the rates."""
         inputs = [*self.blueprint.coordinates, *self.blueprint.rates, TIME]
         kept = [(self.momenta[g.target], self.value(g.value)) for g in given if g.target in self.momenta]
         given = [g for g in given if g.target not in self.momenta]
@@ -183,7 +183,7 @@ class Trial:
         fast = np.array(of_rates, dtype=bool)
 
         def at(q: Reals, v: Reals, t: float) -> tuple[Reals, Reals]:
-            """What is given, and its derivatives by places, rates and the time."""
+            """The residuals of the given values, and their derivatives by places, rates and time."""
             n = len(q)
             here = np.concatenate([q, v, [t]]).astype(complex)
             points = np.tile(here[:, None], (1, 2 * n + 2))
@@ -239,7 +239,7 @@ class Trial:
         raise Contradiction(of_rates=True)
 
     def kept_at(self, state: State) -> State:
-        """The state nearest to this one at which the conditions hold."""
+        """The nearest state that satisfies the conditions."""
         return self._projected(state, [])
 
     def with_momenta(self, state: State, momenta: Mapping[int, float]) -> State:
@@ -258,20 +258,20 @@ class Trial:
         return any(TIME in explicit(c.residual).free_symbols for c in self.blueprint.of.conditions if not c.in_rates)
 
     def _by_time(self, state: State) -> Reals:
-        """How the conditions on places change as the time alone passes."""
+        """The partial derivatives by time of the conditions on places."""
         at_rest = replace(state, v=np.zeros_like(state.v))
         in_rates = np.array([c.in_rates for c in self.blueprint.of.conditions], dtype=bool)
         _, violation = self.dynamics.violation(at_rest)
         return np.where(in_rates, 0.0, violation)
 
     def _as_assumed(self, state: State) -> bool:
-        """Whether what the page assumes of places and rates holds there."""
+        """Whether the assumptions of the page about places and rates hold in this state."""
         point = np.concatenate([state.q, state.v, [state.t]])[self._sorted].astype(complex)[:, None]
         found = np.real(self._staying(point)[:, 0])
         return all(HOLDS[each.mark](x) for each, x in zip(self._stays, found, strict=True))
 
     def _allowed(self, q: Reals) -> bool:
-        """Whether every coordinate is where its letter can be."""
+        """Whether each coordinate has an allowed value."""
         for symbol, place in zip(self.blueprint.coordinates, q, strict=True):
             known = range_of(symbol)
             if symbol.is_positive and place <= 0:
@@ -302,7 +302,7 @@ class Formulas:
         self._bound = self._tape.bound(trial.numbers)
 
     def at(self, state: State, response: Response | None = None) -> Reals:
-        """The values at a state; without its response accelerations and multipliers count as zero."""
+        """The values in a state; without a response, accelerations and multipliers count as zero."""
         n, rows = len(state.q), len(self.trial.blueprint.multipliers)
         a, kept = (response.a, response.multipliers) if response is not None else (np.zeros(n), np.zeros(rows))
         momenta = self.trial.dynamics.momenta(state)[[k for _, k in self._momenta]] if self._momenta else np.zeros(0)
@@ -317,7 +317,7 @@ class Formulas:
         return complex(self._bound(point[:, None])[0, 0])
 
     def rate_at(self, state: State, response: Response) -> Reals:
-        """How the values change along the motion; they may depend on places, rates and the time."""
+        """The time derivatives of the values along the motion; the values may depend on places, rates and time."""
         rows = len(self.trial.blueprint.multipliers)
         n = len(state.q)
         here = np.concatenate([state.q, state.v, np.zeros(n + rows + self._count), [state.t]]).astype(complex)

@@ -133,12 +133,12 @@ def test_every_node_says_its_dimension_and_what_it_is_to_sympy_and_is_encoded(na
 def test_a_node_that_says_nothing_of_itself_is_found_out() -> None:
     assert Unsaid.__name__ not in NODES
     for ask in (lambda node: node.dimension(None), lambda node: node.lowered(str), lambda node: node.doit()):
-        with pytest.raises(AttributeError, match="Unsaid must say"):
+        with pytest.raises(AttributeError, match="Unsaid must define"):
             ask(Unsaid())
 
 
 def test_two_nodes_of_one_name_are_refused() -> None:
-    with pytest.raises(TypeError, match="there already is a node Dot"):
+    with pytest.raises(TypeError, match="a node Dot already exists"):
         type("Dot", (Node,), {})
 
 

@@ -154,7 +154,7 @@ def test_matrices_become_explicit_unless_a_name_is_left() -> None:
 @pytest.mark.parametrize("number", [1.5, "1", None, 2j])
 def test_only_an_exact_number_is_taken(number: object) -> None:
     assert explicit(3) == 3
-    with pytest.raises(TypeError, match="is no exact number"):
+    with pytest.raises(TypeError, match="is not an exact number"):
         explicit(number)
 
 

@@ -96,7 +96,7 @@ def test_what_one_letter_does_not_decide_is_refused(value: Expr) -> None:
         where(quantity(value), ">", 0, R)
     (complaint,) = refusal.value.complaints
     assert complaint.code == "no-condition"
-    assert complaint.message.startswith("`v` cannot be compared by R alone: ")
+    assert complaint.message.startswith("`v` cannot be solved for R: ")
 
 
 def test_every_line_of_a_condition_is_proved() -> None:

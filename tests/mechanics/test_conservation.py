@@ -130,14 +130,14 @@ def test_only_the_last_line_rests_on_the_equations() -> None:
 @pytest.mark.parametrize(
     ("equations", "message"),
     [
-        ([], "0 equations of motion do not give any rate"),
-        ([equation(k * x.symbol, x)], "1 equation of motion does not give any rate"),
+        ([], "0 equations of motion do not determine any rate"),
+        ([equation(k * x.symbol, x)], "1 equation of motion does not determine any rate"),
         (
             [equation(M * x.acceleration + M * l * theta.acceleration, both)],
-            "1 equation of motion does not give x_ddot, theta_ddot",
+            "1 equation of motion does not determine x_ddot, theta_ddot",
         ),
-        ([equation(M * x.acceleration, x)] * 2, "2 equations of motion do not give x_ddot"),
-        ([equation(x.acceleration**2 - k, x)], "1 equation of motion does not give x_ddot"),
+        ([equation(M * x.acceleration, x)] * 2, "2 equations of motion do not determine x_ddot"),
+        ([equation(x.acceleration**2 - k, x)], "1 equation of motion does not determine x_ddot"),
     ],
 )
 def test_equations_must_determine_the_motion(equations: list[Quantity], message: str) -> None:

@@ -272,5 +272,5 @@ class TestAloneInItsEquation:
     def test_a_coordinate_that_is_substituted_must_stay_so(self) -> None:
         """With y_dot = 0 for one instant the equation is that of cosh, but the Coriolis force sets y moving."""
         x, y, (along_x, _) = self.turntable()
-        with pytest.raises(Unverified, match="the described motion from this start is another one"):
+        with pytest.raises(Unverified, match="the described motion from this start is a different one"):
             solution(put_in(along_x, {y.rate: 0}), x, a)

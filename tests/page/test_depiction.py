@@ -182,7 +182,7 @@ def test_a_letter_that_the_drawing_lacks_is_told(tmp_path: Path) -> None:
 def test_what_cannot_be_drawn_is_told_at_the_line_of_the_script(tmp_path: Path) -> None:
     (fault,) = faults(tmp_path, script={"vectors_in(block, omega, L, ": "vectors_in(block, T, L, "})
     assert fault.startswith("problems/hw9/block.py:")
-    assert "a drawing needs a vector or a place here, but `kinetic_energy` is none" in fault
+    assert "a drawing needs a vector or a place here, but `kinetic_energy` is not one" in fault
 
 
 def test_the_page_of_tex_names_the_files_and_says_what_they_show(block: Rendered) -> None:

@@ -70,4 +70,4 @@ def test_a_wrong_rate_after_an_impact_is_refused_and_the_right_one_is_witnessed(
     (struck,) = {fact for each in rate_after.ancestors() for fact in each.facts if isinstance(fact, Struck)}
     assert impact.testimony(struck.impact, rate_after)
     wrong = impact.testimony(struck.impact, replace(rate_after, value=rate_after.value / 2))
-    assert wrong is not None and wrong.detail.startswith("the momenta balance with")
+    assert wrong is not None and wrong.detail.startswith("the momentum balance gives")
