@@ -1,6 +1,6 @@
-"""Write docs/gallery.md; with `--pictures` take its pictures anew in a Chromium, of what `make library` has built.
+"""Write docs/gallery.md; with `--pictures` take new pictures in Chromium of the pages that `make library` built.
 
-A picture is the beginning of the page that a build has written for a browser; below it are the lines of the problem.
+A picture shows the beginning of the page that a build writes for a browser; the lines of the problem are below it.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "gallery"
 WIDTH, HEIGHT = 860, 1060
 
-# What each is there to show.
+# What each problem shows.
 SHOWN = {
     "turning_hoop": "A system on axes that turn: equilibria, and where each of them is stable",
     "double_pendulum": "Two coordinates, each equation of motion by itself, then the normal modes",
@@ -36,7 +36,7 @@ one of yours with a copy.
 
 
 def document() -> str:
-    """The whole page."""
+    """Return the whole page."""
     return "\n".join([_BEGINNING, *(_entry(name, shows) for name, shows in SHOWN.items())])
 
 
@@ -50,7 +50,7 @@ def _entry(name: str, shows: str) -> str:
 
 
 def _told(text: str) -> str:
-    """The problem without what a book states of it."""
+    """Return the problem without the statements of a book about it."""
     return re.sub(r"^# yaml-language-server.*\n", "", text.partition("\nreference:")[0], flags=re.MULTILINE).strip()
 
 

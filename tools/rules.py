@@ -25,14 +25,14 @@ by another path through the physics, its *checks* put the result to a test. A ru
 
 
 def rules() -> list[Rule]:
-    """The rules of the modules that are loaded, by name."""
+    """Return the rules of the loaded modules, by name."""
     modules = [module for name, module in sys.modules.items() if name.startswith("derive.")]
     found = {each for module in modules for each in vars(module).values() if isinstance(each, Rule)}
     return sorted(found, key=lambda rule: rule.name)
 
 
 def document() -> str:
-    """A section for each folder, with a row for each of its rules."""
+    """Return a section for each folder, with a row for each of its rules."""
     parts = [HEAD]
     for folder, own in groupby(rules(), key=lambda rule: rule.name.partition(".")[0]):
         parts.append(
@@ -58,7 +58,7 @@ def with_checks_only() -> str:
 
 
 def soundness(text: str) -> str:
-    """The page with the list as it is now."""
+    """Return the page with the current list."""
     before, _, rest = text.partition(START)
     return before + START + with_checks_only() + END + rest.partition(END)[2]
 

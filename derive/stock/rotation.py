@@ -1,4 +1,4 @@
-"""Rigid bodies that turn: angular momentum, energy and torque, Euler's equations, and whether a rotation is stable."""
+"""Rigid bodies that rotate: angular momentum, energy, torque, Euler's equations, and the stability of a rotation."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ from derive.stock.keys.outlines import drawn_free, drawn_turning
 from derive.stock.keys.results import RESULTS, Result, read_result
 
 AXES = "xyz"
-CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their letters
-MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # of a rotation that changes
+CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their symbols
+MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # for a rotation that changes
 KINDS_OF_COMPONENTS = {
     "moments": "moment of inertia",
     "rates": "angular speed",
@@ -66,7 +66,7 @@ CENTRE_OF_MASS, FIXED_POINT = "centre_of_mass", "fixed_point"
 
 @dataclass(frozen=True)
 class RotationKeys(Record):
-    """What describes a body that turns."""
+    """The keys of a body that rotates."""
 
     body: BodyKeys | None = key("the body", BODY)
     moments: tuple[Tree, ...] = key(
@@ -93,7 +93,7 @@ class RotationKeys(Record):
 
 @dataclass(frozen=True)
 class DescribedRotation(Described):
-    """A rotation in its letters."""
+    """A rotation in symbols."""
 
     body: DescribedBody | None = None
     moments: tuple[Expr, Expr, Expr] | None = None
@@ -108,7 +108,7 @@ class DescribedRotation(Described):
 
 
 def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedRotation:
-    """What the keys say in the declared letters."""
+    """Return the description in the declared symbols."""
     known = InLetters(symbols)
     found: dict[str, Any] = {}
     with faults:
@@ -172,7 +172,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
-    """The answers that do not depend on the `rate` of a rotation that is disturbed, and those not on the `torque`."""
+    """Return the answers that do not depend on the `rate` of a disturbed rotation, or not on the `torque`."""
     asks = {*Answers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
@@ -193,7 +193,7 @@ def _one_way(written: RotationKeys, first: str, second: str, required: bool = Fa
 
 
 def _point(written: RotationKeys, body: DescribedBody | None) -> str:
-    """The point that stays at rest: one of the body's; of a body that is told by its moments, whether it is held."""
+    """Return the point at rest: a point of the body, or for a body specified by its moments, whether it is held."""
     if written.body is not None:
         return body.point(written.about) if body is not None and written.about else "centre"
     if written.about is None:
@@ -206,7 +206,7 @@ def _point(written: RotationKeys, body: DescribedBody | None) -> str:
 
 
 class Answers:
-    """What parts may ask of a rotation, each derived when it is first asked for."""
+    """Answers of a rotation, each derived when it is first needed."""
 
     def __init__(self, described: DescribedRotation):
         self.described = described
@@ -226,12 +226,12 @@ class Answers:
 
     @property
     def is_given(self) -> bool:
-        """Whether the angular velocity is, for good or for one moment."""
+        """Return whether the angular velocity is given, constant or at one instant."""
         return bool(self.described.along or self.described.rates or self.described.start)
 
     @cached_property
     def spin(self) -> Quantity:
-        """The constant angular velocity, or that of one moment."""
+        """Return the constant angular velocity, or the one at one instant."""
         if self.described.start:
             return momentary_angular_velocity(self.described.start, self.about, key="spin")
         if self.described.rates:
@@ -251,7 +251,7 @@ class Answers:
 
     @cached_property
     def changing(self) -> Quantity:
-        """An angular velocity that changes in any way."""
+        """Return an angular velocity that changes in any way."""
         return changing_angular_velocity(self.about)
 
     @cached_property
@@ -273,7 +273,7 @@ class Answers:
         return axis_of_symmetry(self.inertia_tensor)
 
     def between(self, name: str) -> tuple[Quantity, Quantity]:
-        """The two vectors that make an angle of that name."""
+        """Return the two vectors of the angle of that name."""
         axis, omega, L = self.axis_of_symmetry, self.spin, self.angular_momentum
         return {"body_cone": (axis, omega), "space_cone": (L, omega), "tilt": (axis, L)}[name]
 
@@ -376,7 +376,7 @@ class Answers:
         return vector_component(getattr(self, vector), axis, key=f"{vector}_{axis}")
 
     def asks(self) -> dict[str, Callable[[], object]]:
-        """Every name that a part may ask by."""
+        """Return every name that a part may ask for."""
         of_axes: dict[str, Callable[[], object]] = {}
         for axis in AXES:
             of_axes[f"stability_{axis}"] = partial(self.stability, axis)
@@ -409,13 +409,13 @@ class Answers:
 
 
 def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, object]:
-    """The answers by the names that parts ask for."""
+    """Return the answers by the names that parts ask for."""
     answers = Answers(described)
     found = _by_name(described, answers).answers(asked)
     if described.body is not None:
         drawn_turning(answers, "angle_between" in asked)
     elif described.about in ("centre", CENTRE_OF_MASS):
-        turns = {"changing", "angular_momentum"} <= vars(answers).keys()  # as far as what is asked has needed them
+        turns = {"changing", "angular_momentum"} <= vars(answers).keys()  # whether the answers have needed them
         drawn_free(answers, turns and not (described.rate or described.start or described.torque))
     return found
 
@@ -426,7 +426,7 @@ def _by_name(described: DescribedRotation, answers: Answers) -> ByName:
 
 
 def every(described: DescribedRotation) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-    """All that parts may ask for, or why it cannot be derived."""
+    """Return every answer that parts may ask for, or why it cannot be derived."""
     return _by_name(described, Answers(described)).every()
 
 

@@ -1,7 +1,7 @@
-"""One letter, one thing: what each letter of a page stands for, and the letters of a problem that stand for two.
+"""One symbol, one meaning: the meaning of each symbol of a page, and the symbols of a problem with two meanings.
 
-Steps bring in letters of their own: symbols, components and entries, coordinates and their rates, variables of
-integration. What counts is what is printed: `z_C` looks just like the component `r_C_z`; a bold `I` is not `I`.
+Steps introduce symbols: of results, components and entries, coordinates and their rates, variables of integration.
+What counts is the printed form: `z_C` looks just like the component `r_C_z`; a bold `I` is not `I`.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ _NOTATION = Notation()
 def letter_clashes(
     problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol] = ()
 ) -> list[Complaint]:
-    """A complaint for each letter in use that stands, as printed, for something else too; one for each letter.
+    """Return an error for each symbol in use whose printed form also means something else; one for each symbol.
 
-    `coordinates` are those that the script has named: a body that was there before may have taken such a letter.
+    `coordinates` are those that the script has named: a body created before may have taken such a symbol.
     """
     used = letters_in_use(problem)
     looks = {as_printed(letter): letter for letter in used}
@@ -48,7 +48,7 @@ def letter_clashes(
 def _integrated_coordinates(
     problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol]
 ) -> list[Complaint]:
-    """Coordinates over which a step integrates as over a variable of its own."""
+    """Return errors for coordinates that a step also uses as a variable of integration."""
     named = {as_printed(q): q for q in coordinates}
     own = [
         (q, quantity.key)
@@ -67,7 +67,7 @@ def _integrated_coordinates(
 
 
 def letters_in_use(problem: Problem) -> list[Symbol]:
-    """The letters that stand for something given, or have a number; one that is only declared stands for nothing."""
+    """Return the symbols of inputs or with a number; a symbol that is only declared has no meaning yet."""
     found = [letter for given in problem.givens for letter in given.letters]
     return list(dict.fromkeys([*found, *(measured.symbol for measured in problem.measured)]))
 
@@ -77,7 +77,7 @@ def as_printed(name: Any) -> str:
 
 
 def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, str]]:
-    """Every name that a step brings in, and what it stands for; `letters` are those that it has from elsewhere."""
+    """Yield every name that a step introduces, and its meaning; `letters` are those that it has from elsewhere."""
     yield from _named_by(step)
     for q, _ in step.coordinates:
         yield q, "the script has a coordinate of that name"
@@ -94,7 +94,7 @@ def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, 
 
 
 def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
-    """What a step calls its result, and the components or entries of that."""
+    """Yield the name of a step's result, and of its components or entries."""
     symbol, result = step.symbol, f"the step `{step.key}` calls its result so too"
     if isinstance(symbol, Symbol):
         yield symbol, result
@@ -113,7 +113,7 @@ def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
 
 
 def _integrated(expr: Any) -> Iterator[Symbol]:
-    """The variables of integrals and brackets, which are printed."""
+    """Yield the variables of integrals and brackets, which are printed."""
     for whole in expr.atoms(Integral, Bracket):
         if isinstance(whole, Integral):
             yield from whole.variables
@@ -130,7 +130,7 @@ def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
 
 
 def _place(problem: Problem, letter: Symbol) -> Place | None:
-    """Where the letter is declared, or the given for whose number it was chosen."""
+    """Return where the symbol is declared, or the input whose number it replaces."""
     given = next((given.name for given in problem.givens if letter in given.letters), "")
     keys = (f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
     return next((problem.places[key] for key in keys if key in problem.places), None)

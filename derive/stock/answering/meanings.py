@@ -1,4 +1,4 @@
-"""What each answer that a description offers is, in words, for the list of all of them."""
+"""The meaning of each answer that a description offers, in words, for the list of all answers."""
 
 from __future__ import annotations
 
@@ -90,11 +90,11 @@ MEANINGS: Mapping[str, str] = {
     "angular_momentum_*": "the {} component of the angular momentum",
     "torque_*": "the {} component of the torque",
 }
-FORCE = "a force of constraint or an impulse"  # which goes by a letter of its own
+FORCE = "a force of constraint or an impulse"  # its name is its symbol
 
 
 def meaning_of(name: str) -> str:
-    """In words, with the coordinate or the axis that the name ends in."""
+    """Return the meaning in words, with the coordinate or the axis at the end of the name."""
     if name in MEANINGS:
         return MEANINGS[name]
     fitting = []

@@ -1,4 +1,4 @@
-"""What happens in a moment: impulses and collisions, as `given:` describes them."""
+"""Events at one instant: impulses and collisions, as `given:` describes them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MAKERS = {"impulse": impulse, "angular": angular_impulse, "collision": collision
 
 @dataclass(frozen=True)
 class Act:
-    """One impulse or collision: by which verb it is made, of what, and where it was described."""
+    """One impulse or collision: the verb that makes it, its arguments, and where it was described."""
 
     maker: str
     of: tuple[Any, ...]
@@ -36,7 +36,7 @@ class Act:
     bodies: tuple[str, ...] = ()
 
     def made(self, known: Mapping[str, Any]) -> Any:
-        """By its verb; `known` are the bodies and particles of the system by name."""
+        """Make it by its verb; `known` are the bodies and particles of the system by name."""
         with told_at(self.place):
             named = [known.get(name, name) for name in self.bodies]
             more = {"of": named[0] if len(named) == 1 else tuple(named)} if named else {}
@@ -125,7 +125,7 @@ class CollisionKeys(Record):
         return str(self.letter or "K")
 
     def brings(self, letters: InLetters, size: int) -> list[str]:
-        """The letters of its impulse."""
+        """Return the symbols of its impulse."""
         if self.letter is not None and not is_letter(self.letter):
             rejected("symbol", f"`{self.letter}` is no letter for an impulse", self.letter.place, "write `impulse: K`")
         place = self.letter.place if self.letter is not None else self.places[""]
@@ -136,7 +136,7 @@ class CollisionKeys(Record):
 
 @dataclass(frozen=True)
 class BlowKeys(Record):
-    """The keys of `blow:`, of what happens in a moment."""
+    """The keys of `blow:`, for events at one instant."""
 
     at: Mapping[Word, Tree] = key("the values of coordinates in that moment: `{theta: 0}`", mapping_of(SCALAR))
     before: Mapping[Word, Tree] = key("rates just before it, the others are zero: `{x_dot: v}`", mapping_of(SCALAR))
@@ -146,7 +146,7 @@ class BlowKeys(Record):
     def read(
         self, coordinates: Mapping[str, Declared], forces: Mapping[str, Declared], places: Places, letters: InLetters
     ) -> DescribedBlow:
-        """In letters; `forces` are those that keep constraints."""
+        """Return the blow in symbols; `forces` are those that keep constraints."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
         if not both:
             rejected("missing-key", "`blow` needs `impulses` or `collisions`", self.places[""])
@@ -177,7 +177,7 @@ class BlowKeys(Record):
 def _value(
     name: Word, node: Tree, ending: str, coordinates: Mapping[str, Declared], letters: InLetters
 ) -> tuple[str, Expr]:
-    """A coordinate, the one of a rate where the name ends so, and its value."""
+    """Return a coordinate and its value; for a rate, named with `ending`, its coordinate and the value of the rate."""
     q = str(name).removesuffix(ending)
     known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
     if name not in known:
@@ -189,7 +189,7 @@ def _value(
 
 @dataclass(frozen=True)
 class DescribedBlow:
-    """A blow in letters; those of its impulses are its own."""
+    """A blow in symbols; `letters` are the symbols of its impulses."""
 
     acts: tuple[Act, ...]
     at: tuple[tuple[str, Expr], ...]

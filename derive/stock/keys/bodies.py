@@ -26,9 +26,9 @@ PLACE = list_of(SCALAR, "its components, `[x, y]` or `[x, y, z]`")
 CORNERS = list_of(PLACE, "a list of places, such as `[[0, 0], [a, 0], [0, b]]`")
 ENDS = list_of(SCALAR, "its lower and its upper limit, `[0, R]`", length=2)
 
-# where a class calls something otherwise than a person who describes it
+# fields of a class whose YAML keys have other names
 CALLED_IN_YAML = {"corners_at": "corners", "face": "corners"}
-# a triangle may also be told by its base and its height, or by one side
+# a triangle may also be specified by its base and height, or by one side
 TRIANGLES: tuple[tuple[str, ...], ...] = (("corners",), ("base", "height", "foot"), ("side",))
 OPTIONAL = frozenset({"foot"})
 ANGLES = frozenset({"half_angle"})
@@ -51,14 +51,14 @@ OTHER_NAMES = {
 
 @cache
 def shapes() -> dict[str, type[Body]]:
-    """Every body with sizes of its own, by what it is called: `a thick shell` is `thick_shell`."""
+    """Return every body with sizes, by its name in YAML: `a thick shell` is `thick_shell`."""
     offered = (getattr(derive.mechanics, name) for name in dir(derive.mechanics))
     bodies = (each for each in offered if isinstance(each, type) and issubclass(each, Body) and is_dataclass(each))
     return {body.name.partition(" ")[2].replace(" ", "_").replace("-", "_"): body for body in bodies}
 
 
 def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
-    """The sizes by which a shape is told, as its fields have them."""
+    """Return the sets of sizes by which a shape can be specified, as its fields have them."""
     own = tuple(CALLED_IN_YAML.get(f.name, f.name) for f in fields(shape) if f.name != "mass")  # type: ignore[arg-type]
     if "corners" not in own or shape.filling == "volume" and shape is not Wedge:
         return (own,)
@@ -68,7 +68,7 @@ def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
 
 @dataclass(frozen=True)
 class ShapeKeys(Record):
-    """What describes a body that is not made of parts."""
+    """The keys of a body without parts."""
 
     shape: Word | None = key(
         "what it is: `disc`, `cone`, `thick_shell`, ...", Reader({"enum": sorted(shapes())}, TEXT.read)
@@ -97,7 +97,7 @@ class ShapeKeys(Record):
 
 @dataclass(frozen=True)
 class PartKeys(ShapeKeys):
-    """What describes a part of a body."""
+    """The keys of a part of a body."""
 
     at: tuple[Tree, ...] = key("where its centre of mass is, or its point `of`", PLACE)
     of: Word | None = key("which of its points is there: `end`, `corner`, `base`", TEXT)
@@ -107,7 +107,7 @@ class PartKeys(ShapeKeys):
 
 @dataclass(frozen=True)
 class BodyKeys(ShapeKeys):
-    """What describes a body."""
+    """The keys of a body."""
 
     parts: Mapping[Word, PartKeys] = key(
         "the bodies that it is made of, by name", mapping_of(record_of(PartKeys, "a part", "a mapping with `shape`"))
@@ -125,9 +125,9 @@ SIZES = tuple(
 class DescribedBody:
     """A body of a description.
 
-    parts    one body as it lies, or several
-    mass     of the whole, where that is given and shared out
-    points   names for places of it
+    parts    one body in its position, or several
+    mass     of the whole, if it is given and divided among the parts
+    points   names of points of the body
     """
 
     called: str
@@ -138,9 +138,9 @@ class DescribedBody:
     place: Place | None = field(default=None, repr=False, compare=False)
 
     def body(self) -> Body:
-        """The body itself; what is said of it is said where it is described."""
+        """Return the body; errors are reported where it is described."""
         with told_at(self.place):
-            for part in self.parts:  # once more, now that the numbers of the letters are known
+            for part in self.parts:  # again: the numbers of the symbols are known now
                 body: Body = part.body if isinstance(part, PlacedPart) else part
                 if is_dataclass(type(body)):
                     body.check_sizes()
@@ -152,14 +152,14 @@ class DescribedBody:
 
     @property
     def other_centre(self) -> str:
-        """The point that one may call its centre too, where that is not its centre of mass."""
+        """Return the point that may also be called its centre, if that is not its centre of mass."""
         only: Any = self.parts[0]
         own: str = "" if self.is_made_of_parts else only.other_centre
         return Composite.other_centre if self.is_made_of_parts or own and self.points else own
 
     @property
     def point_names(self) -> tuple[str, ...]:
-        """Its points, which are those of a whole where it has points of its own."""
+        """Return its points; a whole with named points has only these, its centre and its origin."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts
@@ -167,7 +167,7 @@ class DescribedBody:
         return tuple(dict.fromkeys(("centre", *only.points())))
 
     def point(self, name: Word) -> str:
-        """A point that it has; between words a space or an underscore."""
+        """Return a point that it has; words are separated by a space or an underscore."""
         known_names = {known.replace("_", " "): known for known in self.point_names}
         found = (known_names | {CENTRE_OF_MASS: "centre"}).get(name.replace("_", " "))
         if found == "centre" and name == found and self.other_centre:
@@ -188,7 +188,7 @@ class DescribedBody:
 
 
 class Bodies:
-    """Bodies as they are written, in the letters of a description."""
+    """Reads bodies in the symbols of a description."""
 
     def __init__(self, letters: InLetters):
         self.letters = letters
@@ -311,7 +311,7 @@ class Bodies:
             return shape(position, limits, mass=mass, density=density)
 
     def _limits(self, written: Mapping[Word, tuple[Tree, ...]]) -> tuple[WithVariables, dict[Any, tuple[Expr, Expr]]]:
-        """Each letter may be in the limits of those after it."""
+        """Read the limits of each variable, which may contain the variables before it."""
         known = WithVariables(self.letters, {})
         limits: dict[Any, tuple[Expr, Expr]] = {}
         for name, ends in written.items():
@@ -331,7 +331,7 @@ class Bodies:
 
 
 class WithVariables(InLetters):
-    """The letters of a description, with those of a position map."""
+    """The symbols of a description, with those of a position map."""
 
     def __init__(self, others: InLetters, variables: Mapping[str, Declared]):
         self.variables = variables
@@ -339,7 +339,7 @@ class WithVariables(InLetters):
         self.numbers = others.numbers
 
     def ends(self, name: Word, written: Sequence[Tree]) -> tuple[str, tuple[Expr, Expr]]:
-        """The kind of a letter, a length or an angle (or a number), and its limits."""
+        """Return the kind of a symbol, a length or an angle (or a number), and its limits."""
         refused: Rejected | None = None
         for kind in ("length", "angle"):
             try:
@@ -353,7 +353,7 @@ class WithVariables(InLetters):
         raise Rejected(refused.complaints if refused else ())
 
     def any(self, node: Tree) -> Expr:
-        """What a density is proportional to: an expression of any dimension."""
+        """Return an expression of any dimension, to which a density is proportional."""
         if not isinstance(node, Scalar):
             return self.value(node, "density", "density")
         found, _ = read_expression(node, self.letters)
@@ -375,7 +375,7 @@ def _point_of(body: Body, name: Word) -> str:
 
 
 def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, faults: Faults) -> tuple[str, ...]:
-    """The sizes of a shape that are written, and complaints about those that lack or are not its own."""
+    """Return the specified sizes of a shape, and report sizes that are missing or do not belong to it."""
     ways = ways_to_tell(shape)
     given = [size for size in SIZES if size in written.values_at and size in ShapeKeys.__dataclass_fields__]
     way = max(ways, key=lambda w: (sum(s in given for s in w), -len(w)))

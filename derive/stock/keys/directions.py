@@ -1,4 +1,4 @@
-"""Directions and turns, as `given:` describes them."""
+"""Directions and rotations, as `given:` describes them."""
 
 from __future__ import annotations
 
@@ -46,13 +46,13 @@ class Axis:
 
 
 class Directions:
-    """Directions in the letters of a description."""
+    """Reads directions in the symbols of a description."""
 
     def __init__(self, letters: InLetters):
         self.letters = letters
 
     def axis(self, node: Tree, name: str) -> Axis:
-        """`diagonal`, `x`, `y`, `z`, or three components of one dimension that do not all vanish."""
+        """Return `diagonal`, `x`, `y`, `z`, or three components of one dimension that do not all vanish."""
         names = ", ".join(f"`{known}`" for known in DIRECTION_NAMES)
         if isinstance(node, Scalar) and node.text in DIRECTION_NAMES:
             return Axis(Direction(node.text))
@@ -79,7 +79,7 @@ class Directions:
         return read_expression(node, self.letters.letters)
 
     def turns(self, written: Mapping[Word, Tree]) -> tuple[tuple[str, Expr], ...]:
-        """Each turn about one of the axes, in their order."""
+        """Return each rotation about one of the axes, in their order."""
         return tuple(each([partial(self._turn, axis, node) for axis, node in written.items()]))
 
     def _turn(self, axis: Word, node: Tree) -> tuple[str, Expr]:

@@ -1,4 +1,4 @@
-"""A Lagrangian that is given, as `given:` describes it, and what may not stand beside it."""
+"""A Lagrangian that is given, as `given:` describes it, and the keys that cannot be used with it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ WITH_BODIES = (
 
 
 class WithLagrangian(Protocol):
-    """Keys among which a Lagrangian may be given, with the places where they stand."""
+    """Keys among which a Lagrangian may be given, with their places."""
 
     @property
     def lagrangian(self) -> Tree | None: ...
@@ -38,7 +38,7 @@ class WithLagrangian(Protocol):
 
 
 def read_lagrangian(written: WithLagrangian, letters: InLetters) -> tuple[Expr, str | None] | None:
-    """The formula, and the kind of quantity that it is, if it has a name."""
+    """Return the formula, and the kind of quantity that it is, if that has a name."""
     if written.lagrangian is None:
         return None
     beside = next((name for name in WITH_BODIES if name in written.places), None)

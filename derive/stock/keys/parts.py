@@ -1,4 +1,4 @@
-"""What a system is made of, as `given:` describes it: particles, springs, forces, charges, constraints."""
+"""The parts of a system, as `given:` describes them: particles, springs, forces, charges, constraints."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ MAKERS: Mapping[str, Callable[..., Any]] = {
 
 @dataclass(frozen=True)
 class Part:
-    """One part of a system: by which verb it is made, of what, and where it was described."""
+    """One part of a system: the verb that makes it, its arguments, and where it was described."""
 
     maker: str
     of: tuple[Any, ...]
@@ -57,7 +57,7 @@ class Part:
     name: str = ""
 
     def made(self, bodies: Mapping[str, Any] | None = None) -> Any:
-        """By its verb; `bodies` are the particles and bodies that it may name."""
+        """Make it by its verb; `bodies` are the particles and bodies that it may name."""
         with told_at(self.place):
             named = {name: bodies[str(value)] if bodies and value in bodies else value for name, value in self.named}
             return MAKERS[self.maker](*self.of, **named)
@@ -96,7 +96,7 @@ class SpringKeys(Record):
 
 @dataclass(frozen=True)
 class CentralKeys(Record):
-    """The keys of one of `central:`, a potential energy of the distance of two places."""
+    """The keys of one of `central:`, a potential energy that depends on the distance between two places."""
 
     energy: Tree | None = key("the energy, such as `-G*M*m/d`", SCALAR, required=True)
     distance: Word | None = key("the letter that it has for the distance", TEXT, required=True)
@@ -223,7 +223,7 @@ class ConstraintKeys(Record):
 
 
 def force_letter(name: Word | None, letters: InLetters) -> str:
-    """The letter of a force of constraint, which is found: it is not declared."""
+    """Return the symbol of a constraint force, which is an unknown and not declared."""
     if name is None:
         return "lambda"
     if not is_letter(name):
@@ -232,7 +232,7 @@ def force_letter(name: Word | None, letters: InLetters) -> str:
 
 
 def named_body(key_name: str, name: Word | None, bodies: Collection[str], otherwise: str) -> list[tuple[str, str]]:
-    """The body or particle that a key names, or the word that stands for none."""
+    """Return the body or particle that a key names, or the word for none."""
     if name is None:
         return []
     if name not in bodies and name != otherwise:
@@ -242,7 +242,7 @@ def named_body(key_name: str, name: Word | None, bodies: Collection[str], otherw
 
 
 def massless(word: Word | None) -> tuple[tuple[str, bool], ...]:
-    """Whether a joint without mass is allowed."""
+    """Return whether a joint without mass is allowed."""
     if word is None:
         return ()
     if word not in ("true", "false"):
@@ -251,7 +251,7 @@ def massless(word: Word | None) -> tuple[tuple[str, bool], ...]:
 
 
 def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:
-    """A list of mappings, or one mapping alone."""
+    """Return a reader of a list of mappings, or of one mapping alone."""
     one = record_of(record, what, "a mapping")
     many = list_of(one, f"a list of mappings, {what} each")
 
@@ -276,6 +276,6 @@ def _ends(written: SpringKeys | CentralKeys, places: Places) -> list[Any]:
 
 
 def _there(value: Any) -> Any:
-    """What a required key has: without it the record was refused."""
+    """Return the value of a required key: a record without it was rejected before."""
     assert value is not None
     return value

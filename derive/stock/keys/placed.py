@@ -1,4 +1,4 @@
-"""Bodies that move, as `given:` describes them: where they are, how they turn, what they roll on."""
+"""Bodies that move, as `given:` describes them: their position, their orientation, their contact in rolling."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class MovingBodyKeys(BodyKeys):
         return Part("body", (body, turned), tuple(named), self.places[""])
 
     def _check_used(self) -> None:
-        """Each key has an effect beside the others."""
+        """Check that each key has an effect together with the others."""
         own = {"moments", "middle", "mass", "turned", "centre", "held", "on", "across"}
         beside = {
             "moments": [name for name in self.values_at if name not in own],
@@ -139,7 +139,7 @@ class RollingKeys(Record):
         return Part("rolling", (str(self.body), places.at(self.at, "at"), ground), force, self.places[""])
 
     def _ground(self, places: Places) -> Location | Axes:
-        """A place of the surface; one along axes that rotate is at rest in these, as on a turntable."""
+        """Return a place of the surface; a place along rotating axes is at rest in these, as on a turntable."""
         assert self.ground is not None
         way = self.ground.way
         if self.ground.name is not None and str(self.ground.name) in {str(name) for name in places.turns}:
@@ -155,7 +155,7 @@ ROLLING = list_of_parts(RollingKeys, "rolling")
 
 
 def put(body: DescribedBody | RigidBody, turned: Axes | Expr, **known: Any) -> Any:
-    """The body where it is, by its centre of mass or by the point that is held."""
+    """Return the body at its position, by its centre of mass or by the point that is held."""
     made: Any = body.body() if isinstance(body, DescribedBody) else body
     if known.get("centre") is not None:
         return made.placed(turned, known["centre"], across=known["across"])
@@ -163,7 +163,7 @@ def put(body: DescribedBody | RigidBody, turned: Axes | Expr, **known: Any) -> A
 
 
 def rolls(body: Any, at: Any, ground: Any, force: str = "") -> tuple[Any, ...]:
-    """The conditions of rolling: solved, or kept by forces."""
+    """Return the conditions of rolling: solved, or kept by forces."""
     if force:
         return rolling_constraint(body, at, force, ground)
     found = no_slip(body, at, ground)

@@ -1,7 +1,7 @@
 """`results:` of a description: quantities computed from answers, each under a name of its own.
 
-Every key is that of an argument of a verb, which says next to its function how a file calls it. So the keys, their
-schema and their errors follow from the verbs; here it is only said how each sort of key is read.
+Every key is that of an argument of a verb, which states next to its function how a file calls it. So the keys, their
+schema and their errors follow from the verbs; this module only defines how each sort of key is read.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def _of_a_body(
     direction: Axis = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """The answer of a body about another point or axis than the one given."""
+    """Return the answer of a body about another point or axis than the given one."""
     if elsewhere is None:
         rejected("wrong-argument", "`answer` asks about another point of a body, which is for `solve: body`", None)
     return elsewhere(answer, key, about, origin, direction, symbol)
@@ -68,11 +68,11 @@ def _of_a_body(
 
 @dataclass(frozen=True)
 class Sort:
-    """A sort of key: the shape of what is written, how it is read in letters, and what the verb gets in the end.
+    """A sort of key: its shape in the file, how it is read in symbols, and the value that the verb receives.
 
-    read   verb, key, what is written, the letters -> what is known before any answer is derived
-    made   result, key, that -> what the verb is called with
-    uses   that -> the names of answers in it
+    read   (verb, key, written value, letters) -> the value that is known before any answer is derived
+    made   (result, key, that value) -> the argument of the verb
+    uses   (that value) -> the names of answers in it
     """
 
     shape: Reader[Any]
@@ -83,14 +83,14 @@ class Sort:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What a result is computed in: the answers by name, the coordinates, what asks about another point of a body."""
+    """The context of a result: answers by name, coordinates, and the function for another point of a body."""
 
     answers: Answers
     coordinates: Mapping[str, Coordinate]
     elsewhere: Callable[..., Quantity] | None = None
 
     def one(self, name: Word) -> Quantity:
-        """The one answer of a name, or that whose key the name is."""
+        """Return the one answer of a name, or the one with this key."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -98,7 +98,7 @@ class Surroundings:
         return found[0]
 
     def momenta_named(self, names: Iterable[str]) -> None:
-        """From here on the momenta that are in a formula are known to move."""
+        """Mark the momenta in a formula as moving, from here on."""
         held = set(names)
         for q in self.coordinates.values():
             if letter_of_momentum(q).name in held:
@@ -110,7 +110,7 @@ def _nodes(node: Tree) -> tuple[Tree, ...]:
 
 
 def names(node: Tree | None) -> tuple[Word, ...]:
-    """The names that are written, one or several."""
+    """Return the names that are written, one or several."""
     found = []
     for item in _nodes(node) if node is not None else ():
         if not isinstance(item, Scalar) or item.empty:
@@ -120,7 +120,7 @@ def names(node: Tree | None) -> tuple[Word, ...]:
 
 
 def value_or_infinity(node: Tree, letters: InLetters) -> Expr:
-    """An expression, or infinity."""
+    """Return an expression, or infinity."""
     if isinstance(node, Scalar) and node.text.strip() in INFINITE:
         return INFINITE[node.text.strip()]
     return letters.read(node, "a value")[0]
@@ -165,7 +165,7 @@ def _symbol(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) ->
 
 
 def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> tuple[Word | Expr, ...]:
-    """Each the name of an answer, or a formula in letters, coordinates and momenta."""
+    """Return each function: the name of an answer, or a formula in symbols, coordinates and momenta."""
 
     def one(item: Tree) -> Word | Expr:
         is_name = isinstance(item, Scalar) and not item.empty and [*names_in(item)] == [item.text.strip()]
@@ -179,7 +179,7 @@ def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters)
 
 
 def _one_answer(result: Result, key: ResultKey, found: tuple[Word, ...], around: Surroundings) -> Quantity:
-    """The one answer; of several of one name that whose key this name is."""
+    """Return the one answer; if a name has several, the one with this key."""
     of = [quantity for name in found for quantity in around.answers(name)]
     if len(of) > 1 and len(found) == 1:
         of = [quantity for quantity in of if quantity.key == found[0]] or of
@@ -241,7 +241,7 @@ SORTS: Mapping[Holds, Sort] = {
 
 
 def _meaning(name: str) -> str:
-    """What a key is, by the verbs that have it."""
+    """Return the meaning of a key, by the verbs that have it."""
     if name in RESULT_VERBS:
         return f"{RESULT_VERBS[name].own.hint}; finds {RESULT_VERBS[name].yields}"
     hints = [
@@ -251,7 +251,7 @@ def _meaning(name: str) -> str:
     return "; ".join(f"{hint} ({', '.join(f'`{verb}`' for _, verb in verbs)})" for hint, verbs in together)
 
 
-ALIKE = {  # what a key is that means the same for each verb
+ALIKE = {  # meaning of a key that is the same for each verb
     "symbol": "the letter of what is found, or one for each of several",
     "results": "answers that are substituted",
     "order": "to which order",
@@ -262,7 +262,7 @@ ALIKE = {  # what a key is that means the same for each verb
 
 
 def _every_key() -> Iterator[ResultKey]:
-    """Each key once, those that name a verb first."""
+    """Yield each key once, those that name a verb first."""
     verbs = sorted(RESULT_VERBS.values(), key=lambda verb: verb.name)
     every = [*(verb.own for verb in verbs), *(each for verb in verbs for each in verb.keys.values())]
     yield from {each.name: each for each in reversed(every)}.values()
@@ -281,7 +281,7 @@ _RESULT: Reader[Any] = record_of(ResultKeys, "a result", "a mapping such as `{li
 
 
 def _result(node: Tree, name: str, faults: Faults) -> Record | None:
-    """One of `results:`, whose keys go together."""
+    """Read one of `results:`, and check that its keys fit together."""
     found: Record | None = _RESULT.read(node, name, faults)
     if found is not None:
         _check_verb(found, name, faults)
@@ -289,18 +289,18 @@ def _result(node: Tree, name: str, faults: Faults) -> Record | None:
 
 
 def written_in(written: Record) -> dict[str, Any]:
-    """What is written under the keys of a result."""
+    """Return the written values of the keys of a result."""
     held = {name: getattr(written, f"{name}_") for name in (each.name for each in _every_key())}
     return {name: value for name, value in held.items() if name in written.values_at and value not in ({}, ())}
 
 
 def verb_of(written: Record) -> ResultVerb:
-    """The one verb of a result that has been checked."""
+    """Return the one verb of a result that has been checked."""
     return next(verb for name, verb in RESULT_VERBS.items() if name in written_in(written))
 
 
 def _check_verb(written: Record, name: str, faults: Faults) -> None:
-    """A result has one verb; `faults` takes the keys that have no effect with it, and those that it lacks."""
+    """Check that a result has one verb; `faults` collects keys without effect and missing keys."""
     there = [*written_in(written)]
     found = [each for each in there if each in RESULT_VERBS]
     if len(found) != 1:
@@ -354,7 +354,7 @@ RESULTS = mapping_of(Reader({**_RESULT.schema, "oneOf": [_schema_of(verb) for ve
 class Result:
     """One quantity that is computed from answers.
 
-    values   argument of the verb -> what its key holds, in letters
+    values   argument of the verb -> the value of its key, in symbols
     places   argument, and `values.x`, -> where it is written
     """
 
@@ -370,7 +370,7 @@ class Result:
         coordinates: Mapping[str, Coordinate],
         elsewhere: Callable[..., Quantity] | None = None,
     ) -> Any:
-        """By the verb; an error is shown at the key of the argument that is wrong."""
+        """Compute the result by its verb; an error is shown at the key of the argument that is wrong."""
         around = Surroundings(answers, coordinates, elsewhere)
         keys = self.verb.arguments
         given = {
@@ -393,7 +393,7 @@ class Result:
 
     @property
     def uses(self) -> tuple[Word, ...]:
-        """The names of the answers that it is computed from."""
+        """Return the names of the answers from which it is computed."""
         keys = self.verb.arguments
         return tuple(
             name for argument, value in self.values.items() for name in SORTS[keys[argument].holds].uses(value)
@@ -401,7 +401,7 @@ class Result:
 
 
 def read_result(written: Record, name: Word, letters: InLetters, faults: Faults) -> Result | None:
-    """A result in letters; nothing after an error."""
+    """Return a result in symbols; None after an error."""
     with faults:
         known = letters.letters.get(name)
         if known is not None and not isinstance(known, FoundLetter):
