@@ -82,7 +82,7 @@ def main() -> None:
             failed[way] += answer is not pair.equal
     for way in ("equals", "simplify"):
         ratios = [other / own for own, other in zip(spent["equal"], spent[way], strict=True)]
-        told = f"{failed['equal']} and {failed[way]} not decided rightly"
+        told = f"{failed['equal']} and {failed[way]} not decided correctly"
         print(f"equality: {way:<9}   {statistics.median(ratios):.0f} x equal ({len(ratios)} pairs, {told})   aim 20")
     print(f"(equal takes {1000 * statistics.median(spent['equal']):.2f} ms)")
 

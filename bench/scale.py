@@ -190,7 +190,7 @@ def of_identities() -> None:
             same.append(decided(n, left, terms, 1))
             slip.append(decided(n, left, terms, -1))
         told(what, ANGLES, same, least, "expand(trig=True)")
-        told("   with a slip", ANGLES, slip, least, "expand(trig=True)")
+        told("   with one wrong sign", ANGLES, slip, least, "expand(trig=True)")
 
 
 def main() -> None:

@@ -15,7 +15,7 @@ WIDTH, HEIGHT = 860, 1060
 
 # What each problem shows.
 SHOWN = {
-    "turning_hoop": "A system on axes that turn: equilibria, and where each of them is stable",
+    "turning_hoop": "A system on rotating axes: equilibria, and where each of them is stable",
     "double_pendulum": "Two coordinates, each equation of motion by itself, then the normal modes",
     "kepler": "A conserved momentum, an effective potential, a circular orbit and what happens near it",
     "tennis_racket": "A rigid body without torque: Euler's equations and the stability of each axis",
@@ -29,7 +29,7 @@ _BEGINNING = """\
 # Gallery
 
 Made by `tools/gallery.py`; do not edit it. Each picture is the beginning of a page that a build has written for a
-browser; below it stand the lines that made it. These problems are in YAML alone, as all of `problems/library` is:
+browser; below it are the lines that made it. These problems are in YAML alone, as all of `problems/library` is:
 `make library` builds its 79 problems, `derive list` names them, and `derive new hw10/mine --like library/torus` begins
 one of yours with a copy.
 """

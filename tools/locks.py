@@ -17,8 +17,8 @@ CONSTRAINTS = ROOT / "constraints.txt"
 OLDEST = "3.11"
 BUILDS = "hatchling\neditables\n"  # packages that install derive itself
 HEADS = {
-    "runtime": "# What derives and typesets, and what installs derive: written by `python -P -m tools.locks`.\n",
-    "tests": "# What the tests and linters need besides: written by `python -P -m tools.locks`.\n",
+    "runtime": "# Packages to derive, to typeset and to install derive: written by `python -P -m tools.locks`.\n",
+    "tests": "# The additional packages of the tests and linters: written by `python -P -m tools.locks`.\n",
 }
 _ENTRY = re.compile(r"^([a-z0-9][a-z0-9._-]*)==.*(?:\n +--hash=.*)*", re.MULTILINE)
 

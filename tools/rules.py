@@ -19,7 +19,7 @@ HEAD = """# The rules
 
 Each step of a solution is made by one of these rules. A rule is a record in the code, next to the verb that uses it.
 Its *outcomes* choose the sentence; each has a predicate that must be true of the result. Its *routes* reach the result
-by another path through the physics, its *checks* put the result to a test. A rule without either is a definition.
+by another path through the physics, its *checks* test the result. A rule without either is a definition.
 `python -P -m tools.rules` writes this page from the records.
 """
 

@@ -18,9 +18,9 @@ FILES = {"problem": "A problem", "set": "A set", "reference": "A reference"}
 _BEGINNING = """\
 # Every key
 
-Made by `tools/yaml_reference.py` from the schemas that `derive schema` gives editors; do not edit it. What the keys are
-for is told in [problems.md](problems.md), [yaml-alone.md](yaml-alone.md) and [references.md](references.md). A key in
-bold is needed.
+Made by `tools/yaml_reference.py` from the schemas that `derive schema` gives editors; do not edit it. The keys are
+described in [problems.md](problems.md), [yaml-alone.md](yaml-alone.md) and [references.md](references.md). A key in
+bold is required.
 
 An *expression* is a formula of declared letters, or a number with its unit: `2*a`, `sqrt(g/l)`, `2 cm`, `900 rpm`.
 """

@@ -61,7 +61,7 @@ class References:
             text = f"{self.words.labels['problem']} {self.others[mention.name]}"
             return ProblemRef(f"{self.set_id}/{mention.name}", text)
         help_line = did_you_mean(mention.name, self.others) or "the problems of a set are those that its set.yaml lists"
-        message = f"there is no problem `{mention.name}` in this set"
+        message = f"`{mention.name}` is not a problem of this set"
         self.faults.append(Complaint("no-such-problem", message, mention.place, help=help_line))
         return None
 
@@ -79,7 +79,7 @@ class References:
             if mention.name in numbers:
                 continue
             code, message = "undefined-name", f"no step on this page is called `{mention.name}`"
-            help_line = did_you_mean(mention.name, numbers) or "use the key of a step that the answers rest on"
+            help_line = did_you_mean(mention.name, numbers) or "use the key of a step on which the answers depend"
             if mention.name in known:
                 code, message = "not-shown", f"the equation of `{mention.name}` is hidden, so it has no number"
                 help_line = f"change `{mention.name}: hidden` under `show`, or write `<<{mention.name}>>`"

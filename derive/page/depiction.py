@@ -98,7 +98,7 @@ def placement_of(problem: Problem, key: str) -> Placement | None:
 def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
     names = [drawing.key for drawing in drawings]
     of_engine = problem.described is not None
-    none = "what is given is drawn only where all of it can be shown" if of_engine else "the script makes no drawing"
+    none = "the engine draws the inputs only if it can show all of them" if of_engine else "the script makes no drawing"
     known = "the drawings are " + ", ".join(f"`{name}`" for name in names) if names else none
     who = "the engine" if of_engine else "the script"
     return [
@@ -118,8 +118,8 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     placement = placement_of(problem, drawing.key)
     letters = {symbol.name for symbol in drawing.letters}
     return [
-        Complaint("unknown-letter", f"the drawing `{drawing.key}` has no letter `{name}`", place,
-                  help=did_you_mean(name, letters) or "its letters are " + ", ".join(f"`{x}`" for x in sorted(letters)))
+        Complaint("unknown-letter", f"the drawing `{drawing.key}` has no symbol `{name}`", place,
+                  help=did_you_mean(name, letters) or "its symbols are " + ", ".join(f"`{x}`" for x in sorted(letters)))
         for name, place in (placement.names.items() if placement else ())
         if name not in letters and name not in problem.symbols  # may be absent for the current inputs
     ]  # fmt: skip
@@ -197,7 +197,7 @@ def _given_away(
         return None  # the page does not have what the drawing shows, since a part was left out
     if earliest is None:
         loose = next(key for key in drawing.keys if key not in derivation.keys)
-        message = f"the drawing `{drawing.key}` shows `{loose}`, on which no answer rests"
+        message = f"the drawing `{drawing.key}` shows `{loose}`, on which no answer depends"
         return Complaint("drawing", message, place, help=f"let a part ask for it, or write `at: {HIDDEN}`")
     if index is None or index >= earliest:
         return None
@@ -206,7 +206,7 @@ def _given_away(
     where = "the statement" if index == FOUND else f"part {chr(ord('a') + index)}"
     message = f"in {where} the drawing `{drawing.key}` would show `{later}` before it is derived"
     letter = chr(ord("a") + earliest)
-    return Complaint("drawing", message, place, help=f"write `at: {letter}`, where it is")
+    return Complaint("drawing", message, place, help=f"write `at: {letter}`, where it is derived")
 
 
 # --- what it shows ---------------------------------------------------------------------------------------------------

@@ -58,7 +58,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Level, Step
 
-HOMOGENEITY = "look in the script for one quantity given in another's place"
+HOMOGENEITY = "look in the script for a quantity used in place of another"
 
 
 def document_of(
@@ -187,7 +187,9 @@ class _Writer:
         return told(pieces, names, self._unknown, self.references.node)
 
     def _unknown(self, name: str, place: Place) -> None:
-        help_line = did_you_mean(name, self.page_names) or "use a key of `given:` or of a step that the answers rest on"
+        help_line = (
+            did_you_mean(name, self.page_names) or "use a key of `given:` or of a step on which the answers depend"
+        )
         self.faults.append(
             Complaint("undefined-name", f"nothing on this page is called `{name}`", place, help=help_line)
         )

@@ -86,7 +86,7 @@ def read_phrases(folder: Path) -> PhraseTable:
     for name in _SHAPE:
         page[name]  # raises the error
     if len(page["labels"]["points"]) != 2:
-        _wrong(page.source, ("labels", "points"), "the word for one point and that for several")
+        _wrong(page.source, ("labels", "points"), "a word for one point and one for several points")
     page["reasons"]["general"]
     return page
 
@@ -111,7 +111,7 @@ def _add(page: PhraseTable, topic: PhraseTable) -> None:
         for name, phrases in table.items():
             if name in known:
                 place = _place(topic.source, (sort, name))
-                raise Rejected(Complaint("phrases", f"another file has `{sort}.{name}` too", place))
+                raise Rejected(Complaint("phrases", f"another file also has `{sort}.{name}`", place))
             known[name] = phrases
 
 
@@ -124,7 +124,7 @@ class _Checked:
     def phrases(self, value: Any, shape: Any, keys: tuple[str, ...]) -> Any:
         self.count += 1
         if self.count > MAX_PHRASES:
-            _wrong(self.source, keys, f"one of at most {MAX_PHRASES} phrases")
+            _wrong(self.source, keys, f"one of at most {MAX_PHRASES} phrases, but there are more")
         if shape == _TEXT:
             return self.text(value, keys)
         if isinstance(shape, list):
@@ -136,9 +136,11 @@ class _Checked:
         table = PhraseTable(self.source, keys)
         for name, each in value.items():
             if not isinstance(name, str):
-                _wrong(self.source, keys, f"a table of phrases by their names, and `{abridged(str(name))}` is none")
+                _wrong(
+                    self.source, keys, f"a table of phrases by their names, but `{abridged(str(name))}` is not a name"
+                )
             if name not in shape and _ANY not in shape:
-                message, help_line = f"there are no phrases of the sort `{abridged(name)}`", did_you_mean(name, shape)
+                message, help_line = f"`{abridged(name)}` is not a kind of phrase", did_you_mean(name, shape)
                 raise Rejected(Complaint("phrases", message, _place(self.source, (*keys, name)), help=help_line))
             table[name] = self.phrases(each, shape.get(name, shape.get(_ANY)), (*keys, name))
         return table

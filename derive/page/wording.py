@@ -229,7 +229,7 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Inline, ...]:
     try:
         text = _compiled(template).render({name: nodes.token(value) for name, value in names.items()})
     except UndefinedError as error:
-        message = f"a phrase names what this step does not have: {error.message}"
+        message = f"a phrase uses a name that this step does not have: {error.message}"
         raise Rejected(Complaint("undefined-name", message, _place_of(template))) from error
     except DeriveError:
         raise
@@ -435,6 +435,8 @@ def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> li
         outcomes = [name for name in phrases_of if AFTER not in name and AND not in name]
         if outcome != ANY_OUTCOME and outcomes and outcome not in outcomes:
             message, place = f"the step `{key}` has no outcome `{outcome}`", problem.place_of("wording", key, outcome)
-            help_line = did_you_mean(outcome, outcomes) or "they are " + ", ".join(f"`{each}`" for each in outcomes)
+            help_line = did_you_mean(outcome, outcomes) or "its outcomes are " + ", ".join(
+                f"`{each}`" for each in outcomes
+            )
             faults.append(Complaint("unknown-key", message, place, help=help_line))
     return faults

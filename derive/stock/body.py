@@ -53,10 +53,10 @@ class Questions(Record):
     """The questions about a body, in addition to its description."""
 
     about: Word | None = key("the point of its tensor and of the axes of its moments: `apex`, `corner`, `pivot`", TEXT)
-    origin: Word | None = key("the point from which its centre of mass is counted", TEXT)
+    origin: Word | None = key("the point from which its centre of mass is measured", TEXT)
     direction: Tree | None = key("the axis of `moment_about`: `diagonal`, `x` or components", DIRECTION)
     turned: Mapping[Word, Tree] = key(
-        "by which angles the axes of `turned_tensor` are turned: `{z: alpha}`", mapping_of(SCALAR)
+        "the angles by which the axes of `turned_tensor` are rotated: `{z: alpha}`", mapping_of(SCALAR)
     )
 
 
@@ -73,7 +73,7 @@ class GivenBody(Questions):
     bodies: Mapping[Word, OneOfManyKeys] = key(
         "several bodies by name, in place of one", mapping_of(record_of(OneOfManyKeys, "a body", "a mapping"))
     )
-    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -189,8 +189,8 @@ class Answers:
     def size(self, name: str) -> Quantity:
         found = getattr(self.body, "extent", None)
         if self.body.filling != name or not isinstance(found, Quantity):
-            message = f"the {name} of {self.asked.described.told} is no step: it is known"
-            rejected("no-such-answer", message, None, "ask for `density`, which tells it")
+            message = f"the {name} of {self.asked.described.told} is not a step: it is known"
+            rejected("no-such-answer", message, None, "ask for `density`, which shows it")
         return found
 
     def mass(self) -> Quantity:
@@ -202,7 +202,7 @@ class Answers:
     def density(self) -> Quantity:
         found = self.body.density
         if found.step.kind == "mass":
-            rejected("no-such-answer", f"{self.asked.described.told} has no density that is to be found", None)
+            rejected("no-such-answer", f"the density of {self.asked.described.told} is given", None)
         return found
 
     def moment(self, axis: str) -> Quantity:
@@ -238,7 +238,7 @@ class Answers:
     def perpendicular_axes(self) -> Quantity:
         across = self.body.flat_across
         if across is None:
-            message = f"the theorem of perpendicular axes is about flat bodies, but {self.asked.described.told} is none"
+            message = f"the perpendicular-axis theorem needs a flat body, but {self.asked.described.told} is not flat"
             rejected("not-flat", message, None)
         first, second = (self.moment(axis) for axis in AXES if axis != across)
         return perpendicular_axes(first, second)

@@ -74,21 +74,21 @@ class RotationKeys(Record):
         list_of(SCALAR, "three moments of inertia, `[A, B, C]`", length=3),
     )
     about: Word | None = key("the point that is fixed; by default the centre of mass", TEXT)
-    rate: Tree | None = key("the constant rate at which it turns", SCALAR)
-    along: Tree | None = key("the axis about which it turns: `diagonal`, `x` or components", DIRECTION)
+    rate: Tree | None = key("the constant rate of rotation", SCALAR)
+    along: Tree | None = key("the axis of rotation: `diagonal`, `x` or components", DIRECTION)
     rates: tuple[Tree, ...] = key(
         "the components of a constant angular velocity, in place of `rate` and `along`",
         list_of(SCALAR, "three angular speeds", length=3),
     )
     start: tuple[Tree, ...] = key(
-        "the components of the angular velocity at one moment, of a body on which no torque acts",
+        "the components of the angular velocity at one instant, for a body on which no torque acts",
         list_of(SCALAR, "three angular speeds", length=3),
     )
     torque: tuple[Tree, ...] = key(
-        "the torque on a body that turns in any way, along its axes; by default none",
+        "the components along its axes of the torque on a body that rotates in any way; by default none",
         list_of(SCALAR, "three torques", length=3),
     )
-    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         with faults:
             if written.torque and steady in written.values_at:
                 message = (
-                    f"`torque` has no effect beside `{steady}`: the torque that keeps up a given rotation is derived"
+                    f"`torque` has no effect with `{steady}`: the torque that maintains a given rotation is derived"
                 )
                 rejected("unused-key", message, written.places["torque"], f"leave it or `{steady}` out")
     with faults:
@@ -186,7 +186,7 @@ def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
 def _one_way(written: RotationKeys, first: str, second: str, required: bool = False) -> None:
     both = [name for name in (first, second) if name in written.values_at]
     if len(both) == 2:
-        message = f"`{second}` is given, and `{first}` too"
+        message = f"`{second}` and `{first}` are both given"
         rejected("unknown-key", message, written.places[first], "leave one of them out")
     if required and not both:
         rejected("missing-key", f"`given` needs `{first}` or `{second}`", written.places[""])
@@ -238,12 +238,12 @@ class Answers:
             return constant_angular_velocity(self.described.rates, self.about, key="spin")
         rate, along = self.described.rate, self.described.along
         if rate is None or along is None:
-            message = "nothing says how this body turns"
+            message = "the rotation of this body is not specified"
             rejected("missing-key", message, self.described.place, "give `rate` and `along`, `rates`, or `start`")
         if self.body is not None:
             return spin(rate, along=self.body.direction(along.named), through=self.about)
         if along.named.name == "diagonal":
-            message = "a body that is told by its moments has no diagonal"
+            message = "a body specified by its moments has no diagonal"
             rejected("no-such-axis", message, self.described.place, "write `along: x`, or components")
         components = along.components if not along.is_name else tuple(int(along.named.name == axis) for axis in AXES)
         name = along.named.name or "components"
@@ -285,8 +285,8 @@ class Answers:
 
     def precession_rate(self) -> Quantity:
         if not self.described.start:
-            message = "free precession is that of a body on which no torque acts"
-            rejected("missing-key", message, self.described.place, "give its angular velocity at one moment, `start`")
+            message = "free precession needs a body on which no torque acts"
+            rejected("missing-key", message, self.described.place, "give its angular velocity at one instant, `start`")
         return precession_rate(self.inertia_tensor, self.angular_momentum)
 
     # -- a rotation that changes ----------------------------------------------------------------------------------
@@ -301,7 +301,7 @@ class Answers:
     def equations(self) -> tuple[Quantity, Quantity, Quantity]:
         self._along_principal_axes()
         if self.described.along or self.described.rates:
-            message = "Euler's equations are about a body that turns in any way, but its rotation is given"
+            message = "Euler's equations need a body that rotates in any way, but its rotation is given"
             rejected("is-steady", message, None, "leave out `along` and `rates`")
         rate = rate_in_space(self.changing_momentum, self.changing)
         acting = self.described.torque
@@ -312,7 +312,7 @@ class Answers:
 
     def _along_principal_axes(self) -> None:
         if not self.inertia_tensor.value.is_diagonal():
-            message = "the axes of this body are no principal axes, along which Euler's equations are"
+            message = "Euler's equations need principal axes, but the axes of this body are not principal"
             rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
 
     @cached_property

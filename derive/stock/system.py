@@ -80,7 +80,7 @@ class SystemKeys(Record):
         required=True,
     )
     axes: Mapping[Word, tuple[Mapping[Word, Tree], ...]] = key(
-        "axes that turn, by the turns that lead to them from those of space: `hoop: [{z: omega*t}]`", TURNS
+        "rotating axes, by the rotations that lead to them from the axes of space: `hoop: [{z: omega*t}]`", TURNS
     )
     points: Mapping[Word, WrittenPlace] = key(
         "places by name: `A: [l*sin(theta), -l*cos(theta)]`, `B: {from: A, by: [x, y]}`; the last component is upwards",
@@ -92,32 +92,32 @@ class SystemKeys(Record):
     rolling: Sequence[RollingKeys] = key("bodies that roll without slipping", ROLLING)
     gravity: Tree | None = key("the acceleration of free fall, downwards; without gravity nothing has weight", SCALAR)
     springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
-    central: Sequence[CentralKeys] = key("potential energies of the distance of two places", CENTRAL)
+    central: Sequence[CentralKeys] = key("potential energies that depend on the distance between two places", CENTRAL)
     lagrangian: Tree | None = key(
         "the Lagrangian itself, given as a formula of coordinates, their rates and `t`, in place of all bodies: "
-        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may stand beside it",
+        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may be added",
         SCALAR,
     )
     potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
     forces: Sequence[ForceKeys] = key("given forces and torques", FORCES)
-    damping: Sequence[DampingKeys] = key("drag against a velocity, in proportion to it", DAMPING)
+    damping: Sequence[DampingKeys] = key("drag opposite and proportional to a velocity", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
-    constraints: Sequence[ConstraintKeys] = key("conditions that forces keep", CONSTRAINTS)
-    blow: BlowKeys | None = key("what happens in a moment: impulses and collisions", BLOW)
+    constraints: Sequence[ConstraintKeys] = key("conditions kept by constraint forces", CONSTRAINTS)
+    blow: BlowKeys | None = key("impulses and collisions at one instant", BLOW)
     conserved: Mapping[Word, Tree] = key(
-        "letters for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or what they are, "
+        "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
         "`psi: C*s`",
         mapping_of(SCALAR),
     )
     assume: Tree | None = key(
-        "relations between constant letters that hold: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
+        "relations between constant symbols that are true: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
     )
     at: Tree | None = key(
-        "the state about which equations are linearised and stability is judged: `{theta: 0}`, or one of the states of "
-        "rest by its name, `rest_3`; by default all of them",
+        "the state about which equations are linearised and stability is decided: `{theta: 0}`, or an equilibrium by "
+        "its name, `rest_3`; by default all equilibria",
         as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
     )
-    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -288,8 +288,8 @@ def _check_different(brought: Sequence[Word]) -> None:
     """Check that all these symbols are different."""
     for i, word in enumerate(brought):
         if word in brought[:i]:
-            message = f"`{word}` stands for something else already"
-            rejected("letter-clash", message, word.place, "use another letter")
+            message = f"`{word}` already denotes something else"
+            rejected("letter-clash", message, word.place, "use another symbol")
 
 
 def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: InLetters) -> dict[str, Declared]:
@@ -301,7 +301,7 @@ def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: I
             placed = {str(letter) for letter, _ in held["values"].items()} if "values" in held else set()
             turning = [q for q in written.coordinates if q in letters and q not in placed]
             for q, name in zip(turning, names(held.get("symbol")), strict=False):
-                known.unused(name, "leave it out of `symbols`, or give the rate another letter")
+                known.unused(name, "leave it out of `symbols`, or give the rate another symbol")
                 found[str(name)] = Declared(str(name), scalar(name, positive=True), kind_of_rate(letters[q].kind))
     return found
 
@@ -312,13 +312,15 @@ def _constants(
     """Return the symbols of constant momenta."""
     found = {}
     for q in (q for q in written if q not in letters):
-        faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=did_you_mean(q, letters))
+        faults.error(
+            "no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=did_you_mean(q, letters)
+        )
     for q, word in _words(written).items():
         name, is_positive = _letter(word)
         if q not in letters or not is_letter(name):
             continue  # an expression is the value of the momentum, see `_kept`
         with faults:
-            known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another letter")
+            known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another symbol")
         kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
         found[name] = Declared(name, constant(name, positive=is_positive), kind)
     return found
@@ -352,7 +354,7 @@ def _state(
     for q, node in written.items():
         if q not in coordinates:
             help_line = did_you_mean(q, coordinates)
-            faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=help_line)
+            faults.error("no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=help_line)
             continue
         with faults:
             value = letters.of_kind(node, str(q), coordinates[q].kind)
@@ -364,7 +366,7 @@ def _state(
 def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
     """Reject a state at an end of its range or beyond: small displacements need room on both sides."""
     if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
-        message = f"`{q}` lies between {lies.least} and {lies.greatest}, so that {value} is no state to start from"
+        message = f"`{q}` lies between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"
         rejected("range", message, q.place, help=f"give `{q}` a wider range, or none")
 
 

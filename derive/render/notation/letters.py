@@ -18,7 +18,7 @@ from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
 from derive.steps.step import Quantity, Step, entry_name
 
-ANOTHER = "use another letter"
+ANOTHER = "use another symbol"
 _NOTATION = Notation()
 
 
@@ -35,7 +35,7 @@ def letter_clashes(
     for letter in used:
         other = looks[as_printed(letter)]
         if other != letter:
-            message = f"`{letter.name}` and `{other.name}` are printed alike"
+            message = f"`{letter.name}` and `{other.name}` look the same in print"
             faults[letter] = Complaint("letter-clash", message, _place(problem, letter), help=ANOTHER)
     for quantity in known.values():
         for name, what in meanings(quantity.step, set(problem.dimensions)):
@@ -60,7 +60,7 @@ def _integrated_coordinates(
     ]
     message = "`{}` is a coordinate, but the step `{}` integrates over a variable of that name"
     place = problem.script.returns if problem.script else None
-    help_line = "name the coordinates before the bodies, which then take other letters"
+    help_line = "name the coordinates before the bodies, so that the bodies take other symbols"
     return [
         Complaint("letter-clash", message.format(q.name, key), place, help=help_line) for q, key in dict(own).items()
     ]
@@ -90,12 +90,12 @@ def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, 
             yield variable, f"the step `{step.key}` integrates over it"
     free = {name for form in step.chain for name in form.expr.free_symbols if isinstance(name, Symbol)}
     for name in sorted(free - own - set(letters), key=str):
-        yield name, f"the step `{step.key}` has another letter of that form"
+        yield name, f"the step `{step.key}` has another symbol that looks the same"
 
 
 def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
     """Yield the name of a step's result, and of its components or entries."""
-    symbol, result = step.symbol, f"the step `{step.key}` calls its result so too"
+    symbol, result = step.symbol, f"the step `{step.key}` also uses it for its result"
     if isinstance(symbol, Symbol):
         yield symbol, result
     elif isinstance(symbol, MatrixBase):
@@ -122,10 +122,10 @@ def _integrated(expr: Any) -> Iterator[Symbol]:
 
 
 def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
-    so = what if name.name == letter.name else f"`{name.name}` is printed so too: {what}"
-    message = f"`{letter.name}` is a letter of this problem, but {so}"
+    so = what if name.name == letter.name else f"`{name.name}` looks the same in print: {what}"
+    message = f"`{letter.name}` is a symbol of this problem, but {so}"
     chosen = f"symbols.{letter.name}" not in problem.places
-    help_line = "declare another letter of its kind under `symbols:`" if chosen else ANOTHER
+    help_line = "declare another symbol of its kind under `symbols:`" if chosen else ANOTHER
     return Complaint("letter-clash", message, _place(problem, letter), help=help_line)
 
 

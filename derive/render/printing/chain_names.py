@@ -203,7 +203,7 @@ def factor_between(before: Any, here: Any) -> Any:
         if equal(before, sign * here):
             return sign
     if isinstance(before, MatrixBase):
-        raise TypeError("equations of vectors differ by no factor")
+        raise TypeError("vector equations may differ only by a sign")
     quotient = before / here
     simpler = cancel(together(TR5(before.expand(), max=8) / TR5(here.expand(), max=8)))
     return simpler if equal(before, simpler * here) else quotient

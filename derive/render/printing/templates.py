@@ -36,7 +36,7 @@ def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) ->
     try:
         return _environment(folder, kind).get_template(template).render(facts)
     except TemplateNotFound as error:
-        message = f"there is no template `{error.name}`"
+        message = f"the template `{error.name}` does not exist"
         raise Rejected(Complaint("template", message, help=f"it belongs in `{_shown(folder / kind)}`")) from error
     except TemplateSyntaxError as error:
         file = folder / kind / (error.name or template)

@@ -84,8 +84,10 @@ class ByName:
             return _called(name, with_ancestors(self._derived(leading, name.place)))
         for own in (own for own in self.asks if name.startswith(f"{own}_")):
             self._derived(own, name.place)  # raises the error if it cannot be derived
-        help_line = did_you_mean(name, (*self.asks, *self._there())) or f"one may ask for {', '.join(self.asks)}"
-        message = f"{self.what} has no answer called `{name}`" if self.what else f"there is no answer `{name}`"
+        help_line = did_you_mean(name, (*self.asks, *self._there())) or f"you may ask for {', '.join(self.asks)}"
+        message = (
+            f"{self.what} has no answer called `{name}`" if self.what else f"`{name}` is not the name of an answer"
+        )
         rejected("no-such-answer", message, name.place, help_line)
 
     def offered(self, name: str) -> str | None:
@@ -120,7 +122,7 @@ class ByName:
 
     def _derived(self, name: str, place: Place | None) -> tuple[Quantity, ...]:
         if name in self._in_progress:
-            rejected("circle", f"`{name}` is made of itself", place)
+            rejected("circle", f"`{name}` is computed from itself", place)
         if name not in self._known:
             self._in_progress.append(name)
             try:
@@ -188,7 +190,7 @@ class ByName:
         own = self.offered(name)
         if own is not None:
             as_one = "" if own == name else f", as `{own}`"
-            message = f"`{name}` is the name of an answer already{as_one}, so no result can be called so"
+            message = f"`{name}` is already the name of an answer{as_one}, so a result cannot have this name"
             rejected("name-clash", message, name.place, "give the result another name")
 
     def _check_own_key(self, result: Result) -> None:
@@ -198,7 +200,7 @@ class ByName:
             return
         own = [q.step for q in self._known[result.name]]
         if any(q.key == result.name and q.step not in own for q in run.established):
-            message = f"`{result.name}` is the key of a step already, so no result can be called so"
+            message = f"`{result.name}` is already the key of a step, so a result cannot have this name"
             rejected("name-clash", message, result.name.place, "give the result another name")
 
 

@@ -21,8 +21,8 @@ def rest_with_forces(
     unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + [s for s in forces if s in present]
     if len(unknown) != len(still):
         names = ", ".join(s.name for s in unknown) or "nothing"
-        message = f"{len(still)} equations of rest do not tell {names}, where forces keep conditions"
-        help_line = "write the places by fewer coordinates, so that no force keeps them on their way"
+        message = f"{len(still)} static equations do not determine {names}: constraint forces add unknowns"
+        help_line = "describe the positions by fewer coordinates, so that no constraint force is needed"
         raise Rejected(Complaint("constrained", message, help=help_line))
     return solved_for(tuple(still), *unknown, keys=[f"rest_{s.name}" for s in unknown])
 

@@ -73,7 +73,7 @@ MEANINGS: Mapping[str, str] = {
     "squared_momentum_rate": "the rate of change of the squared angular momentum",
     "momentum_rate_in_body": "the rate of change of the angular momentum as seen from the body",
     "momentum_rate_in_space": "the rate of change of the angular momentum in space",
-    "body_cone_rate": "the rate at which the angular velocity goes round in the body",
+    "body_cone_rate": "the rate at which the angular velocity precesses in the body",
     "axis_of_symmetry": "the axis of symmetry",
     "body_cone": "the angle between the axis of symmetry and the angular velocity",
     "space_cone": "the angle between the angular momentum and the angular velocity",

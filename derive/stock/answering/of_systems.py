@@ -266,7 +266,7 @@ class Answers:
             return self.equilibria
         letters = {each.force for each in self.system.constraints}
         if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
-            message = "sliding friction does not act at rest, where friction has any value up to its greatest"
+            message = "sliding friction does not act at rest: static friction can have any value up to its greatest"
             help_line = (
                 "ask for the equilibria without friction; with static friction there is a range of them around each"
             )
@@ -306,8 +306,8 @@ class Answers:
         states = self.by_name.named(Word.at("equilibria", name.place))
         found = self.by_name.one_of("equilibria", name, states)
         if found is None:
-            help_line = f"they are {', '.join(f'`{q.key}`' for q in states)}"
-            rejected("no-such-answer", f"there is no equilibrium `{name}`", name.place, help_line)
+            help_line = f"the equilibria are {', '.join(f'`{q.key}`' for q in states)}"
+            rejected("no-such-answer", f"`{name}` is not an equilibrium", name.place, help_line)
         return found
 
     @cached_property
@@ -342,7 +342,7 @@ class Answers:
         if len(self.normal_modes) != 1:
             raise Rejected(Complaint("wrong-argument", "`period` is about one frequency, but there are several"))
         if self.normal_modes[0].value == 0:
-            message = "nothing drives the system back to this state, so that it does not oscillate about it"
+            message = "nothing drives the system back to this state, so it does not oscillate about it"
             raise Rejected(Complaint("no-oscillation", message, help="is each body held where it should be?"))
         return period(self.normal_modes[0])
 
@@ -369,13 +369,13 @@ class Answers:
             "period": lambda: self.period,
             "no_slip": lambda: self._some(
                 tuple(each for each in self.rolling if isinstance(each, Quantity)),
-                "the conditions of rolling are kept by forces here, so that nothing is eliminated by `no_slip`"
+                "forces keep the conditions of rolling here, so `no_slip` eliminates nothing"
                 if self.rolling
                 else "nothing rolls in this system",
             ),
             "angular_velocity": lambda: self._some(
                 tuple(angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane),
-                "no body of this system turns in space: in a plane its angular velocity is the rate of an angle",
+                "no body of this system rotates in space: in a plane its angular velocity is the rate of an angle",
             ),
             "accelerations": lambda: accelerations(*self.motions.values()),
             "multipliers": lambda: multipliers(*self.motions.values()),
@@ -416,8 +416,8 @@ class Answers:
             kinds = {q.step.kind: q.key for q in self.established if getattr(q.symbol, "name", "") == name}
             if len(kinds) > 1:
                 keys = " and ".join(f"`{key}`" for key in kinds.values())
-                message = f"`{name}` stands for two things, {keys}"
-                rejected("letter-clash", message, place, "give what this line brings in another letter")
+                message = f"`{name}` denotes two quantities, {keys}"
+                rejected("letter-clash", message, place, "use another symbol on this line")
 
     def _some(self, found: tuple[Quantity, ...], otherwise: str) -> tuple[Quantity, ...]:
         if not found:

@@ -58,7 +58,7 @@ class Directions:
             return Axis(Direction(node.text))
         if isinstance(node, Scalar) and not node.empty:
             help_line = did_you_mean(node.text, DIRECTION_NAMES) or f"the names are {names}"
-            rejected("wrong-kind", f"`{name}` must be a direction, but `{node.text}` names none", node.place, help_line)
+            rejected("wrong-kind", f"`{name}` must be a direction, but `{node.text}` is not one", node.place, help_line)
         if not isinstance(node, Sequence) or len(node.items) != 3:
             message = f"`{name}` must be a direction or three components"
             rejected("wrong-type", message, node.place, f"write {names}, or `[1, 1, 0]`")
@@ -69,7 +69,11 @@ class Directions:
             faults.error("zero-axis", f"`{name}` has no direction: every component is zero", node.place)
         if len(dimensions) > 1:
             one, other = sorted(named(dimension) for dimension in dimensions)[:2]
-            faults.error("dimension", f"of the components of `{name}` one is {one}, another {other}", node.place)
+            faults.error(
+                "dimension",
+                f"the components of `{name}` have different dimensions: one is {one}, another {other}",
+                node.place,
+            )
         faults.stop()
         return Axis(Direction(None, (x[0], y[0], z[0])))
 
@@ -84,5 +88,5 @@ class Directions:
 
     def _turn(self, axis: Word, node: Tree) -> tuple[str, Expr]:
         if axis not in ("x", "y", "z"):
-            rejected("no-such-axis", f"axes are turned about x, y or z, not about `{axis}`", axis.place)
+            rejected("no-such-axis", f"axes rotate about x, y or z, not about `{axis}`", axis.place)
         return str(axis), self.letters.of_kind(node, f"the angle about {axis}", "angle")

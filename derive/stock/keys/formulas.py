@@ -62,7 +62,7 @@ class Formula:
         """Return a placeholder symbol for an answer, with its sign and dimension."""
         value = explicit(quantity.value.right if isinstance(quantity.value, Relation) else quantity.value)
         if not isinstance(value, Expr):
-            rejected("wrong-argument", f"`{name}` is no number", name.place)
+            rejected("wrong-argument", f"`{name}` is not a number", name.place)
         declared = {letter.symbol: letter.dimension for letter in self.letters.values()}
         table, _ = dimension_table(declared, [q.step for q in with_ancestors([quantity]).values()])
         has = dimension_of(value, table)
@@ -73,5 +73,5 @@ class Formula:
 def formula(node: Tree, letters: Mapping[str, Declared]) -> Formula:
     """Return the formula of an expression."""
     if not isinstance(node, Scalar) or node.empty:
-        rejected("wrong-type", "a formula is told by an expression such as `pi*rate/frequency`", node.place)
+        rejected("wrong-type", "a formula must be an expression such as `pi*rate/frequency`", node.place)
     return Formula(node, letters)

@@ -43,7 +43,7 @@ def read_lagrangian(written: WithLagrangian, letters: InLetters) -> tuple[Expr, 
         return None
     beside = next((name for name in WITH_BODIES if name in written.places), None)
     if beside is not None:
-        message = f"`{beside}` cannot stand beside `lagrangian`, which is given in place of bodies"
-        rejected("given-lagrangian", message, written.places[beside], "put it into the formula")
+        message = f"`{beside}` cannot be combined with `lagrangian`, which replaces bodies and forces"
+        rejected("given-lagrangian", message, written.places[beside], "include it in the formula")
     value, dimension = letters.read(written.lagrangian, "lagrangian", "a formula of coordinates and rates")
     return value, kind_of_dimension(dimension)

@@ -104,13 +104,15 @@ def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[
 
 def _letter(name: Word, letters: Mapping[str, Declared]) -> Symbol:
     if name not in letters:
-        rejected("undeclared", f"there is no letter `{name}`", name.place, did_you_mean(name, letters))
+        rejected("undeclared", f"`{name}` is not a symbol of this problem", name.place, did_you_mean(name, letters))
     return letters[name].symbol
 
 
 def _named(name: Word, known: Mapping[str, Quantity]) -> Quantity:
     if name not in known:
-        help_line = did_you_mean(name, known) or "use the key of a step that the script returns or its answers rest on"
+        help_line = (
+            did_you_mean(name, known) or "use the key of a step that the script returns or on which its answers depend"
+        )
         rejected("no-such-answer", f"`solve()` returns nothing called `{name}`", name.place, help_line)
     return known[name]
 
@@ -137,13 +139,13 @@ def _as_stated(
     stated, value = _read(given.stated, letters), explicit(case.value)
     value = value.right if isinstance(value, Relation) else value
     if isinstance(value, MatrixBase):
-        message = f"`{case.key}` is no number; a vector or a tensor is compared with a step, `known`"
+        message = f"`{case.key}` is not a number; compare a vector or a tensor with a step, `known`"
         rejected("wrong-type", message, given.stated.place)
     if equal(value, stated):
         return []
     stand_for = [q for q in known.values() if q.symbol in stated.free_symbols and isinstance(q.value, Expr)]
     if not equal(value, explicit(bound(stated, {q.symbol: q.value for q in stand_for}))):
-        rejected("wrong-limit", f"`{given.of or given.step}` then is {value}, not {stated}", given.stated.place)
+        rejected("wrong-limit", f"`{given.of or given.step}` is {value} in this case, not {stated}", given.stated.place)
     key = _free(f"{case.key}_in_letters", keys)
     keys.add(key)
     return [case_in_letters(case, stated, stand_for, key=key)]

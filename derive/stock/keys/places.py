@@ -42,7 +42,7 @@ def _sort(node: Tree, name: str, faults: Faults) -> SortOfLetter:
 
 COORDINATES = mapping_of(Reader(schema_of_sorts((ANGLE, LENGTH, CHARGE)), _sort))
 COMPONENTS = list_of(SCALAR, "a list of components, `[x, y]` in a vertical plane or `[x, y, z]`")
-TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of turns, such as `[{z: phi}, {x: theta}]`"))
+TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of rotations, such as `[{z: phi}, {x: theta}]`"))
 AXIS_OF = {"x": X, "y": Y, "z": Z}
 
 
@@ -50,9 +50,9 @@ AXIS_OF = {"x": X, "y": Y, "z": Z}
 class WayKeys(Record):
     """The keys of a place that is specified by a displacement from another."""
 
-    start: Word | None = key("the place from which the way goes; by default the origin", TEXT, called="from")
+    start: Word | None = key("the place where the displacement starts; by default the origin", TEXT, called="from")
     by: tuple[Tree, ...] = key("its components", COMPONENTS, required=True)
-    axes: Word | None = key("the turning axes along which they are, by their name under `axes`", TEXT, called="in")
+    axes: Word | None = key("the rotating axes of these components, by their name under `axes`", TEXT, called="in")
 
 
 @dataclass(frozen=True)
@@ -104,10 +104,10 @@ def coordinate_letters(
     for name, sort in written.items():
         kind = str(sort)
         if name in symbols:
-            message = f"`{name}` is declared under `symbols` and is a coordinate too"
-            faults.error("letter-clash", message, name.place, help="leave it out there")
+            message = f"`{name}` is declared under `symbols`, but is also a coordinate"
+            faults.error("letter-clash", message, name.place, help="remove it from `symbols`")
         elif not is_letter(name):
-            faults.error("symbol", f"`{name}` is no letter for a coordinate", name.place)
+            faults.error("symbol", f"`{name}` is not a valid symbol for a coordinate", name.place)
         else:
             lies = _range(str(name), sort, faults)
             positive = lies is not None and lies.is_above_zero and kind == LENGTH
@@ -157,9 +157,9 @@ class Places:
             help_line = (
                 did_you_mean(name, [*self.written, *self.carried]) or "give it under `places`, or write its components"
             )
-            rejected("no-such-place", f"there is no place `{name}`", name.place, help_line)
+            rejected("no-such-place", f"`{name}` is not a named place", name.place, help_line)
         if name in self.on_the_way:
-            rejected("circle", f"the way to `{name}` begins at `{name}` itself", written.place)
+            rejected("circle", f"the position of `{name}` depends on `{name}` itself", written.place)
         self.on_the_way.append(name)
         try:
             return self.at(written, name)
@@ -183,11 +183,11 @@ class Places:
         turns = next((turns for known, turns in self.turns.items() if known == name), None)
         if turns is None:
             help_line = did_you_mean(name, self.turns) or "give them under `axes`"
-            rejected("no-such-axes", f"there are no axes `{name}`", name.place, help_line)
+            rejected("no-such-axes", f"`{name}` is not the name of axes", name.place, help_line)
         axes = space
         for about, node in (pair for turn in turns for pair in turn.items()):
             if about not in AXIS_OF:
-                rejected("no-such-axis", f"axes are turned about x, y or z, not about `{about}`", about.place)
+                rejected("no-such-axis", f"axes rotate about x, y or z, not about `{about}`", about.place)
             angle = self.letters.of_kind(node, f"an angle of {name}", "angle")
             with told_at(about.place):
                 axes = axes.turned(AXIS_OF[about], angle)

@@ -39,7 +39,7 @@ Answers = Callable[[Word], tuple[Quantity, ...]]
 
 @in_results(
     "answer",
-    "of a body the tensor, a moment or radius of gyration, or the centre of mass about another point or axis: "
+    "the tensor, a moment or radius of gyration, or the centre of mass of a body about another point or axis: "
     "`{answer: moment_of_inertia_z, about: tip}`",
     one_of=("about", "origin", "direction"),
     answer="answer: the name of an answer of a body",
@@ -59,7 +59,7 @@ def _of_a_body(
 ) -> Quantity:
     """Return the answer of a body about another point or axis than the given one."""
     if elsewhere is None:
-        rejected("wrong-argument", "`answer` asks about another point of a body, which is for `solve: body`", None)
+        rejected("wrong-argument", "`answer` asks about another point of a body and needs `solve: body`", None)
     return elsewhere(answer, key, about, origin, direction, symbol)
 
 
@@ -94,7 +94,7 @@ class Surroundings:
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
-            rejected("wrong-argument", f"`{name}` stands for {len(found)} answers", name.place)
+            rejected("wrong-argument", f"`{name}` denotes {len(found)} answers", name.place)
         return found[0]
 
     def momenta_named(self, names: Iterable[str]) -> None:
@@ -114,7 +114,7 @@ def names(node: Tree | None) -> tuple[Word, ...]:
     found = []
     for item in _nodes(node) if node is not None else ():
         if not isinstance(item, Scalar) or item.empty:
-            rejected("wrong-type", "an answer is given by its name", item.place)
+            rejected("wrong-type", "an answer must be given by its name", item.place)
         found.append(item.word)
     return tuple(found)
 
@@ -137,14 +137,14 @@ def _letters(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -
 def _letter(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> Expr:
     found = _letters(verb, key, node, letters)
     if len(found) != 1:
-        rejected("missing-key", f"`{verb.name}` needs one letter as its `{key.name}`", node.place)
+        rejected("missing-key", f"`{verb.name}` needs one symbol as its `{key.name}`", node.place)
     return found[0]
 
 
 def _values(verb: ResultVerb, key: ResultKey, written: Mapping[Word, Tree], letters: InLetters) -> dict[Word, Expr]:
     def one(letter: Word, value: Tree) -> tuple[Word, Expr]:
         if letter not in letters.letters:
-            help_line = did_you_mean(letter, letters.letters) or "it is a letter, a coordinate or a rate"
+            help_line = did_you_mean(letter, letters.letters) or "use a symbol, a coordinate or a rate"
             rejected("undeclared-symbol", f"`{letter}` is not declared", letter.place, help_line)
         return letter, value_or_infinity(value, letters)
 
@@ -160,7 +160,7 @@ def _order(verb: ResultVerb, key: ResultKey, word: Word, letters: InLetters) -> 
 def _symbol(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> Word:
     found = names(node)
     if len(found) > 1:
-        rejected("wrong-argument", f"`{verb.name}` finds one thing, with one letter", found[1].place)
+        rejected("wrong-argument", f"`{verb.name}` finds one quantity, with one symbol", found[1].place)
     return found[0]
 
 
@@ -174,7 +174,7 @@ def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters)
         return letters.read(item, "a function")[0]
 
     if len(_nodes(node)) != 2:
-        rejected("wrong-type", f"`{verb.name}` is of two functions, but these are {len(_nodes(node))}", node.place)
+        rejected("wrong-type", f"`{verb.name}` needs two functions, not {len(_nodes(node))}", node.place)
     return tuple(one(item) for item in _nodes(node))
 
 
@@ -184,7 +184,7 @@ def _one_answer(result: Result, key: ResultKey, found: tuple[Word, ...], around:
     if len(of) > 1 and len(found) == 1:
         of = [quantity for quantity in of if quantity.key == found[0]] or of
     if len(of) != 1:
-        rejected("wrong-argument", f"`{result.verb.name}` is about one answer, but these are {len(of)}", result.place)
+        rejected("wrong-argument", f"`{result.verb.name}` needs one answer, not {len(of)}", result.place)
     return of[0]
 
 
@@ -252,12 +252,12 @@ def _meaning(name: str) -> str:
 
 
 ALIKE = {  # meaning of a key that is the same for each verb
-    "symbol": "the letter of what is found, or one for each of several",
+    "symbol": "the symbol of the result, or one for each of several",
     "results": "answers that are substituted",
-    "order": "to which order",
+    "order": "the highest order",
     "start": "the value at the start",
-    "case": "`underdamped`, `critically_damped` or `overdamped`, where the letters leave it open",
-    "gained": "of which function the Lagrangian gains the rate; by default none",
+    "case": "`underdamped`, `critically_damped` or `overdamped`, if the symbols leave it open",
+    "gained": "the function whose rate the Lagrangian gains; by default none",
 }
 
 
@@ -405,7 +405,7 @@ def read_result(written: Record, name: Word, letters: InLetters, faults: Faults)
     with faults:
         known = letters.letters.get(name)
         if known is not None and not isinstance(known, FoundLetter):
-            message = f"`{name}` is a letter of this problem already, so no result can be called so"
+            message = f"`{name}` is already a symbol of this problem, so a result cannot have this name"
             rejected("letter-clash", message, name.place, "give the result another name")
         verb, held = verb_of(written), written_in(written)
         readings = [
