@@ -45,7 +45,7 @@ def emptied() -> None:
 
 
 def timed(question: Callable[[], Any]) -> tuple[Any, float]:
-    """Return the answer, or None if there is none in time, and the seconds."""
+    """Return the answer, or None if it takes too long, and the seconds."""
 
     def stop(*_: Any) -> None:
         raise TimeoutError

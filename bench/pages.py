@@ -42,7 +42,7 @@ from derive.render.rendered import Rendered
 
 LIMIT = 1000.0  # seconds allowed for one stage
 
-# --- a page that is edited -------------------------------------------------------------------------------------------
+# --- an edited page --------------------------------------------------------------------------------------------------
 
 
 @contextmanager
@@ -73,7 +73,7 @@ def previewed(tree: Path) -> Iterator[Callable[[], str]]:
 
 
 def edits(tree: Path) -> dict[str, float]:
-    """Return the seconds until an edited page is reported, for a word and for a given, and those of deriving that
+    """Return the seconds until an edited page is reported, for a word and for a given, and of the derivation of that
     given.
     """
     edited = Edited(tree / "problems" / SET / f"{PROBLEM}.yaml")

@@ -66,7 +66,7 @@ parts:
 
 
 def body_of_parts(n: int) -> str:
-    """Return the description of one body made of n balls, cuboids, cylinders and rods, each with separate symbols."""
+    """Return the description of one body of n balls, cuboids, cylinders and rods, each with separate symbols."""
     shapes = (
         "shape: ball, radius: a_{0}",
         "shape: cuboid, sides: [a_{0}, 2*a_{0}, a_{0}]",

@@ -95,7 +95,7 @@ WANTED = {
     ".runtime": "SymPy and the TeX engine (once, about 100 MB)",
     ".tests": "SymPy, the TeX engine and the test tools (once, about 140 MB)",
 }
-LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # the second for tests only
+LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # the second adds test packages
 CHECKED = ["--require-hashes", "--only-binary", ":all:"]
 ITSELF = ["--no-index", "--no-deps", "--no-build-isolation", "--editable", "."]
 

@@ -150,7 +150,7 @@ class ChainWriter:
         return sorted(self.numbers.keys() & keys, key=self.numbers.__getitem__)
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the step, or, if its vector or tensor is not shown, those of its entries whose symbols are used."""
+        """Return the step, or the entries of its vector or tensor whose symbols are used, if that is not shown."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]

@@ -81,7 +81,7 @@ class Clauses:
         return filled(self.words.labels[label], {"definitions": told})
 
     def _told(self, step: Step, by_value: bool) -> tuple[Inline, ...]:
-        """Return `rho = M/(6 a^3) is the density`, or the value alone if there is no phrase."""
+        """Return `rho = M/(6 a^3) is the density`, or the value alone without a phrase."""
         phrase = self.words.clauses.get(step.rule, {}).get(step.outcome, BY_VALUE)
         names = self._names(step)
         return filled(phrase, names if by_value or phrase == BY_VALUE else {**names, "definition": Math(step.symbol)})

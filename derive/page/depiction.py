@@ -92,7 +92,7 @@ def placement_of(problem: Problem, key: str) -> Placement | None:
     return next((placement for placement in problem.drawings if placement.key == key), None)
 
 
-# --- where it stands -------------------------------------------------------------------------------------------------
+# --- positions -------------------------------------------------------------------------------------------------------
 
 
 def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
@@ -152,7 +152,7 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the first part by whose end all steps of the drawing are derived; None if there is none."""
+    """Return the index of the first part by whose end all steps of the drawing are derived; None if no part is."""
     known: set[str] = set()
     for index, keys in enumerate(((), *derivation.parts), FOUND):
         known |= set(keys)
@@ -174,7 +174,7 @@ def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int
 
 
 def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
-    """Return the part that asks for a step, else the part that shows it; None if there is none, without a drawing."""
+    """Return the part that asks for a step, else the part that shows it; None otherwise, without a drawing."""
     answered = [derivation.answering(part.answers) for part in problem.parts]
     asked = [index for index, steps in enumerate(answered) if key in [step.key for step in steps]]
     shown = [index for index, keys in enumerate(derivation.parts) if key in keys]
@@ -184,7 +184,7 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows what is derived later, or what no answer depends on."""
+    """Return an error if a drawing shows a step that is derived later, or one on which no answer depends."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None
@@ -209,7 +209,7 @@ def _given_away(
     return Complaint("drawing", message, place, help=f"write `at: {letter}`, where it is derived")
 
 
-# --- what it shows ---------------------------------------------------------------------------------------------------
+# --- contents in words -----------------------------------------------------------------------------------------------
 
 
 def alternative(
@@ -288,7 +288,7 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
 
 
 def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """Return what is read off a plot, after its caption: its extrema with their numbers, panel by panel."""
+    """Return the extrema of a plot with their numbers, panel by panel, for use after its caption."""
     curves = curves_of(problem, plot, placement)
     last = words.labels["and"]
     told = [

@@ -32,7 +32,7 @@ def with_details(document: Document, full: Document) -> Document:
 def _merged(
     full: PartPage, numbers: Mapping[str, Number], lines: Mapping[str, Sequence[ChainLine]]
 ) -> dict[str, tuple[Block, ...]]:
-    """Return what is folded after each step, by the key of the step; before the first step under the empty name."""
+    """Return the blocks to fold after each step, by the key of the step; before the first step under the empty name."""
     found: dict[str, list[Block]] = {}
     at = ""
     for sentence in sentences(full.blocks):
@@ -71,7 +71,7 @@ def _has_more(full: Sequence[ChainLine], shown: Sequence[ChainLine]) -> bool:
 
 
 def _placed(blocks: Sequence[Block], folded: Mapping[str, tuple[Block, ...]]) -> tuple[Block, ...]:
-    """Return the blocks of a part, each sentence followed by what is folded after its steps."""
+    """Return the blocks of a part, each sentence followed by the blocks folded after its steps."""
     found: list[Block] = [Folded(folded[""])] if "" in folded else []
     for sentence in sentences(blocks):
         found += sentence

@@ -120,7 +120,7 @@ def told_value(plot: Plot, extremum: Extremum) -> str:
 
 
 def with_unit(value: float, unit: str) -> str:
-    """Return a number to four figures with its unit; there is no space before a degree sign."""
+    """Return a number to four figures with its unit; a degree sign follows directly."""
     gap = "" if unit == "\u00b0" else " "
     return _signed(f"{value:.4g}{gap}{unit}")
 

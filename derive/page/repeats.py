@@ -20,7 +20,7 @@ AGAIN = "again"  # the outcome whose sentence names the equation
 
 
 class Stated:
-    """The results of the page so far, each with the step that has it."""
+    """The results of the page so far, each with its step."""
 
     def __init__(self) -> None:
         self._found: dict[Formula, str] = {}
@@ -56,7 +56,7 @@ def results(step: Step, lines: Lines) -> int:
 
 
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
-    """Return a sentence for a repeated result: it names the equation that has it, so no line follows.
+    """Return a sentence for a repeated result: it names the earlier equation, so no line follows.
 
     Return nothing if the step has another outcome, or if the page has every line.
     """

@@ -82,7 +82,7 @@ class PartPage:
     points: Fraction | None
     blocks: tuple[Block, ...]
     extra: bool = False
-    shown: bool = True  # false if only a page of more detail has it
+    shown: bool = True  # false if only a page of more detail shows the part
 
 
 @dataclass(frozen=True)

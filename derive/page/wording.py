@@ -163,7 +163,7 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return a note that the answer is only a definition, or which equation already has it."""
+        """Return a note that the answer is only a definition, or that an earlier equation already states it."""
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
@@ -339,7 +339,7 @@ def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, 
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:
-    """Return an input as the statement has it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
+    """Return an input in the form of the statement: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
     if given.word is not None:
         return words.term(given.word)
     if given.written is not None:

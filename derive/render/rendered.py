@@ -1,6 +1,6 @@
-"""A problem solved and printed in every format: a worker passes it to its parent, and it is kept between builds.
+"""A problem solved and printed in every format: a worker passes it to its parent, and builds keep it.
 
-It contains only text and numbers, so that it can be stored as JSON.
+It contains only text and numbers, so JSON can store it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Rendered:
     latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
     html, title_html        the solution and its title, for a page in a browser
     papers                  fragments of the other requested documents, in TeX by name and in HTML by `name.html`
-    counts                  how it was checked in numbers, see `Checks.counts`
+    counts                  the counts of its checks, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
     source_faults           errata of the source and remarks on it: which of the two, line, what is printed,
                             what is right (of an erratum), and why, as plain text

@@ -109,7 +109,7 @@ def _name(letter: Expr) -> str:
     return letter.func.__name__ if isinstance(letter, AppliedUndef) else str(letter.name)
 
 
-# --- where one looks from --------------------------------------------------------------------------------------------
+# --- viewing directions ----------------------------------------------------------------------------------------------
 
 
 def stance_from(azimuth: float, elevation: float) -> Stance:

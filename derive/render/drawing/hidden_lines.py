@@ -59,7 +59,7 @@ class OnPaper(Paper):
         spot = min((midway(*line) for line in lines), key=lambda at: (round(at[1], 6), at[0]))
         return Tag(name, spot, direction(self.spot(self.middle), spot))
 
-    # --- round about an axis ---
+    # --- bodies of revolution ---
 
     def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:
         """Draw the rims of both ends, dashed where they are hidden, and the side.

@@ -131,7 +131,7 @@ def plot_sheet(
     return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tall), alt)
 
 
-# --- what a panel shows ----------------------------------------------------------------------------------------------
+# --- contents of a panel ---------------------------------------------------------------------------------------------
 
 
 def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases, letter: str = "") -> Panel:
@@ -216,7 +216,7 @@ def _mathtext_of_unit(unit: str) -> str:
     return r"{}^{\circ}" if unit == DEGREES else unit_latex(unit)
 
 
-# --- where it is on paper --------------------------------------------------------------------------------------------
+# --- positions on paper ----------------------------------------------------------------------------------------------
 
 
 def _room(panels: Sequence[Panel], writing: Writing) -> Extent:

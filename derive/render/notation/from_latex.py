@@ -73,7 +73,7 @@ def _formula(piece: Quoted) -> str:
 
 
 def layout_of_latex(tex: str) -> Layout:
-    """Return the layout of one formula, made of commands that may be quoted."""
+    """Return the layout of one formula that contains only quotable commands."""
     return _Reader(_TOKEN.findall(tex)).whole()
 
 

@@ -257,9 +257,7 @@ def powers_together(expr: Expr) -> Expr:
 
 
 def _is_fourth_root(factor: Pow) -> bool:
-    """Return whether the factor is 2^(1/4), under a square root sqrt(2), or the fourth root of a sum, as for a
-    diagonal.
-    """
+    """Return whether the factor is a fourth root of an integer or a sum: sqrt(2) or a diagonal under a square root."""
     return bool((factor.base.is_Integer or factor.base.is_Add) and factor.exp.is_Rational and factor.exp.q == 4)
 
 

@@ -51,7 +51,7 @@ class Page:
 
     @cached_property
     def identifiers(self) -> dict[Any, str]:
-        """Return the identifier of each name, in every chain that has it."""
+        """Return the identifier of each name, the same in every chain."""
         found = self._first_identifiers
         order = {name: place for place, name in enumerate(found)}
         clashes: dict[Any, set[str]] = {name: set() for name in found}

@@ -218,7 +218,7 @@ def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
 
 
 def _of_expansion(named: StepNames, i: int) -> dict[str, Any]:
-    """Return the variable of an expansion, its centre and its order: the variable is 1/x if x grows without bound."""
+    """Return the variable of an expansion, its centre, and its order, which is in 1/x if x grows without bound."""
     for node in named.step.chain[i - 1].expr.atoms(Expansion, SwingTime):
         x, place = (node.args[1], node.args[2]) if isinstance(node, Expansion) else (node.args[2], Integer(0))
         order = node.args[3]

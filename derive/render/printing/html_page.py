@@ -198,7 +198,7 @@ class HtmlPage:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
 
     def drawing(self, drawing: Illustration) -> Html:
-        """Return the shapes, or a description in words if there is no drawing."""
+        """Return the shapes, or a description in words if the drawing is missing."""
         shapes = self.drawings.get(f"{drawing.stem}.svg", b"").decode()
         return Html(shapes or escape(self.plain(drawing.alt)))
 

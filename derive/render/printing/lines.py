@@ -120,7 +120,7 @@ def _alike(first: Layout, second: Layout) -> bool:
 
 
 def _as_read(terms: list[Layout]) -> list[str]:
-    """Return sorted terms without spaces, so that M/(2 pi a) equals the same factors in side-by-side form."""
+    """Return the terms as sorted text without spaces: neither their order nor the spacing of factors matters."""
     return sorted("".join(plain(term).split()) for term in terms)
 
 

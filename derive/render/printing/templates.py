@@ -54,7 +54,7 @@ def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) ->
 
 
 def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
-    """Fill the text above a line of a template; return nothing if there is no such line, or it needs more facts."""
+    """Fill the text above a line of a template; return nothing if the line is missing or needs more facts."""
     with suppress(TemplateError, OSError, UnicodeError):
         above, found, _ = (folder / "latex" / template).read_text(encoding="utf-8").partition(line)
         if found:
@@ -120,7 +120,7 @@ def _environment(folder: Path, kind: str) -> Environment:
 
 
 def bookmark_text(text: str) -> Tex:
-    """Return plain text for the title of a PDF or of a bookmark, where there are no fonts and no mathematics."""
+    """Return plain text for the title of a PDF or of a bookmark, without fonts and mathematics."""
     return Tex("".join(escaped(c) if c.isascii() else rf"\unichar{{{ord(c)}}}" for c in text))
 
 

@@ -179,7 +179,7 @@ class ByName:
         return None
 
     def _in_order(self, name: str, likely: bool) -> Iterator[str]:
-        """Yield the likely names, whose beginning matches or from which most steps follow, or else all others."""
+        """Yield the likely names (with a matching beginning, or from which most steps follow), or all others."""
         for own in self.asks:
             begins = name.startswith(f"{own}_") or own in ("lagrangian", "equations_of_motion")
             if begins == likely:

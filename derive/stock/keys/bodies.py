@@ -337,7 +337,7 @@ class Bodies:
 
 
 class WithVariables(InLetters):
-    """The symbols of a description, with those of a position map."""
+    """The symbols of a description and of a position map."""
 
     def __init__(self, others: InLetters, variables: Mapping[str, Declared]):
         self.variables = variables

@@ -1,4 +1,4 @@
-"""The drawing of a described body, where one can be made."""
+"""The drawing of a described body, if there is one."""
 
 from __future__ import annotations
 

@@ -137,7 +137,7 @@ class Places:
         letters: InLetters,
         carried: Mapping[Word, WrittenPlace | None] | None = None,
     ):
-        """Set up the places; `carried` are those of particles, which the names of particles denote."""
+        """Set up the places; the name of a particle in `carried` also denotes its place."""
         self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns
@@ -179,7 +179,7 @@ class Places:
             return self.named(way.start) + found if way.start else found
 
     def axes(self, name: Word) -> Axes:
-        """Return the axes of that name, rotated one rotation after another from those of space."""
+        """Return the axes of that name, by successive rotations of the axes of space."""
         turns = next((turns for known, turns in self.turns.items() if known == name), None)
         if turns is None:
             help_line = did_you_mean(name, self.turns) or "give them under `axes`"

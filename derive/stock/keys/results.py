@@ -63,7 +63,7 @@ def _of_a_body(
     return elsewhere(answer, key, about, origin, direction, symbol)
 
 
-# --- what each sort of key holds -------------------------------------------------------------------------------------
+# --- the sorts of keys -----------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
