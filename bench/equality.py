@@ -1,10 +1,11 @@
-"""How much faster than SymPy's own ways derive tells whether two expressions are equal. Run by `make bench`.
+"""How much faster derive decides whether two expressions are equal than SymPy does. Run by `make bench`.
 
     equal    over `left.equals(right)`             aim 20
     equal    over `simplify(left - right) == 0`    aim 20
 
-Some pairs of the corpus of the tests are decided by all three, with all caches emptied before each, and each is given
-so many seconds; the figure is the median of the ratios, and who was wrong or gave nothing is counted. Processor time.
+All three methods decide the same pairs from the corpus of the tests. All caches are emptied before each, and each has
+the same time limit. The figure is the median of the ratios. Wrong and missing answers are counted. Times are processor
+times.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ from derive.algebra import equality, function_ring, node, normal_form, trig_poly
 from derive.algebra.expressions import Relation
 from tests.algebra.pairs import Pair, kept
 
-LIMIT = 2  # seconds that one question may take
-SECONDS = 50  # that all may take
+LIMIT = 2  # seconds allowed for one question
+SECONDS = 50  # seconds allowed for all questions
 KEEPING = [
     kept_by
     for module in (equality, function_ring, node, normal_form, trig_polynomials)
@@ -44,7 +45,7 @@ def emptied() -> None:
 
 
 def timed(question: Callable[[], Any]) -> tuple[Any, float]:
-    """The answer, None where there is none in time, and the seconds."""
+    """Return the answer, or None if it takes too long, and the seconds."""
 
     def stop(*_: Any) -> None:
         raise TimeoutError
@@ -71,7 +72,7 @@ def main() -> None:
     }
     spent: dict[str, list[float]] = {way: [] for way in ways}
     failed = dict.fromkeys(ways, 0)
-    began, step = time.monotonic(), 7  # no family repeats itself in sevens
+    began, step = time.monotonic(), 7  # no family of pairs repeats with period seven
     for pair in (pairs[n] for start in range(step) for n in range(start, len(pairs), step)):
         if time.monotonic() - began > SECONDS:
             break
@@ -81,7 +82,7 @@ def main() -> None:
             failed[way] += answer is not pair.equal
     for way in ("equals", "simplify"):
         ratios = [other / own for own, other in zip(spent["equal"], spent[way], strict=True)]
-        told = f"{failed['equal']} and {failed[way]} not decided rightly"
+        told = f"{failed['equal']} and {failed[way]} not decided correctly"
         print(f"equality: {way:<9}   {statistics.median(ratios):.0f} x equal ({len(ratios)} pairs, {told})   aim 20")
     print(f"(equal takes {1000 * statistics.median(spent['equal']):.2f} ms)")
 

@@ -1,13 +1,14 @@
 """How long pages for a browser take. Run by `make bench`.
 
-    edit of a word, previewed    from the file's change until `derive preview` tells the page          aim 0.3 s
-    edit of a given, previewed   the same, less what deriving the problem alone takes, nothing kept    aim 0.3 s
-    HTML of a set                over its PDFs, the derivations kept from before                       aim 0.5
-    HTML of a set, cold          the same, with all of it derived and drawn                            aim 0.5
+    edit of a word, previewed    from the file's change until `derive preview` reports the page          aim 0.3 s
+    edit of a given, previewed   the same, minus the time of the derivation alone, nothing kept          aim 0.3 s
+    HTML of a set                over its PDFs, the derivations kept from before                         aim 0.5
+    HTML of a set, cold          the same, with everything derived and drawn                             aim 0.5
 
-Each edit says something that was never said before; the derivation alone is of the same edit, just after it, in a
-process that has derived before, as the preview has. The pages of the set are those that a build makes, one after
-another in a process that has loaded what it needs. The least of several, but cold once.
+Each edit writes a text that was never there before. The derivation alone is timed for the same edit, just after it, in
+a process that has derived before, as the preview has. The pages of the set are those that a build makes, one after
+another in a process that has loaded what it needs. Each figure is the least of several runs, except cold, which runs
+once.
 """
 
 from __future__ import annotations
@@ -39,14 +40,14 @@ from derive.course.problem_set import problem_set
 from derive.render.formats import HTML, TYPESET
 from derive.render.rendered import Rendered
 
-LIMIT = 1000.0  # seconds that one stage may take
+LIMIT = 1000.0  # seconds allowed for one stage
 
-# --- a page that is edited -------------------------------------------------------------------------------------------
+# --- an edited page --------------------------------------------------------------------------------------------------
 
 
 @contextmanager
 def previewed(tree: Path) -> Iterator[Callable[[], str]]:
-    """`derive preview` at work, and a function that waits until its page is another, and says which."""
+    """Run `derive preview` and yield a function that waits until the page has changed and returns the new page."""
     command = [sys.executable, "-P", "-m", "derive", "preview", f"{SET}/{PROBLEM}", "--port", "0"]
     with subprocess.Popen(command, cwd=tree, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout
@@ -72,13 +73,15 @@ def previewed(tree: Path) -> Iterator[Callable[[], str]]:
 
 
 def edits(tree: Path) -> dict[str, float]:
-    """The seconds until a page is told, for a word and for a given, and those of the derivation of that given."""
+    """Return the seconds until an edited page is reported, for a word and for a given, and of the derivation of that
+    given.
+    """
     edited = Edited(tree / "problems" / SET / f"{PROBLEM}.yaml")
     alone: Callable[[], Any] = lambda: derived(load_problem(tree, f"{SET}/{PROBLEM}"))  # noqa: E731
     alone()
     with previewed(tree) as another:
         edited.given()
-        another()  # by which all that draws is loaded
+        another()  # loads everything that draws
         words = [_until(edited.word, another) for _ in range(2 * ROUNDS)]
         givens = [(_until(edited.given, another), seconds(alone, rounds=1)) for _ in range(ROUNDS)]
     return dict(zip(("given", "derivation", "word"), map(min, (*zip(*givens, strict=True), words)), strict=True))
@@ -119,12 +122,12 @@ def pdf(root: Path, cache: Cache) -> None:
 
 
 def in_a_worker(work: Callable[[], None]) -> Callable[[], None]:
-    """In a process that has made no page before."""
+    """Return `work` as a job of a process that has made no page before."""
     return lambda: done(Job("pages", work, LIMIT))
 
 
 def sets(tree: Path, folder: Path) -> dict[str, tuple[float, float]]:
-    """The seconds of HTML and of PDF, with what they rest on kept and without."""
+    """Return the seconds of HTML and of PDF, with kept derivations and without."""
     load(tree, derives=True, draws=True)
     caches = Cache(folder / "html"), Cache(folder / "pdf")
     works = [in_a_worker(partial(make, tree, cache)) for make, cache in zip((html, pdf), caches, strict=True)]

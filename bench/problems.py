@@ -1,12 +1,12 @@
-"""How long the derivation of a problem takes, in seconds of the processor. Run by `make bench`.
+"""How long the derivation of a problem takes, in processor seconds. Run by `make bench`.
 
     each problem         the seconds, aim 5, and their ratio to `import sympy` in the same run
     a chain of n rods    the exponent b of n^b, from 4 rods to 8; aim 2.7
     a body of n parts    the exponent b of n^b, from 8 parts to 16; aim 2.5
 
-The problems are those of `bench/problems`, and chains and bodies that are described here. Each is derived once in a
-process of its own, importing not counted: the least of two processes. One problem has neither a closed form nor
-numbers, and its time is that of the refusal. `derive --root bench check timed` shows how many steps each problem has.
+The problems are those of `bench/problems`, and the chains and bodies described here. Each is derived once in a separate
+process, imports not counted; the figure is the least of two processes. One problem has neither a closed form nor
+numbers; its time is that of the refusal. `derive --root bench check timed` shows how many steps each problem has.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ ORDINALS = (
 
 
 def chain_of_rods(n: int) -> str:
-    """The description of n equal rods in a vertical plane, each hinged to the end of the one above it."""
+    """Return the description of n equal rods in a vertical plane, each hinged to the end of the one above it."""
     across = [f"l*sin(theta_{k + 1})" for k in range(n)]
     down = [f"l*cos(theta_{k + 1})" for k in range(n)]
     hinges = [(" + ".join(across[:k]) or "0", " ".join(f"- {each}" for each in down[:k]) or "0") for k in range(n)]
@@ -66,7 +66,7 @@ parts:
 
 
 def body_of_parts(n: int) -> str:
-    """The description of n balls, cuboids, cylinders and rods that are one body, each with letters of its own."""
+    """Return the description of one body of n balls, cuboids, cylinders and rods, each with separate symbols."""
     shapes = (
         "shape: ball, radius: a_{0}",
         "shape: cuboid, sides: [a_{0}, 2*a_{0}, a_{0}]",
@@ -96,7 +96,7 @@ parts:
 """
 
 
-# What describes the problem of each size, the two sizes that are compared, and the aim for the exponent.
+# The function that describes the problem of each size, the two sizes that are compared, and the aim for the exponent.
 GROWING: dict[str, tuple[Callable[[int], str], tuple[int, int], float]] = {
     "chain_of_rods": (chain_of_rods, (4, 8), 2.7),
     "body_of_parts": (body_of_parts, (8, 16), 2.5),
@@ -104,7 +104,7 @@ GROWING: dict[str, tuple[Callable[[int], str], tuple[int, int], float]] = {
 
 
 def timed_problems(root: Path) -> list[str]:
-    """The names of all problems that are timed, after their files are put into a course."""
+    """Copy the files of all timed problems into a course, and return their names."""
     folder = root / "problems" / SET
     shutil.copytree(FOLDER, folder)
     for name, (described, sizes, _) in GROWING.items():
@@ -117,7 +117,7 @@ def timed_problems(root: Path) -> list[str]:
 
 
 def derivation(root: Path, name: str) -> float:
-    """The seconds in which this process derives a problem, or refuses it."""
+    """Return the seconds in which this process derives or refuses a problem."""
     import scipy.integrate  # noqa: F401  the witness imports it, and NumPy with it, once it follows a motion
 
     from derive.building.loaded import load
@@ -132,7 +132,7 @@ def derivation(root: Path, name: str) -> float:
 
 
 def is_refused(root: Path, name: str) -> bool:
-    """Derive a problem, and say whether it is refused because it has no closed form."""
+    """Derive a problem, and return whether it is refused because it has no closed form."""
     from derive.building.solution import derived
     from derive.course.problem import load_problem
     from derive.errors import Rejected
@@ -147,7 +147,7 @@ def is_refused(root: Path, name: str) -> bool:
 
 
 def derived_apart(root: Path, name: str) -> float:
-    """The least time of several processes, each beginning with nothing known."""
+    """Return the least time of several processes, each starting with empty caches."""
     command = [sys.executable, "-P", __file__, str(root), name]
     return min(float(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(ROUNDS))
 
@@ -158,7 +158,7 @@ def import_of_sympy() -> float:
 
 
 def growth(sizes: tuple[int, int], times: list[float]) -> float:
-    """b of time = a size^b, through two sizes."""
+    """Return b of time = a size^b, through two sizes."""
     return math.log(times[1] / times[0]) / math.log(sizes[1] / sizes[0])
 
 

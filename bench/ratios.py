@@ -1,4 +1,4 @@
-"""How long derive takes, as ratios to the least that the same work could take. Run by `make bench`.
+"""How long derive takes, as ratios to the least time that the same work could take. Run by `make bench`.
 
     cold build of a set       over two pdflatex passes on its TeX and `import sympy`          aim 2
     cold build of the library the same                                                        aim 3
@@ -8,9 +8,8 @@
     make, nothing changed     in milliseconds                                                 aim 30
     derive --help             over `python -P -c pass`                                        aim 3
 
-Everything is measured side by side in one run, in a copy of the tree, each figure the median of several (the library is
-built once), so that a slow machine changes the seconds and hardly the ratios. These are figures to look at; no test
-depends on them.
+Everything is measured side by side in one run, in a copy of the tree. Each figure is the median of several runs (the
+library is built once), so a slow machine changes the seconds but hardly the ratios. No test depends on these figures.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ SET, PROBLEM, LIBRARY = "hw9", "block", "library"
 
 
 def seconds(work: Callable[[], object], before: Callable[[], object] = lambda: None, rounds: int = ROUNDS) -> float:
-    """The median time of `work`, with `before` done before each round and not counted."""
+    """Return the median time of `work`, with `before` done before each round and not counted."""
     times = []
     for _ in range(rounds):
         before()
@@ -52,7 +51,7 @@ def run(*command: str) -> Callable[[], object]:
 
 
 def copied_tree(folder: Path) -> Path:
-    """The sources as they are, and the environment by a link."""
+    """Copy the sources and link the environment."""
     ignored = shutil.ignore_patterns(".venv*", ".git", "build", "__pycache__", ".*_cache", ".hypothesis")
     tree = Path(shutil.copytree(ROOT, folder / "tree", ignore=ignored))
     (tree / ".venv").symlink_to(ROOT / ".venv")
@@ -60,7 +59,7 @@ def copied_tree(folder: Path) -> Path:
 
 
 class Edited:
-    """A problem's file, which says something that it never said before at each edit."""
+    """A problem's file; each edit writes a text that was never there before."""
 
     def __init__(self, file: Path):
         self.file, self.text, self.edits = file, file.read_text(), 0
@@ -80,7 +79,7 @@ class Edited:
 
 @contextmanager
 def watched(tree: Path) -> Iterator[Callable[[str], None]]:
-    """`derive build --watch` at work, and a function that waits until it says something."""
+    """Run `derive build --watch` and yield a function that waits until it prints a text."""
     command = [sys.executable, "-P", "-m", "derive", "build", "--watch", SET]
     with subprocess.Popen(command, cwd=tree, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout
@@ -94,7 +93,7 @@ def watched(tree: Path) -> Iterator[Callable[[str], None]]:
 
 
 def warm(tree: Path, edit: Callable[[], None]) -> float:
-    """The median time from an edit to the problem's PDF, if a process waits for edits."""
+    """Return the median time from an edit to the problem's PDF while a process watches for edits."""
     times = []
     with watched(tree) as until:
         for _ in range(ROUNDS):
@@ -107,7 +106,7 @@ def warm(tree: Path, edit: Callable[[], None]) -> float:
 
 
 def two_passes(pages: Path, folder: Path) -> float:
-    """Of TeX on a whole document, each as long as one that knows its page numbers."""
+    """Return the time of two TeX passes on a whole document, each with known page numbers."""
     engine, scratch, tex = chosen_engine(None), folder / "scratch.pdf", pages.read_text()
     beside = [(file.name, file.read_bytes()) for file in pages.parent.glob("*-*.pdf")]
     noted = Kept(Cache(folder / "noted" / pages.parent.name), digest("numbers"))

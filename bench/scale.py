@@ -1,17 +1,17 @@
-"""How the work grows with the size of what is asked, in seconds of the processor. Run by `make bench`.
+"""How the work grows with the size of the problem, in processor seconds. Run by `make bench`.
 
-    a set of N problems      copies of short ones of the library: built from nothing, all but TeX (over N sets of one,
-                             aim below 1); built again with nothing changed, and with a word of one changed (over the
-                             build from nothing): both in proportion to N at most
+    a set of N problems      copies of short problems of the library: built from nothing, except TeX (over N sets of one
+                             problem, aim below 1); built again with nothing changed, and with a word of one problem
+                             changed (over the build from nothing): both at most proportional to N
     a body of N parts        its centre of mass and its inertia tensor with every step and check (over the same sum
-                             multiplied out by SymPy): rods of one mass on a line, n^1; of masses and places of their
-                             own about the origin, n^1; about their common centre, where the answer has n^2 terms and
-                             each of N parts a step
+                             multiplied out by SymPy): rods of one mass on a line, n^1; with separate masses and
+                             positions about the origin, n^1; about their common centre, where the answer has n^2 terms
+                             and each of N parts a step
     an identity in n angles  (sum l_i cos a_i)^2 + (sum l_i sin a_i)^2 in sums of angles, n^2 terms; cos(a_1 + ... +
                              a_n) in products, 2^(n - 1) terms: decided equal, and unequal with one sign changed (over
                              SymPy's `expand(trig=True)`, which decides only the second; aim below 1)
 
-The growth is told as the exponent b of n^b through the upper half of the sizes.
+The growth is given as the exponent b of n^b through the upper half of the sizes.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ TEX = "#!/bin/sh\nfor source; do :; done\n{ echo '%PDF-1.5'; echo startxref; ech
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """What the processor takes for it, in processes that it waits for too."""
+    """Return the processor seconds of `work`, including processes that it waits for."""
 
     def used() -> float:
         children = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -57,7 +57,7 @@ def told(what: str, sizes: Sequence[int], times: list[float], least: list[float]
 
 
 def course(folder: Path, size: int) -> Path:
-    """A course with one set of copies, and a stand-in for TeX."""
+    """Make a course with one set of copied problems and a substitute for TeX."""
     problems = folder / "problems" / "many"
     problems.mkdir(parents=True)
     (folder / "templates").symlink_to(ROOT / "templates")
@@ -101,7 +101,7 @@ def of_sets() -> None:
 
 
 def called(number: int) -> str:
-    """A word of its own for each number."""
+    """Return a different word for each number."""
     return "".join(chr(ord("a") + number // 26**k % 26) for k in range(3))
 
 
@@ -144,7 +144,7 @@ def of_bodies(what: str, sizes: Sequence[int], alike: bool, about: str) -> None:
 
 
 def speed(n: int) -> tuple[Any, list[Any]]:
-    """The square of a sum of vectors, and the terms of the other side."""
+    """Return the square of a sum of vectors, and the terms of the other side."""
     from sympy import Add, cos, sin, symbols
 
     lengths, angles = symbols(f"l_1:{n + 1}", positive=True), symbols(f"a_1:{n + 1}", real=True)
@@ -181,7 +181,7 @@ def of_identities() -> None:
         return taken
 
     x = Symbol("x", real=True)
-    equal(cos(x) ** 2 + sin(x) ** 2, Integer(1))  # what is imported only now is not counted
+    equal(cos(x) ** 2 + sin(x) ** 2, Integer(1))  # imports modules, so that their loading is not counted below
     for what, sides in (("square of a sum of n vectors", speed), ("cosine of a sum of n angles", cosine)):
         same, slip, least = [], [], []
         for n in ANGLES:
@@ -190,7 +190,7 @@ def of_identities() -> None:
             same.append(decided(n, left, terms, 1))
             slip.append(decided(n, left, terms, -1))
         told(what, ANGLES, same, least, "expand(trig=True)")
-        told("   with a slip", ANGLES, slip, least, "expand(trig=True)")
+        told("   with one wrong sign", ANGLES, slip, least, "expand(trig=True)")
 
 
 def main() -> None:

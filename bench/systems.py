@@ -3,9 +3,10 @@
     pendulum n    a chain of n rods with a mass at each joint, in a vertical plane
     springs N     N masses on a line between two walls, joined by springs
 
-For each: L and all equations of motion with every check, over `LagrangesMethod` of SymPy, which checks nothing (aim
-below 1); the laws alone, without lines, routes and outcomes (aim 1/20 from n = 4); and Maxima, where it is installed.
-Each in a process of its own, importing not counted, in seconds of the processor: the least of several runs.
+Three times are compared for each system. The first is L and all equations of motion with every check, over
+`LagrangesMethod` of SymPy, which checks nothing (aim below 1). The second is the laws alone, without lines, routes and
+outcomes (aim 1/20 from n = 4). The third is Maxima, where it is installed. Each runs in a separate process, imports
+not counted, in processor seconds; the figure is the least of several runs.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ ROUNDS = 3
 
 
 def everything_imported() -> None:
-    """What SymPy imports only once it is used, and the systems of `sympy.physics`."""
+    """Import the modules that SymPy imports only once they are used, and the systems of `sympy.physics`."""
     import sympy.assumptions.wrapper
     import sympy.physics.mechanics
     import sympy.sets.setexpr
@@ -71,7 +72,7 @@ def derived(kind: str, n: int) -> float:
 
 
 def laws_alone(kind: str, n: int) -> float:
-    """L = T - U, d/dt dL/dq_dot - dL/dq, gathered by accelerations: what is written down, and nothing else."""
+    """Return the seconds for L = T - U and d/dt dL/dq_dot - dL/dq, collected by accelerations, and nothing else."""
     from sympy import Add, Rational
 
     import derive.mechanics  # noqa: F401  its time is not counted
@@ -126,7 +127,7 @@ def by_sympy(kind: str, n: int) -> float:
 
 
 def by_maxima(kind: str, n: int) -> float:
-    """Maxima's own time for the laws, with sums of angles; several times, for its clock tells hundredths."""
+    """Return the time that Maxima measures for the laws, with sums of angles, over many rounds: it shows 0.01 s."""
     times = 20
     energy = (
         "T: sum(m[i]*diff(x[i],t)^2/2, i, 1, n), U: k[1]*x[1]^2/2 + k[n+1]*x[n]^2/2"
@@ -152,13 +153,13 @@ WAYS: dict[str, Callable[[str, int], float]] = {"derive": derived, "laws": laws_
 
 
 def timed_apart(way: str, kind: str, n: int) -> float:
-    """The least time of several processes, each beginning with nothing known."""
+    """Return the least time of several processes, each starting with empty caches."""
     command = [sys.executable, "-P", __file__, way, kind, str(n)]
     return min(float(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(ROUNDS))
 
 
 def exponent(sizes: Sequence[int], times: list[float]) -> float:
-    """b of time = a size^b, through the upper half of the sizes."""
+    """Return b of time = a size^b, through the upper half of the sizes."""
     half = len(times) // 2
     return math.log(times[-1] / times[half]) / math.log(sizes[-1] / sizes[half])
 

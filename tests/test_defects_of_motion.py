@@ -191,8 +191,8 @@ SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 
 # By the problem: the code of each complaint, its line, and a piece of its message.
 REFUSED: dict[str, list[tuple[str, int, str]]] = {
-    "approx_becomes_exact_numbers": [("name-clash", 14, "`period` is the name of an answer already")],
-    "con_put_dot": [("letter-clash", 11, "`m` is a letter of this problem already")],
+    "approx_becomes_exact_numbers": [("name-clash", 14, "`period` is already the name of an answer")],
+    "con_put_dot": [("letter-clash", 11, "`m` is already a symbol of this problem")],
     "doubleCover": [("folded", 5, "covers places twice")],
     "f02_friction_reaction_missing": [("which-body", 11, "not stated which body exerts it")],
     "f03_friction_no_torque": [("which-body", 9, "the force at (x, 0) acts on no particle")],
@@ -210,7 +210,7 @@ REFUSED: dict[str, list[tuple[str, int, str]]] = {
     "res_put": [("no-value", 11, "for Omega = sqrt(k)/sqrt(m), the denominator Omega**2*m - k of `s` vanishes")],
     "roll_wrong_contact": [("no-contact", 7, "does not reach (x, -R)")],
     "satellite_stability_unverified": [("unverified", 32, "whether l < r_0 is not known")],
-    "shadow": [("letter-clash", 9, "`p_x` is a letter of this problem already")],
+    "shadow": [("letter-clash", 9, "`p_x` is already a symbol of this problem")],
     "singular_q": [("singular-coordinates", 11, "the mass matrix has no inverse there")],
     "sph_lin": [("singular-coordinates", 12, "the mass matrix has no inverse there")],
     "sq_constraint": [("constrained", 8, "so no force can keep it at zero")],

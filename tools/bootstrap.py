@@ -1,11 +1,11 @@
-"""The environment in `.venv`: made, repaired, or left as it is. Run by `make`, with the standard library only.
+"""Make or repair the environment in `.venv`, or leave it unchanged. Run by `make`, with the standard library only.
 
-Only packages whose files have the digests in `locks/` are installed, and only built ones, so that nothing of a package
-that is not known runs. derive itself is installed by what is installed then, without a look at any registry.
+Only packages whose files have the digests in `locks/` are installed, and only built ones, so that no code of an unknown
+package runs. The packages installed then install derive itself, without access to any registry.
 
-A stamp in `.venv` tells `make` that the environment fits `pyproject.toml` and `locks/`: `.runtime` for what
-derives and typesets, `.tests` for the linters and the test suite besides. A mark stands there while packages are being
-installed; if it is found, that installation was cut short and the environment is made anew.
+A stamp in `.venv` shows `make` that the environment fits `pyproject.toml` and `locks/`: `.runtime` for what
+derives and typesets, `.tests` also for the linters and the test suite. A mark exists while packages are being
+installed; if it is found, that installation was interrupted and the environment is made again.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ OLDEST = (3, 11)
 
 
 class Stopped(Exception):
-    """The environment cannot be made; the message is one line with its mend."""
+    """The environment cannot be made; the message is one line with its fix."""
 
 
 @contextmanager
 def alone() -> Iterator[None]:
-    """Only one at a time: a second `make` waits here, then finds the work done."""
+    """Run one installation at a time: a second `make` waits here, then finds the work done."""
     lock = os.open(ROOT / ".venv.lock", os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
     try:
         try:
@@ -49,13 +49,13 @@ def alone() -> Iterator[None]:
 
 
 def fingerprint() -> str:
-    """Changes with anything that the environment is made from."""
+    """Return a digest that changes with anything from which the environment is made."""
     sources = [ROOT / "pyproject.toml", *(ROOT / lock for lock in LOCKS.values()), Path(__file__)]
     return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
 
 
 def works(uv: str | None) -> bool:
-    """Whether the Python in `.venv` runs, is new enough, and can install packages."""
+    """Return whether the Python in `.venv` runs, is new enough, and can install packages."""
     installer = bool(uv) or "importlib.util.find_spec('pip')"
     probe = f"import sys, importlib.util; sys.exit(sys.version_info < {OLDEST} or not {installer})"
     try:
@@ -65,7 +65,7 @@ def works(uv: str | None) -> bool:
 
 
 def has_venv() -> bool:
-    """Whether this Python can do without uv; Debian splits these modules off."""
+    """Return whether this Python works without uv; Debian packages these modules separately."""
     return bool(importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip"))
 
 
@@ -82,7 +82,7 @@ def check_tools(uv: str | None) -> None:
 
 
 def run(command: list[str], failed: str) -> None:
-    """Run quietly; of what a failing installer says, show the few lines that tell why, without addresses."""
+    """Run quietly; if an installer fails, show the few lines that give the reason, without addresses."""
     done = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
         lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
@@ -95,7 +95,7 @@ WANTED = {
     ".runtime": "SymPy and the TeX engine (once, about 100 MB)",
     ".tests": "SymPy, the TeX engine and the test tools (once, about 140 MB)",
 }
-LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # the second has what tests need besides
+LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # the second adds test packages
 CHECKED = ["--require-hashes", "--only-binary", ":all:"]
 ITSELF = ["--no-index", "--no-deps", "--no-build-isolation", "--editable", "."]
 
@@ -129,7 +129,7 @@ def set_up(stamp: str) -> None:
             except Stopped as stopped:
                 if not uv or not has_venv():
                     raise
-                print(f"{stopped}\ntrying pip instead of uv", flush=True)  # it may know a way that uv was not told
+                print(f"{stopped}\ntrying pip instead of uv", flush=True)  # pip may have settings that uv lacks
                 install(stamp, None)
         for name in {stamp, ".runtime"}:
             (VENV / name).write_text(wanted)

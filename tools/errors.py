@@ -1,6 +1,6 @@
 """Write docs/errors.md: every code of an error, with its messages, its cause, its fix and an example.
 
-Messages are read from the code, examples are golden complaints of the tests, cause and fix are in tools/errors.yaml.
+Messages are read from the code, examples are golden outputs of the tests, cause and fix are in tools/errors.yaml.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import yaml
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, TOLD = ROOT / "docs" / "errors.md", ROOT / "tools" / "errors.yaml"
 EXAMPLES = ROOT / "tests" / "complaints"
-MOST = 5  # messages that are shown of one code
+MOST = 5  # messages shown for one code
 
 _CODE = re.compile(r"[a-z]+(-[a-z]+)*")
 _SAID = re.compile(r"(?:error|warning)\[([a-z-]+)\]: ")
@@ -35,7 +35,7 @@ below, `…` replaces names and numbers of your problem.
 
 @cache
 def messages() -> dict[str, list[str]]:
-    """Every code that the modules of derive raise, with its messages in the order of the modules."""
+    """Return every code that the modules of derive raise, with its messages in the order of the modules."""
     found: dict[str, list[str]] = {}
     for file in sorted((ROOT / "derive").rglob("*.py")):
         for code, message in _raised_in(ast.parse(file.read_text(encoding="utf-8"))):
@@ -60,14 +60,14 @@ def _raised_in(module: ast.Module) -> Iterator[tuple[str, str]]:
 
 
 def _code_at(call: ast.Call) -> int | None:
-    """Where among its arguments a call has a code, if it is one that complains."""
+    """Return the position of the code among the arguments of a call, if the call raises or reports an error."""
     if ast.unparse(call.func).rpartition(".")[2] not in _RAISING:
         return None
     return 1 if ast.unparse(call.func).endswith("_stopped") and len(call.args) > 1 else 0 if call.args else None
 
 
 def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list[ast.expr]]:
-    """What each name is given last in a scope, above a line of it."""
+    """Return the last value of each name in a scope, above a line of it."""
     found: dict[str, list[ast.expr]] = {}
     assigned = [node for node in ast.walk(scope) if isinstance(node, ast.Assign) and node.lineno < before]
     for node in sorted(assigned, key=lambda each: each.lineno):
@@ -78,14 +78,14 @@ def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list
 
 
 def _pairs(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]:
-    """Targets with their values, also of several at once."""
+    """Return targets with their values, also for several at once."""
     if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple) and len(target.elts) == len(value.elts):
         return list(zip(target.elts, value.elts, strict=True))
     return [(target, value)]
 
 
 def _texts(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 3) -> list[str]:
-    """The texts that an expression may be, with a mark where something is put in."""
+    """Return the possible texts of an expression, with a mark for each inserted value."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return [node.value]
     if isinstance(node, ast.JoinedStr):
@@ -103,7 +103,7 @@ def _texts(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 3) -> 
 
 @cache
 def examples() -> dict[str, str]:
-    """Of each code the shortest golden complaint."""
+    """Return the shortest golden error of each code."""
     found: dict[str, list[str]] = {}
     for file in sorted(EXAMPLES.rglob("*.txt")):
         for said in _each_complaint(file.read_text(encoding="utf-8")):
@@ -125,13 +125,13 @@ def _each_complaint(text: str) -> Iterator[str]:
 
 @cache
 def told() -> dict[str, tuple[str, str]]:
-    """The cause and the mend of each code."""
+    """Return the cause and the fix of each code."""
     read = yaml.safe_load(TOLD.read_text(encoding="utf-8"))
     return {code: (entry["cause"], entry["mend"]) for code, entry in read.items()}
 
 
 def document() -> str:
-    """The whole page."""
+    """Return the whole page."""
     return "\n".join([_BEGINNING, *(_entry(code, said) for code, said in messages().items())])
 
 

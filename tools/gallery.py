@@ -1,6 +1,6 @@
-"""Write docs/gallery.md; with `--pictures` take its pictures anew in a Chromium, of what `make library` has built.
+"""Write docs/gallery.md; with `--pictures` take new pictures in Chromium of the pages that `make library` built.
 
-A picture is the beginning of the page that a build has written for a browser; below it are the lines of the problem.
+A picture shows the beginning of the page that a build writes for a browser; the lines of the problem are below it.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "gallery"
 WIDTH, HEIGHT = 860, 1060
 
-# What each is there to show.
+# What each problem shows.
 SHOWN = {
-    "turning_hoop": "A system on axes that turn: equilibria, and where each of them is stable",
+    "turning_hoop": "A system on rotating axes: equilibria, and where each of them is stable",
     "double_pendulum": "Two coordinates, each equation of motion by itself, then the normal modes",
     "kepler": "A conserved momentum, an effective potential, a circular orbit and what happens near it",
     "tennis_racket": "A rigid body without torque: Euler's equations and the stability of each axis",
@@ -29,14 +29,14 @@ _BEGINNING = """\
 # Gallery
 
 Made by `tools/gallery.py`; do not edit it. Each picture is the beginning of a page that a build has written for a
-browser; below it stand the lines that made it. These problems are in YAML alone, as all of `problems/library` is:
+browser; below it are the lines that made it. These problems are in YAML alone, as all of `problems/library` is:
 `make library` builds its 79 problems, `derive list` names them, and `derive new hw10/mine --like library/torus` begins
 one of yours with a copy.
 """
 
 
 def document() -> str:
-    """The whole page."""
+    """Return the whole page."""
     return "\n".join([_BEGINNING, *(_entry(name, shows) for name, shows in SHOWN.items())])
 
 
@@ -50,7 +50,7 @@ def _entry(name: str, shows: str) -> str:
 
 
 def _told(text: str) -> str:
-    """The problem without what a book states of it."""
+    """Return the problem without the statements of a book about it."""
     return re.sub(r"^# yaml-language-server.*\n", "", text.partition("\nreference:")[0], flags=re.MULTILINE).strip()
 
 

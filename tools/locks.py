@@ -1,6 +1,6 @@
-"""The packages that are installed, with the digests of their files: `python -P -m tools.locks` writes `locks/`.
+"""Write `locks/`, the installed packages with the digests of their files: `python -P -m tools.locks`.
 
-Versions are those of `constraints.txt`; it asks for each of them on every platform, by `uv`, and names no registry.
+Versions are those of `constraints.txt`; `uv` is asked for each of them on every platform, and no registry is named.
 """
 
 from __future__ import annotations
@@ -15,21 +15,21 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 CONSTRAINTS = ROOT / "constraints.txt"
 OLDEST = "3.11"
-BUILDS = "hatchling\neditables\n"  # what installs derive itself
+BUILDS = "hatchling\neditables\n"  # packages that install derive itself
 HEADS = {
-    "runtime": "# What derives and typesets, and what installs derive: written by `python -P -m tools.locks`.\n",
-    "tests": "# What the tests and linters need besides: written by `python -P -m tools.locks`.\n",
+    "runtime": "# Packages to derive, to typeset and to install derive: written by `python -P -m tools.locks`.\n",
+    "tests": "# The additional packages of the tests and linters: written by `python -P -m tools.locks`.\n",
 }
 _ENTRY = re.compile(r"^([a-z0-9][a-z0-9._-]*)==.*(?:\n +--hash=.*)*", re.MULTILINE)
 
 
 def entries(text: str) -> dict[str, str]:
-    """Each package of a lock by its name, with its version, where it is wanted and its digests."""
+    """Return each package of a lock by its name, with its version, its conditions and its digests."""
     return {found[1]: found[0] for found in _ENTRY.finditer(text)}
 
 
 def resolved(*options: str) -> dict[str, str]:
-    """What `uv` finds for what derive depends on."""
+    """Return the packages that `uv` finds for the dependencies of derive."""
     uv = shutil.which("uv")
     if uv is None:
         sys.exit("error[uv]: locks are written by `uv`, which is not installed: `pip install uv`")

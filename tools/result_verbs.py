@@ -1,4 +1,4 @@
-"""Write the table of the verbs of `results:` in the documentation, from what the verbs say next to their functions."""
+"""Write the table of the verbs of `results:` in the documentation, from the declarations next to their functions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ START, END = "<!-- the verbs, by tools/result_verbs.py -->\n", "<!-- the end of 
 
 
 def table() -> str:
-    """A line for each verb: the keys that it needs, those that it may have, and what it yields."""
+    """Return a line for each verb: the keys that it needs, its optional keys, and what it yields."""
     lines = ["| verb | needs | may have | yields |\n", "|---|---|---|---|\n"]
     return "".join([*lines, *(_line(RESULT_VERBS[name]) for name in sorted(RESULT_VERBS))])
 
@@ -30,7 +30,7 @@ def _keys(keys: Iterable[ResultKey]) -> list[str]:
 
 
 def updated(text: str) -> str:
-    """The document with the table as it is now."""
+    """Return the document with the current table."""
     before, _, rest = text.partition(START)
     return before + START + table() + END + rest.partition(END)[2]
 

@@ -21,13 +21,13 @@ HEAD = """# The rules
 
 Each step of a solution is made by one of these rules. A rule is a record in the code, next to the verb that uses it.
 Its *outcomes* choose the sentence; each has a predicate that must be true of the result. Its *routes* reach the result
-by another path through the physics, its *checks* put the result to a test. A rule without either is a definition.
+by another path through the physics, its *checks* test the result. A rule without either is a definition.
 `python -P -m tools.rules` writes this page from the records.
 """
 
 
 def rules() -> list[Rule]:
-    """The rules of the modules that are loaded, by name."""
+    """Return the rules of the loaded modules, by name."""
     modules = [module for name, module in sys.modules.items() if name.startswith("derive.")]
     found = {each for module in modules for each in vars(module).values() if isinstance(each, Rule)}
     return sorted(found, key=lambda rule: rule.name)
@@ -49,7 +49,7 @@ def verbs() -> str:
 
 
 def document() -> str:
-    """The verbs, and a section for each folder, with a row for each of its rules."""
+    """Return the verbs, and a section for each folder, with a row for each of its rules."""
     parts = [HEAD, verbs()]
     for folder, own in groupby(rules(), key=lambda rule: rule.name.partition(".")[0]):
         parts.append(
@@ -75,7 +75,7 @@ def with_checks_only() -> str:
 
 
 def soundness(text: str) -> str:
-    """The page with the list as it is now."""
+    """Return the page with the current list."""
     before, _, rest = text.partition(START)
     return before + START + with_checks_only() + END + rest.partition(END)[2]
 

@@ -1,4 +1,4 @@
-"""Write the JSON schemas of the files that an instructor writes, for editors, from the keys that the readers know."""
+"""Write the JSON schemas of the author's files, for editors, from the keys that the readers accept."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Write the table of shapes in the documentation: how each lies in its own axes, and which points it has."""
+"""Write the table of shapes in the documentation: the position of each in its own axes, and its points."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ M = Symbol("M", positive=True)
 
 
 def table() -> str:
-    """A line for each shape: its sizes, how it lies, its points."""
+    """Return a line for each shape: its sizes, its position, its points."""
     lines = ["| `shape` | sizes | in its own axes | points |\n", "|---|---|---|---|\n"]
     return "".join([*lines, *(_line(name, shape) for name, shape in sorted(shapes().items()))])
 
@@ -34,7 +34,7 @@ def _line(name: str, shape: type[Body]) -> str:
 
 
 def _how_it_lies(shape: type[Body]) -> str:
-    """The first sentence about it, without what it is called."""
+    """Return the first sentence about a shape, without its name."""
     first = " ".join((shape.__doc__ or "").split(".")[0].split())
     return re.sub(r"^(A|An|The|Half of a) (thin )?(uniform )?", lambda m: "half of a " * ("Half" in m[0]), first)
 
@@ -49,7 +49,7 @@ def _points(shape: type[Body]) -> str:
 
 
 def _made(shape: Any) -> Any:
-    """One with a letter for each of its sizes; nothing where its corners are anywhere."""
+    """Return a body with a symbol for each size; None if its corners can be anywhere."""
     if shape in (Triangle, Wedge):
         a, h, d, l = symbols("base height foot length", positive=True)
         face = Triangle.on_base(a, h, M, d)
@@ -74,7 +74,7 @@ def _short(x: Expr) -> str:
 
 
 def updated(text: str) -> str:
-    """The document with the table as it is now."""
+    """Return the document with the current table."""
     before, _, rest = text.partition(START)
     return before + START + table() + END + rest.partition(END)[2]
 

@@ -1,7 +1,8 @@
-"""The letters of formulas on web pages: of STIX Two Math those that a page can have, for `templates/html/math.woff`.
+"""The letters of formulas on web pages: the glyphs of STIX Two Math that a page can have, in
+`templates/html/math.woff`.
 
-Run it with the font as its argument where `fonttools` is installed; the font comes with the package
-`ziamath`, among others. Its licence, the SIL Open Font License, stays in what is made of it.
+Run it with the font as its argument where `fonttools` is installed; the package `ziamath`, among others, includes the
+font. The subset keeps the licence of the font, the SIL Open Font License.
 """
 
 from __future__ import annotations
@@ -13,26 +14,26 @@ from typing import Any
 
 FONT = Path(__file__).parent.parent / "templates" / "html" / "math.woff"
 
-# In thousandths of the size: of 794 to 1212, what stands between a tall sign and what is in it, how far a sign reaches
-# into its stroke.
+# In thousandths of the size: the width of root signs (794 to 1212 in the font), the gap between a tall sign and its
+# contents, and how far a sign reaches into its stroke.
 ROOT_WIDTH, ROOT_SPACE, CORNER = 900, 110, 35
 LATIN, GREEK = range(0x20, 0x7F), [*range(0x391, 0x3AA), *range(0x3B1, 0x3CA), 0x3D1, 0x3D5, 0x3D6, 0x3F1, 0x3F5]
 BOLD, ITALIC, BOLD_ITALIC = range(0x1D400, 0x1D41A), range(0x1D434, 0x1D468), range(0x1D468, 0x1D49C)
 GREEK_ITALIC, GREEK_BOLD_ITALIC = (range(at, at + 58) for at in (0x1D6E2, 0x1D71C))
 SCRIPT = [*range(0x1D49C, 0x1D4B6), *map(ord, "ℬℰℱℋℐℒℳℛ")]
-SANS = [*range(0x1D5A0, 0x1D5BA), *range(0x1D7CE, 0x1D7D8)]  # of dimensions, and bold digits
+SANS = [*range(0x1D5A0, 0x1D5BA), *range(0x1D7CE, 0x1D7D8)]  # for dimensions, and bold digits
 SIGNS = map(ord, "\xa0¨¯°±·×÷˙̇̈ℎℏ−√∂∞∫∑∘∙⋅′″‴∣∥‖→←∓≈≠≤≥≪≫∝⟨⟩…⋯⎛⎜⎝⎞⎟⎠⎡⎢⎣⎤⎥⎦⎧⎨⎩⎫⎬⎭⎪\u2061\u2062\u2063")
 CHARACTERS = sorted({*LATIN, *GREEK, *BOLD, *ITALIC, *BOLD_ITALIC, *GREEK_ITALIC, *GREEK_BOLD_ITALIC,
                      *SCRIPT, *SANS, *SIGNS})  # fmt: skip
 
 
 def subset(whole: str, made: Path) -> None:
-    """The glyphs of these characters and what they grow into, with all that is said of mathematics."""
+    """Write the glyphs of these characters, their larger variants, and the tables for mathematics."""
     from fontTools import subset as of_font
 
     options = of_font.Options()
     options.flavor, options.hinting, options.layout_features = "woff", False, ["math", "dtls"]
-    options.name_IDs = [0, 1, 2, 13, 14]  # whose it is and its licence, which stay with it
+    options.name_IDs = [0, 1, 2, 13, 14]  # the copyright and the licence stay in the font
     font = of_font.load_font(whole, options)
     cut = of_font.Subsetter(options)
     cut.populate(unicodes=CHARACTERS)
@@ -42,27 +43,27 @@ def subset(whole: str, made: Path) -> None:
 
 
 def narrow_roots(font: Any) -> None:
-    """Signs of all roots about as wide: Chromium leaves behind every root the room of the widest sign of the font."""
+    """Give all root signs about the same width: Chromium puts the width of the widest sign after every root."""
     variants = font["MATH"].table.MathVariants
     root = variants.VertGlyphConstruction[variants.VertGlyphCoverage.glyphs.index(font.getBestCmap()[ord("√")])]
     for variant in root.MathGlyphVariantRecord[1:]:
         width, _ = font["hmtx"][variant.VariantGlyph]
         _moved(font, variant.VariantGlyph, lambda x, width=width: x * ROOT_WIDTH / width)
     parts = [part.glyph for part in root.GlyphAssembly.PartRecords]
-    stem = font["glyf"][parts[1]]  # what is repeated between the hook and the corner
+    stem = font["glyf"][parts[1]]  # the glyph that repeats between the hook and the corner
     left, right = stem.xMin, stem.xMax
     for glyph in parts:
         _moved(font, glyph, lambda x: _beside_stem(x, left, right))
 
 
 def _beside_stem(x: float, left: int, right: int) -> float:
-    """The stem as thick as it was, the hook narrower, and a corner that the stroke of the root hides."""
+    """Return a coordinate that keeps the thickness of the stem, narrows the hook and hides the corner."""
     at = ROOT_WIDTH - ROOT_SPACE - (right - left)
     return x * at / left if x < left else min(at + x - left, ROOT_WIDTH + CORNER)
 
 
 def _moved(font: Any, glyph: str, along: Callable[[float], float]) -> None:
-    """The points of a glyph moved along, and its width that of a root."""
+    """Move the points of a glyph, and give it the width of a root."""
     outline, table = font["glyf"][glyph], font["glyf"]
     for i, (x, y) in enumerate(outline.coordinates):
         outline.coordinates[i] = (round(along(x)), y)

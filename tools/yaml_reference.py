@@ -1,4 +1,4 @@
-"""Write docs/yaml.md: every key of the files that an instructor writes, from the schemas that editors are given."""
+"""Write docs/yaml.md: every key of the author's files, from the schemas for editors."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ FILES = {"problem": "A problem", "set": "A set", "reference": "A reference"}
 _BEGINNING = """\
 # Every key
 
-Made by `tools/yaml_reference.py` from the schemas that `derive schema` gives editors; do not edit it. What the keys are
-for is told in [problems.md](problems.md), [yaml-alone.md](yaml-alone.md) and [references.md](references.md). A key in
-bold is needed.
+Made by `tools/yaml_reference.py` from the schemas that `derive schema` gives editors; do not edit it. The keys are
+described in [problems.md](problems.md), [yaml-alone.md](yaml-alone.md) and [references.md](references.md). A key in
+bold is required.
 
 An *expression* is a formula of declared letters, or a number with its unit: `2*a`, `sqrt(g/l)`, `2 cm`, `900 rpm`.
 """
 
-MANY = 8  # keys that are not listed once more
+MANY = 8  # from this number on, shared keys are not listed again
 Schema = dict[str, Any]
 
 
 class Sections:
-    """A table for each mapping with keys of ours; two places where the same may stand have one table."""
+    """A table for each mapping of the files; two places with the same keys share one table."""
 
     def __init__(self) -> None:
         self.tables: list[str] = []
@@ -50,7 +50,7 @@ class Sections:
             self._table(f"### {name}", found)
 
     def _table(self, heading: str, schema: Schema) -> None:
-        self._at = heading.rpartition(" ")[2].strip("`")  # for what is below it and has a name that is taken
+        self._at = heading.rpartition(" ")[2].strip("`")  # for keys below it whose name is taken
         needed, keys = schema.get("required", []), schema["properties"]
         like, shared = self._shared_with_another(keys)
         lines = [heading, "", *([f"The keys of {like}, and", ""] if like else [])]
@@ -63,14 +63,14 @@ class Sections:
         self.tables.append("\n".join([*lines, ""]))
 
     def _shared_with_another(self, keys: Schema) -> tuple[str, Schema]:
-        """The table above all of whose keys are among these, with those keys; if it has many."""
+        """Return the table above whose keys are all among these, with its keys, if it has many."""
         for title, other in self._titled.items():
             if MANY <= len(other) < len(keys) and all(keys.get(name) == under for name, under in other.items()):
                 return f"[{title}](#{_anchor(title)})", other
         return "", {}
 
     def _holds(self, schema: Schema, name: str) -> str:
-        """In words what may stand there."""
+        """Describe in words the values allowed there."""
         if "anyOf" in schema:
             return _either(list(dict.fromkeys(self._holds(each, name) for each in schema["anyOf"])))
         if "enum" in schema:
@@ -107,7 +107,7 @@ def _anchor(title: str) -> str:
 
 
 def _given(schema: Schema) -> Iterator[tuple[str, Schema]]:
-    """What `given:` holds for each script of the engine."""
+    """Yield the schema of `given:` for each script of the engine."""
     for case in schema.get("allOf", []):
         name = case["if"]["properties"]["solve"].get("const")
         if name:
@@ -166,7 +166,7 @@ def _units() -> str:
 
 
 def document() -> str:
-    """The whole page."""
+    """Return the whole page."""
     sections = Sections()
     for file, title in FILES.items():
         sections.add(title, json.loads(SCHEMAS[f"{file}.schema.json"]()))

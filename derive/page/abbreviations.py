@@ -1,4 +1,4 @@
-"""What stands on a page once: a long formula that a step has given a letter to, an equation that is linear already."""
+"""Formulas that a page shows once: a long formula that a step named, an equation that is already linear."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from sympy import Add, Pow
 from derive.algebra.expressions import explicit
 from derive.steps.step import Step, is_zero
 
-ABBREVIATING = "model.distance"  # the rule of a step whose letter stands for its formula from then on
+ABBREVIATING = "model.distance"  # the rule of a step whose symbol replaces its formula in later steps
 LINEAR = "vibrations.linearised"
 
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
-    """How a step writes an expression: with the letters of those before it that name what it holds."""
+    """Return how a step writes an expression: symbols of earlier steps replace the formulas that they name."""
     letters: list[tuple[Any, Any]] = []
     known: dict[str, list[tuple[Any, Any]]] = {}
     for step in steps:
@@ -26,13 +26,13 @@ def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
 
 
 def says_again(step: Step) -> str | None:
-    """The step whose equation this one has once more: of what is linear already nothing is left out."""
+    """Return the step whose equation this one repeats: linearising a linear equation leaves nothing out."""
     roles = dict(step.roles)
     return str(roles["motion"].name) if step.rule == LINEAR and "as_it_is" in roles else None
 
 
 def _written(value: Any, letters: Sequence[tuple[Any, Any]]) -> Any:
-    """Each root of what one of the letters is the root of, however it is arranged, is the letter."""
+    """Replace each root of a named formula, however it is arranged, by its symbol."""
     if not letters or not hasattr(value, "atoms"):
         return value
     found = {}

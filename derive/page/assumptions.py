@@ -1,4 +1,4 @@
-"""What is assumed of the letters, as one writes it: 0 < alpha < pi/2, and nothing that follows from it."""
+"""Assumptions on the symbols as textbooks write them: 0 < alpha < pi/2, without what follows from it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MIRRORED = {">": "<", ">=": "<="}
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
-    """Two bounds of a letter in one line; a sine or cosine that its bounds keep from zero is not told."""
+    """Join two bounds of a symbol in one line; omit that a sine or cosine is not zero where the bounds imply it."""
     conditions = list(assumed)
     below = {r.left: r for r in conditions if r.mark in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number}
     above = {r.left: r for r in conditions if r.mark in MIRRORED.values() and r.left in below and r.right.is_number}
@@ -31,7 +31,7 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
 
 
 def _follows(condition: Relation, below: dict[Expr, Relation], above: dict[Expr, Relation]) -> bool:
-    """sin(alpha) != 0 of 0 < alpha < pi/2."""
+    """Return whether the condition follows from the bounds, as sin(alpha) != 0 from 0 < alpha < pi/2."""
     function = condition.left
     if condition.mark != "!=" or condition.right != Integer(0) or not isinstance(function, sin | cos):
         return False

@@ -1,4 +1,4 @@
-"""The lines of a step as a page has them: each side as it is written, and the reason beside it."""
+"""The lines of a step as a page shows them: each side in its notation, with the reason next to it."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, name
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Step
 
-EQUATION_OF = "equation_of_"  # a role, in a reason that names the equations of some of them
+EQUATION_OF = "equation_of_"  # begins a name in a reason that refers to the equations of one role
 
 
 @dataclass(frozen=True)
 class ChainLine:
-    """`left relation right`, with the reason beside it; a continued line has no left side, unless it is a relation."""
+    """`left relation right` with its reason; a continued line has no left side, unless it is a relation."""
 
     left: Any | None
     relation: str
@@ -30,12 +30,12 @@ class ChainLine:
     presented: bool = False
     numeric: bool = False
     beside: bool = False  # whether it may begin on the row of the line before it
-    because: str = ""  # that of its form; of a list of results none
+    because: str = ""  # the reason of its form; empty in a list of results
 
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step, numbered on the last of them; so many at the end are framed, as what a part asks for."""
+    """The lines of one step, numbered on the last; `framed` lines at the end have a frame: a part asks for them."""
 
     key: str
     lines: tuple[ChainLine, ...]
@@ -44,12 +44,12 @@ class Equations:
 
     @property
     def frames_bare_number(self) -> bool:
-        """Whether what is framed is a mere 0, which says nothing without its left side."""
+        """Return whether the framed line is only a number such as 0, which means nothing without its left side."""
         last = self.lines[-1]
         return self.framed == 1 and last.left is None and _is_bare_number(last.right)
 
     def beside(self, other: Equations) -> Equations:
-        """Both, with one number, in one row if there is room."""
+        """Return both steps with one number, in one row if there is room."""
         first, *others = other.lines
         return replace(self, lines=(*self.lines, replace(first, beside=True), *others))
 
@@ -57,8 +57,8 @@ class Equations:
 class ChainWriter:
     """Writes the lines of each step of a page.
 
-    names    what prose may name on this page
-    numbers  the equations that have a number so far
+    names    names that prose may mention on this page
+    numbers  equations that have a number so far
     """
 
     def __init__(
@@ -76,7 +76,7 @@ class ChainWriter:
         self._used = _letters_used(derivation.steps, values)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
-        """Those of the chain of a step, or only its result."""
+        """Return the lines of a step, or only its result."""
         forms = [form for form in step.chain if form.expr != step.symbol]
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
@@ -89,11 +89,11 @@ class ChainWriter:
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         last = lines[result]
         if isinstance(last.right, MatrixBase) and (last.left is None or last.right.shape[1] > 1):
-            lines[result] = replace(last, presented=True)  # a vector that is only written down stays as it is
+            lines[result] = replace(last, presented=True)  # a vector that is not computed keeps its form
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:
-        """The decimals of an answer without letters go on its own lines."""
+        """Return the decimals of an answer without symbols; they are written on the lines of the answer."""
         value = self.values.get(step.key)
         exact = value is not None and value.outcome == "exact"
         return [form for form in value.chain if form.because in NUMBERS] if value is not None and exact else []
@@ -107,7 +107,7 @@ class ChainWriter:
             return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True, because=form.because)
         if isinstance(form.expr, Relation):
             left, right, word = form.expr.left, form.expr.right, sign_of_relation(step, form.expr.word)
-            if step.about and word != "approx" and not reason:  # an inequality has no sign for about
+            if step.about and word != "approx" and not reason:  # no sign means "about" for an inequality
                 reason = filled(self.words.labels["approximately"], {})
             return ChainLine(left, word, right, reason, numeric=numeric, because=form.because)
         own = step.breaks_off and form.because in ONLY_ABOUT and step.symbol in self._used
@@ -138,7 +138,7 @@ class ChainWriter:
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
         inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
         own |= {"variable": Math(inner[0])} if inner else {}
-        alike = {number: key for key, number in reversed(list(self.numbers.items()))}  # in one row they have one number
+        alike = {number: key for key, number in reversed(list(self.numbers.items()))}  # one row has one number
         found = {name: [key for key in keys if alike[self.numbers[key]] == key] for name, keys in found.items()}
         references = {
             name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
@@ -146,11 +146,11 @@ class ChainWriter:
         return filled(template, {**self.names, **own, **references})
 
     def _numbered(self, keys: Collection[str]) -> list[str]:
-        """Those that have a number, in the order of these."""
+        """Return the keys that have a number, ordered by their numbers."""
         return sorted(self.numbers.keys() & keys, key=self.numbers.__getitem__)
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """The step itself, or, where a vector or a tensor is not shown, those of its entries whose letters are used."""
+        """Return the step, or the entries of its vector or tensor whose symbols are used, if that is not shown."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]
@@ -159,7 +159,7 @@ class ChainWriter:
 
 
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
-    """The letters of limits and series that other steps have, or numbers: those that the page has to introduce."""
+    """Return the symbols of limits and series that other steps or numbers use: the page has to introduce them."""
     own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
     found = {step.symbol for step in values.values()} & own
     for step in steps if own else ():
@@ -171,19 +171,19 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]
 
 
 def _is_bare_number(value: Any) -> bool:
-    """0, 2, or a vector that vanishes: neither a letter nor decimals with a unit."""
+    """Return whether the value is 0, 2 or a vector that vanishes: neither a symbol nor decimals with a unit."""
     if isinstance(value, MatrixBase):
         return all(entry == 0 for entry in value)
     return isinstance(value, Rational)
 
 
 def names_results(symbol: Any) -> bool:
-    """Whether it is a list of letters, each the name of one result, and no vector."""
+    """Return whether the symbol is a list of symbols, each the name of one result, rather than a vector."""
     return isinstance(symbol, MatrixBase) and all(isinstance(name, Symbol) for name in symbol)
 
 
 def listed(names: Any, values: Any) -> tuple[ChainLine, ...]:
-    """I_1 = I_2 = the one value, I_3 = the other: each value once, behind all its names."""
+    """Return I_1 = I_2 = one value, I_3 = the other: each value once, after all its names."""
     found: dict[Any, Any] = {}
     for name, value in zip(names, values, strict=True):
         found[value] = Relation(found[value], "=", name) if value in found else name

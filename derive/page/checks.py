@@ -1,8 +1,8 @@
-"""How a problem was checked, counted and step by step: what its closing note and the report of its set tell.
+"""How a problem was checked, in counts and step by step: for the closing note and for the report of the set.
 
 A step counts by the least sure of its lines and by the surest of its second routes and checks. Each of these counts for
-every result that it was taken to. A check, which puts a result to a test, is not a second route and is counted apart.
-The motion that the witness follows numerically is counted apart too.
+every result that it was applied to. A check, which tests a result, is not a second route and is counted separately.
+The motion that the witness follows numerically is counted separately too.
 """
 
 from __future__ import annotations
@@ -23,9 +23,10 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Row:
-    """Steps that follow each other, are of one rule and were checked alike: what they were made from, how many lines
-    were compared, and in words the second routes that were taken (then the motion, if it was followed numerically) and
-    the checks that were made."""
+    """Consecutive steps of one rule that were checked in the same way, with their inputs and the number of lines.
+
+    `routes` names the second routes, then the motion if it was followed numerically; `checks` names the checks.
+    """
 
     steps: tuple[str, ...]
     made_from: tuple[str, ...]
@@ -43,12 +44,12 @@ class Row:
         return replace(self, steps=(*self.steps, *other.steps), made_from=made_from, lines=self.lines + other.lines)
 
 
-_NOT_ALIKE: Mapping[str, Any] = {"steps": (), "made_from": (), "lines": 0}  # in which steps of one row may differ
+_NOT_ALIKE: Mapping[str, Any] = {"steps": (), "made_from": (), "lines": 0}  # fields that may differ in one row
 
 
 @dataclass(frozen=True)
 class Checks:
-    """The counts, the table of the steps, and what is wrong in the source document."""
+    """The counts, the table of the steps, and the errors of the source document."""
 
     steps: Mapping[Grade, int]
     lines: Mapping[Grade, int]
@@ -64,16 +65,16 @@ class Checks:
 
     @property
     def compared(self) -> int:
-        """How many statements of the source document were compared."""
+        """Return how many statements of the source document were compared."""
         return self.agree + self.agree_to_figures + self.refuted
 
     @property
     def refuted(self) -> int:
-        """How many of them are wrong; an erratum that is only quoted is no value of a step."""
+        """Return how many of them are wrong; an erratum that is only quoted has no value of a step."""
         return sum(bool(erratum.answer) for erratum in self.errata)
 
     def counts(self) -> dict[str, int]:
-        """The numbers of the last page's table, by the names of its columns."""
+        """Return the numbers for the table on the last page, by the names of its columns."""
         return {
             **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in LEAST_SURE_FIRST[1:]},
             "lines": sum(self.lines.values()),
@@ -89,7 +90,7 @@ class Checks:
         }
 
     def closing(self, words: Phrases, evidence: EvidenceShown) -> tuple[Inline, ...]:
-        """The note at the end of a problem: that it was checked, and if so much is wanted, how often."""
+        """Return the note at the end of a problem: that it was checked, and how often if `evidence` asks for it."""
         if evidence is EvidenceShown.NONE:
             return filled(words.labels["closing_line"], {})
         names: dict[str, Any] = {
@@ -108,7 +109,7 @@ class Checks:
 
 
 def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -> Checks:
-    """What was done for these steps, and how the source document compares."""
+    """Count the evidence of these steps, and how the source document compares."""
     steps = list(steps)
     evidence = [(step, e) for step in steps for e in step.evidence]
     lines = [e for _, e in evidence if e.compared is Compared.LINES]
@@ -131,7 +132,7 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
 
 
 def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
-    """The second routes to the result of a step, then the motion if it was followed; or the checks of it."""
+    """Return the second routes to the result of a step, then the motion if it was followed; or its checks."""
     found = tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
     followed = sort is Compared.ROUTE and any(e.compared is Compared.WITNESS for e in step.evidence)
     return (*found, words.labels["motion"]) if followed else found
@@ -155,5 +156,5 @@ def _by_grade(counts: Mapping[Grade, int], words: Mapping[str, str]) -> str:
 
 
 def _columns_of_steps(words: Phrases) -> dict[str, str]:
-    """The words by which steps are counted: a definition is only named."""
+    """Return the words under which steps are counted: a definition is only named."""
     return {**words.grades, Grade.DEFINITION: words.labels["named"]}

@@ -1,4 +1,4 @@
-"""Steps that are told in passing, behind the first lines that have their letters: `where rho = M/V`."""
+"""Steps whose definitions follow the first lines that use their symbols: `where rho = M/V`."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from derive.page.introduced import expressions_in, letters_in, letters_of
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined, names_asked, names_of_step
 from derive.steps.step import Step
 
-BY_VALUE = "<<definition>>"  # of a step for which there are no words
+BY_VALUE = "<<definition>>"  # for a step without a phrase
 
 
 class Clauses:
-    """Those of one page.
+    """The clauses of one page.
 
-    waiting  steps that are to be told as soon as their letter is used
-    told     keys of those that were
-    set_up   what steps without lines of their own say of axes and coordinates, before the next sentence
+    waiting  steps to define as soon as their symbol is used
+    told     keys of the steps that were defined
+    set_up   text about axes and coordinates, from steps without lines, to put before the next sentence
     """
 
     def __init__(self, words: Phrases):
@@ -30,7 +30,7 @@ class Clauses:
         self.set_up: list[Inline] = []
 
     def set_aside(self, step: Step, is_told: bool) -> None:
-        """A step without lines of its own: what it sets up is said, and then or later what its letter is."""
+        """Write what a step without lines sets up, and define its symbol in that text or later."""
         phrase = self.words.setup(step)
         self.set_up += filled(phrase, self._names(step))
         if "definition" in names_asked(phrase):
@@ -39,21 +39,21 @@ class Clauses:
             self.waiting.append(step)
 
     def point_out(self, step: Step, said: tuple[Inline, ...]) -> None:
-        """A step whose sentence points to lines above."""
+        """Add the sentence of a step that points to lines above."""
         self.set_up += [*([Text(" ")] if self.set_up else []), *said]
         self.told.add(step.key)
 
     def begun(self) -> tuple[Inline, ...]:
-        """What is set up, to stand before the sentence that comes."""
+        """Return the text that is set up, to put before the next sentence."""
         said, self.set_up = self.set_up, []
         return (*said, Text(" ")) if said else ()
 
     def behind(self, lines: Any) -> tuple[Inline, ...]:
-        """What the letters in these lines stand for, as a sentence that goes on from them."""
+        """Return the meanings of the symbols in these lines, as a clause that continues their sentence."""
         return self._sentence("where", self._due(lines))
 
     def around(self, sentence: tuple[Inline, ...], lines: Any) -> tuple[Inline, ...]:
-        """A sentence behind the lines: it begins after the clause, unless it goes on from the lines itself."""
+        """Return a sentence that follows the lines: after the clause, unless it continues the lines itself."""
         due = self._due(lines)
         first = sentence[0]
         if isinstance(first, Text) and first.text.lstrip()[:1].islower():
@@ -62,7 +62,9 @@ class Clauses:
         return (*(self._sentence("where", due)), *((Text(" "),) if due else ()), *sentence)
 
     def meanings(self, steps: Sequence[Step]) -> tuple[Inline, ...]:
-        """What their letters are, without their values where there are words for it: `where rho is the density`."""
+        """Return the meanings of the symbols, without values where a phrase has words for them: `where rho is the
+        density`.
+        """
         return self._sentence("where", steps, by_value=False)
 
     def _due(self, lines: Any) -> list[Step]:
@@ -79,7 +81,7 @@ class Clauses:
         return filled(self.words.labels[label], {"definitions": told})
 
     def _told(self, step: Step, by_value: bool) -> tuple[Inline, ...]:
-        """`rho = M/(6 a^3) is the density`: in a sentence the value alone."""
+        """Return `rho = M/(6 a^3) is the density`, or the value alone without a phrase."""
         phrase = self.words.clauses.get(step.rule, {}).get(step.outcome, BY_VALUE)
         names = self._names(step)
         return filled(phrase, names if by_value or phrase == BY_VALUE else {**names, "definition": Math(step.symbol)})
@@ -90,7 +92,7 @@ class Clauses:
 
 
 def _in_a_row(value: Any) -> tuple[Inline, ...]:
-    """A value as a sentence has it: a vector as (a, 2a, 3a), and not as a column."""
+    """Return a value as a sentence shows it: a vector as (a, 2a, 3a) rather than as a column."""
     shown = explicit(value)
     if not isinstance(shown, MatrixBase):
         return (Math(value),)

@@ -1,4 +1,4 @@
-"""The limiting cases at the end of a page: a sentence for each, with its formula in the line where there is room."""
+"""The limiting cases at the end of a page: a sentence for each, with its formula in the text where there is room."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from derive.steps.derivation import Derivation
 from derive.steps.rule import ZERO
 from derive.steps.step import Step
 
-PUT_IN = "answers.put_in"  # of which the sentence names what is put into
+PUT_IN = "answers.put_in"  # its sentence names the formula in which values are substituted
 Nodes = tuple[Inline, ...]
 
 
 def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]:
-    """The cases that the page does not have, since the result does not depend on their letters now."""
+    """Return warnings for the cases left out because the result no longer depends on their symbols."""
     found = []
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
         if not keys:
@@ -43,16 +43,16 @@ def limiting_cases(
     told: Callable[[Any], Nodes],
     numbers: Mapping[str, Number],
 ) -> Iterator[Step | Nodes]:
-    """Steps, which are to be shown as any other, and sentences.
+    """Yield steps, to be shown like any other step, and sentences.
 
-    phrase, told   the words of a step, and those of prose, as the page has them
-    numbers        of the equations that the page has by the time they are asked for
+    phrase, told   return the words of a step and of prose, as the page shows them
+    numbers        numbers of the equations that the page has when a sentence is made
     """
     own = {key for keys in derivation.closing for key in keys}
     shown = {key for keys in derivation.parts for key in keys} | own
-    yield from (step for step in derivation.steps if step.key not in shown)  # what they alone rest on
+    yield from (step for step in derivation.steps if step.key not in shown)  # only the limiting cases need these
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
-        if not keys:  # a case in letters that the result no longer has
+        if not keys:  # the result no longer contains the symbols of this case
             continue
         first, *more = (derivation.step(key) for key in keys)
         said = _in_the_line(first, phrase(first))
@@ -65,16 +65,16 @@ def limiting_cases(
 
 
 def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, Number]) -> Nodes:
-    """With what a limit agrees, by the number of its equation or by its letter; or its formula."""
+    """Return what a limit agrees with: the number of an equation, a symbol, or a formula."""
     known = derivation.step(step.inputs[-1])
     named: Inline = Ref(known.key) if known.key in numbers or known.symbol is None else Math(known.symbol)
     return filled(words.phrase(step), {"known": named, "formula": Math(step.chain[0].expr)})
 
 
 def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:
-    """The sentence of a step with its result in it; nothing for what is too tall, a vector or a tensor."""
+    """Return the sentence of a step with its result in it; None for a vector or a tensor, which is too tall."""
     last = step.chain[-1]
-    if step.rule == PUT_IN and step.outcome == ZERO:  # its sentence says it all
+    if step.rule == PUT_IN and step.outcome == ZERO:  # its sentence is complete
         said, _ = around_chain(nodes)
         return *said[:-1], Text(said[-1].text.rstrip(" ,")) if isinstance(said[-1], Text) else said[-1]
     if isinstance(last.expr, MatrixBase):
@@ -88,7 +88,7 @@ def _result(step: Step) -> Nodes:
         return (Math(last.expr),)
     what = dict(step.roles).get(
         "bound", name_before(step)
-    )  # the least value of a letter is that bound, which the page has
+    )  # the least value of a symbol is its bound, which is on the page
     match sign_before(last):
         case "tends":
             return (Math(Approach(what, last.expr)),)
@@ -100,7 +100,7 @@ def _result(step: Step) -> Nodes:
 
 
 def _with_commas(parts: Sequence[Nodes]) -> Nodes:
-    """The parts of one sentence."""
+    """Join the parts of one sentence by commas."""
     nodes: list[Inline] = []
     for i, part in enumerate(parts):
         nodes += [Text(", ")] if i else []

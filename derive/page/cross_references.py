@@ -12,11 +12,11 @@ from derive.steps.step import Step
 
 
 class References:
-    """Those of one page. An equation may be referred to before it has its number, so they are checked at the end.
+    """The references of one page. They are checked at the end, since prose may refer to a later equation.
 
-    others   the numbers of the set's problems, by their names
-    figures  the numbers of the drawings that have a caption, by their names
-    faults   gathers what is wrong
+    others   numbers of the set's problems, by their names
+    figures  numbers of the drawings that have a caption, by their names
+    faults   collects the errors
     """
 
     def __init__(
@@ -31,7 +31,7 @@ class References:
         self.equations: list[Mention] = []
 
     def node(self, mention: Mention) -> Inline | None:
-        """What stands in the text for a mention."""
+        """Return the text for a mention."""
         if mention.of == PROBLEM:
             return self._problem(mention)
         if mention.of == FIGURE:
@@ -40,17 +40,17 @@ class References:
         return Ref(mention.name)
 
     def note(self, pieces: Iterable[str | Mention], names: Mapping[str, object]) -> None:
-        """The names that stand for an equation: relations have a number and no symbol."""
+        """Note the names that denote an equation: relations have a number and no symbol."""
         mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
         self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
 
     @property
     def named(self) -> set[str]:
-        """The steps of which prose refers to the equation."""
+        """Return the steps whose equations prose refers to."""
         return {mention.name for mention in self.equations}
 
     def check_title(self, mentions: Iterable[Mention], names: Mapping[str, object]) -> None:
-        """A title is read where there are no numbers: in lists, bookmarks and at the head of pages."""
+        """Reject numbers in a title: it also appears in lists, in bookmarks and at the head of pages."""
         for mention in mentions:
             if mention.of or isinstance(names.get(mention.name), Ref):
                 message = "a title cannot refer to an equation or to a problem"
@@ -61,7 +61,7 @@ class References:
             text = f"{self.words.labels['problem']} {self.others[mention.name]}"
             return ProblemRef(f"{self.set_id}/{mention.name}", text)
         help_line = did_you_mean(mention.name, self.others) or "the problems of a set are those that its set.yaml lists"
-        message = f"there is no problem `{mention.name}` in this set"
+        message = f"`{mention.name}` is not a problem of this set"
         self.faults.append(Complaint("no-such-problem", message, mention.place, help=help_line))
         return None
 
@@ -74,12 +74,12 @@ class References:
         return None
 
     def check(self, numbers: Mapping[str, Number], known: Collection[str]) -> None:
-        """Whether every equation has a number; `known` are the steps of the page, shown or hidden."""
+        """Check that every equation has a number; `known` are the steps of the page, shown or hidden."""
         for mention in self.equations:
             if mention.name in numbers:
                 continue
             code, message = "undefined-name", f"no step on this page is called `{mention.name}`"
-            help_line = did_you_mean(mention.name, numbers) or "use the key of a step that the answers rest on"
+            help_line = did_you_mean(mention.name, numbers) or "use the key of a step on which the answers depend"
             if mention.name in known:
                 code, message = "not-shown", f"the equation of `{mention.name}` is hidden, so it has no number"
                 help_line = f"change `{mention.name}: hidden` under `show`, or write `<<{mention.name}>>`"
@@ -87,7 +87,7 @@ class References:
 
 
 def found_before(steps: Iterable[Step], shown_in: Mapping[str, str], words: Phrases) -> list[tuple[Inline, ...]]:
-    """A sentence for each earlier part that has given some of these steps: which, and by which equations."""
+    """Return a sentence for each earlier part that has derived some of these steps, with their equations."""
     found: dict[str, list[tuple[Inline, ...]]] = {}
     for step in (each for each in steps if each.key in shown_in):
         names = {"name": name_of(step), "has_symbol": step.symbol is not None, "ref": Ref(step.key)}
@@ -99,7 +99,7 @@ def found_before(steps: Iterable[Step], shown_in: Mapping[str, str], words: Phra
 
 
 def each_number_once(nodes: Sequence[Inline], numbers: Mapping[str, Number]) -> tuple[Inline, ...]:
-    """`(4), (5) and (5)` as `(4) and (5)`: of references side by side one to each number."""
+    """Replace `(4), (5) and (5)` by `(4) and (5)`: each number appears once among adjacent references."""
     found: list[Inline] = []
     for node in nodes:
         if not _repeats(found[-2:], node, numbers):
@@ -112,7 +112,7 @@ def each_number_once(nodes: Sequence[Inline], numbers: Mapping[str, Number]) -> 
 
 
 def _repeats(before: Sequence[Inline], node: Inline, numbers: Mapping[str, Number]) -> bool:
-    """Whether the reference before it, with a comma or a word between them, has the same number."""
+    """Return whether the reference before this one, separated by a comma or a word, has the same number."""
     match (*before, node):
         case (Ref(one), Text(between), Ref(other)):
             return len(between.split()) == 1 and numbers[one] == numbers[other]

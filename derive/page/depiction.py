@@ -1,8 +1,8 @@
-"""The drawings of a page in words: where each one stands, its caption, and what it shows for those who do not see it.
+"""The drawings of a page in words: where each appears, its caption, and its alternative text.
 
-The alternative text is made of the marks themselves, with the same expressions, so that it changes with what is given.
-A drawing stands in the statement if it shows only what is given, and otherwise in the first part that has derived all
-that it shows; a problem may move it further back, never forward.
+The alternative text is derived from the marks themselves, with the same expressions, so it changes with the inputs.
+A drawing appears in the statement if it shows only inputs. Otherwise it appears in the first part that has derived
+everything it shows. A problem may move it to a later place, never to an earlier one.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from derive.page.plots import Curve, Curves, curves_of, panel_letters, told_valu
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 
-CURVE = "way"  # the phrase for a dashed one
+CURVE = "way"  # the phrase for a dashed curve
 FOUND = -1  # the index of the statement, before that of part a
 
 
@@ -44,7 +44,7 @@ class Depicted:
 
 
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
-    """The numbers of the drawings that have a caption, in the order of the page."""
+    """Return the numbers of the drawings that have a caption, in the order of the page."""
     placed = [(index, d.key) for d in drawings if (index := _index(problem, d, derivation)) is not None]
     captioned = {p.key for p in problem.drawings if p.caption}
     ordered = sorted(placed, key=lambda entry: entry[0])
@@ -58,7 +58,7 @@ def depictions(
     words: Phrases,
     told: Callable[[Any, dict[str, Any]], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
-    """The drawings in the order of the page, and what is wrong with where the problem puts them."""
+    """Return the drawings in the order of the page, and the errors in where the problem puts them."""
     faults = _unknown(problem, drawings) + [f for drawing in drawings for f in _without_letter(problem, drawing)]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
@@ -83,7 +83,7 @@ def depictions(
 
 
 def _lettered(drawing: m.Recorded) -> dict[str, Any]:
-    """The letters beside its marks, which its caption may mention as it does what is given: C of `<<C>>`."""
+    """Return the symbols next to its marks, which its caption may mention like inputs: C for `<<C>>`."""
     labels = (getattr(mark, "label", None) for mark in getattr(drawing, "marks", ()))
     return {label.name: (Math(label),) for label in labels if isinstance(label, Symbol)}
 
@@ -92,13 +92,13 @@ def placement_of(problem: Problem, key: str) -> Placement | None:
     return next((placement for placement in problem.drawings if placement.key == key), None)
 
 
-# --- where it stands -------------------------------------------------------------------------------------------------
+# --- positions -------------------------------------------------------------------------------------------------------
 
 
 def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
     names = [drawing.key for drawing in drawings]
     of_engine = problem.described is not None
-    none = "what is given is drawn only where all of it can be shown" if of_engine else "the script makes no drawing"
+    none = "the engine draws the inputs only if it can show all of them" if of_engine else "the script makes no drawing"
     known = "the drawings are " + ", ".join(f"`{name}`" for name in names) if names else none
     who = "the engine" if of_engine else "the script"
     return [
@@ -114,19 +114,19 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
 
 
 def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Letters to which the problem gives a value for a drawing that does not have them."""
+    """Return errors for symbols that have a value for a drawing in which they do not occur."""
     placement = placement_of(problem, drawing.key)
     letters = {symbol.name for symbol in drawing.letters}
     return [
-        Complaint("unknown-letter", f"the drawing `{drawing.key}` has no letter `{name}`", place,
-                  help=did_you_mean(name, letters) or "its letters are " + ", ".join(f"`{x}`" for x in sorted(letters)))
+        Complaint("unknown-letter", f"the drawing `{drawing.key}` has no symbol `{name}`", place,
+                  help=did_you_mean(name, letters) or "its symbols are " + ", ".join(f"`{x}`" for x in sorted(letters)))
         for name, place in (placement.names.items() if placement else ())
-        if name not in letters and name not in problem.symbols  # of one of its own it may be free for what is given now
+        if name not in letters and name not in problem.symbols  # may be absent for the current inputs
     ]  # fmt: skip
 
 
 def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Letters of the problem's own that a drawing no longer has, though it is given values for them."""
+    """Return warnings for symbols of the problem that have values for a drawing in which they no longer occur."""
     found = []
     for drawing in drawings:
         placement = placement_of(problem, drawing.key)
@@ -139,7 +139,7 @@ def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[
 
 
 def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Keys of plots that the problem gives for a drawing that is not one."""
+    """Return warnings for keys of plots that the problem gives to another drawing."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
@@ -152,7 +152,7 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """The index of the first part by whose end everything that the drawing shows is derived; nothing if none has."""
+    """Return the index of the first part by whose end all steps of the drawing are derived; None if no part is."""
     known: set[str] = set()
     for index, keys in enumerate(((), *derivation.parts), FOUND):
         known |= set(keys)
@@ -162,7 +162,7 @@ def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
 
 
 def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Where it stands: the statement before part 0; nothing if it is hidden."""
+    """Return the index of the part with the drawing, where the statement comes before part 0; None if it is hidden."""
     placement = placement_of(problem, drawing.key)
     if placement is None or placement.at is None:
         return _earliest(drawing, derivation)
@@ -174,7 +174,7 @@ def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int
 
 
 def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
-    """The part that asks for a step, else that which shows it; nothing where none does, so that it is not drawn."""
+    """Return the part that asks for a step, else the part that shows it; None otherwise, without a drawing."""
     answered = [derivation.answering(part.answers) for part in problem.parts]
     asked = [index for index, steps in enumerate(answered) if key in [step.key for step in steps]]
     shown = [index for index, keys in enumerate(derivation.parts) if key in keys]
@@ -184,7 +184,7 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """A drawing may not show what is derived later, or what no answer rests on."""
+    """Return an error if a drawing shows a step that is derived later, or one on which no answer depends."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None
@@ -194,10 +194,10 @@ def _given_away(
         help_line = did_you_mean(at, derivation.keys)
         return Complaint("undefined-name", f"no step of this problem is called `{at}`", place, help=help_line)
     if earliest is None and at is None:
-        return None  # what it shows is not on the page, since a part was left out
+        return None  # the page does not have what the drawing shows, since a part was left out
     if earliest is None:
         loose = next(key for key in drawing.keys if key not in derivation.keys)
-        message = f"the drawing `{drawing.key}` shows `{loose}`, on which no answer rests"
+        message = f"the drawing `{drawing.key}` shows `{loose}`, on which no answer depends"
         return Complaint("drawing", message, place, help=f"let a part ask for it, or write `at: {HIDDEN}`")
     if index is None or index >= earliest:
         return None
@@ -206,16 +206,16 @@ def _given_away(
     where = "the statement" if index == FOUND else f"part {chr(ord('a') + index)}"
     message = f"in {where} the drawing `{drawing.key}` would show `{later}` before it is derived"
     letter = chr(ord("a") + earliest)
-    return Complaint("drawing", message, place, help=f"write `at: {letter}`, where it is")
+    return Complaint("drawing", message, place, help=f"write `at: {letter}`, where it is derived")
 
 
-# --- what it shows ---------------------------------------------------------------------------------------------------
+# --- contents in words -----------------------------------------------------------------------------------------------
 
 
 def alternative(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, words: Phrases
 ) -> tuple[Inline, ...]:
-    """What is drawn, in words."""
+    """Return the drawing in words."""
     if isinstance(drawing, m.Plot):
         return _curves(problem, drawing, placement, words)
     told = [nodes for nodes in (_mark(mark, words) for mark in _told_once(drawing.marks)) if nodes]
@@ -228,7 +228,7 @@ def alternative(
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
-    """Of curves that only show where something can move the first."""
+    """Keep only the first of the curves that show where something can move."""
     found: dict[Any, m.Mark] = {}
     for mark in marks:
         told = mark.in_words()
@@ -237,7 +237,7 @@ def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
 
 
 def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """The range, and for each curve its numbers and where it turns."""
+    """Return the range, and for each curve its numbers and extrema."""
     curves = curves_of(problem, plot, placement)
     first = curves.curves[0]
     names = {
@@ -259,12 +259,12 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 
 
 def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:
-    """Each letter with its number."""
+    """Return each symbol with its number."""
     return [(Math(n.symbol), Text(" = "), Math(Amount(n.number, n.unit, n.factor))) for n in numbers]
 
 
 def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
-    """The numbers that all curves share, which stand over none of them."""
+    """Return the numbers that all curves share, which no curve shows above it."""
     if not curves.shared:
         return []
     numbers = joined(_put_in(curves.shared), words.labels["and"])
@@ -272,7 +272,7 @@ def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
 
 
 def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[tuple[Inline, ...]]:
-    """Where a curve has its extrema, each in a few words."""
+    """Return the extrema of a curve, each in a few words."""
     return [
         filled(
             words.drawings["extremum"],
@@ -288,7 +288,7 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
 
 
 def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """After its caption, what is read off a plot: its extrema with their numbers, panel by panel."""
+    """Return the extrema of a plot with their numbers, panel by panel, for use after its caption."""
     curves = curves_of(problem, plot, placement)
     last = words.labels["and"]
     told = [
@@ -301,7 +301,7 @@ def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words
 
 
 def _mark(mark: m.Mark, words: Phrases) -> tuple[Inline, ...]:
-    """The words for one mark; none for a line that only helps the eye."""
+    """Return the words for one mark; nothing for an auxiliary line."""
     told = mark.in_words()
     if told is None:
         return ()
@@ -320,7 +320,7 @@ def _measured(name: str, value: Any, last: str) -> tuple[Inline, ...]:
 
 
 def _named(value: Any) -> Any:
-    """What a phrase may mention: words and counts as they are, everything else as mathematics."""
+    """Return a value as a phrase may mention it: words and counts unchanged, everything else as mathematics."""
     if value is None or isinstance(value, str):
         return (Text(value),) if value else ()
     return value if isinstance(value, int) else (Math(value),)

@@ -1,6 +1,6 @@
 """The page as a tree, before any format: title, statement, parts, steps, answers, and how it was checked.
 
-Equations are numbered here, so that every format and every reference has the same numbers.
+Equations are numbered here, so every format and every reference has the same numbers.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Level, Step
 
-HOMOGENEITY = "look in the script for one quantity given in another's place"
+HOMOGENEITY = "look in the script for a quantity used in place of another"
 
 
 def document_of(
@@ -73,10 +73,10 @@ def document_of(
     evidence: EvidenceShown = EvidenceShown.NONE,
     like: Document | None = None,
 ) -> tuple[Document, list[Complaint]]:
-    """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous.
+    """Return the page and every error found on it: names that nothing defines, lines that are not homogeneous.
 
-    others   the numbers of the set's problems, to which prose may refer
-    like     a page of less detail, with the numbers that its equations have here too
+    others   numbers of the set's problems, to which prose may refer
+    like     a page of less detail, whose equations have the same numbers here
     """
     needed = NOTHING_NEEDED
     while True:
@@ -89,7 +89,7 @@ def document_of(
 
 
 class _Writer:
-    """Walks the parts once, giving numbers to equations and words to steps."""
+    """Visits the parts once, numbers equations and writes the words of steps."""
 
     def __init__(
         self,
@@ -114,10 +114,10 @@ class _Writer:
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
         self.converted, self.stated = set[Any](), Stated()
-        self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
-        self.rest: list[Step] = []  # those of the part that are shown after this one
-        self.told_before = ""  # the key of the step that was told along with the one before it
-        self.unplaced: set[str] = set()  # steps that are not told yet
+        self.before: Step | None = None  # the last step shown, on which the words of the next may depend
+        self.rest: list[Step] = []  # the steps of the part that are shown after this one
+        self.told_before = ""  # the key of the step whose words are in the sentence of the step before it
+        self.unplaced: set[str] = set()  # steps without words so far
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = page_names(problem, derivation, words)
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
@@ -128,7 +128,7 @@ class _Writer:
 
     def _dimensions(self) -> dict[Any, Dimension | None]:
         table, unlike = dimension_table(self.problem.dimensions, [*self.derivation.steps, *self.values.values()])
-        # What follows from a line that is wrong is wrong too: the first fault is the one to mend.
+        # Everything that follows from a wrong line is wrong too: only the first error needs a fix.
         self.faults += [replace(fault, place=self.problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
         return {**table, **{a: self.problem.dimensions.get(letter) for letter, a in self.problem.every_amount}}
 
@@ -160,7 +160,7 @@ class _Writer:
             shown_in=self.shown_in,
             dimensions=self.dimensions,
             warnings=(
-                # What a script of the engine establishes for nothing is nobody's fault.
+                # The author cannot change what a script of the engine establishes without using it.
                 *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
                 *letters_not_drawn(problem, self.drawings),
@@ -171,7 +171,7 @@ class _Writer:
         )
 
     def needs(self, document: Document) -> tuple[set[str], set[str]]:
-        """The steps that are not shown although the page uses their letters, or refers to their equations."""
+        """Return the steps that are not shown although the page uses their symbols or refers to their equations."""
         shown = (document.title, document.statement, document.strategy, document.illustrations)
         whole = (shown, document.parts, document.limits, document.note)
         moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
@@ -187,13 +187,15 @@ class _Writer:
         return told(pieces, names, self._unknown, self.references.node)
 
     def _unknown(self, name: str, place: Place) -> None:
-        help_line = did_you_mean(name, self.page_names) or "use a key of `given:` or of a step that the answers rest on"
+        help_line = (
+            did_you_mean(name, self.page_names) or "use a key of `given:` or of a step on which the answers depend"
+        )
         self.faults.append(
             Complaint("undefined-name", f"nothing on this page is called `{name}`", place, help=help_line)
         )
 
     def _assumed(self) -> tuple[Inline, ...]:
-        """What the script takes to hold of the letters, said with what is given."""
+        """Return what the script assumes of the symbols, to be stated with the inputs."""
         assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
         if not assumed:
             return ()
@@ -234,7 +236,7 @@ class _Writer:
         return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
 
     def _limits(self) -> PartPage | None:
-        """The limiting cases at the end; before them what they alone rest on."""
+        """Return the limiting cases at the end, after the steps that only they depend on."""
         blocks: list[Block] = []
         for each in limiting_cases(self.problem, self.derivation, self.words, self._phrase, self._told, self.numbers):
             if isinstance(each, Step):
@@ -245,15 +247,17 @@ class _Writer:
         return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
-        """The steps of a part whose last line is framed, but where its number follows at once and has the frame."""
+        """Return the steps of a part whose last line is framed, except where their number follows directly and is
+        framed.
+        """
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
         return self.selection.standing_for(set(asked) - measured)
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False) -> None:
-        """A step's words and lines; one that goes on from the step before needs no words of its own.
+        """Add the words and lines of a step; a step that continues the one before it needs no words.
 
-        What a part asks for is on the page: if it shall be hidden, its result stands without words.
+        A result that a part asks for is always on the page: if its step is hidden, it appears without words.
         """
         mode = self.problem.show.get(step.key, "")
         if mode == "hidden" and step.key not in self.asked:
@@ -295,24 +299,24 @@ class _Writer:
             blocks.append(Paragraph(self.clauses.around(after, blocks[-1])))
 
     def _clause(self, blocks: Sequence[Block]) -> tuple[Inline, ...]:
-        """What letters of the lines just shown stand for."""
+        """Return the meanings of symbols in the lines just shown."""
         told = self.clauses.behind(blocks[-1]) if blocks and isinstance(blocks[-1], Display) else ()
         return (*told, Text(" ")) if told else ()
 
     def _beside(self, step: Step | None, equations: Equations) -> bool:
-        """Whether the only line of a step, a letter and its value, may share its row with another's."""
+        """Return whether the only line of a step, a symbol and its value, may share its row with another."""
         if step is None or self.level is Level.FULL or step.symbol is None or equations.framed:
             return False
         return not any(line.reason for line in equations.lines) and equations.lines[-1].left is not None
 
     def _following(self, key: str) -> Step | None:
-        """The step that is shown next in the part, if one sentence may tell both."""
+        """Return the step that is shown next in the part, if one sentence may describe both."""
         if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
             return None
         return self.rest[0] if needs_no_words(self.rest[0]) else None
 
     def _completed(self, key: str) -> set[str]:
-        """The steps whose words and lines are all there now that this one is: those without lines wait for it."""
+        """Return the steps that are complete with this one: steps without lines wait for their words."""
         self.unplaced.add(key)
         if key not in self.numbers:
             return set()
@@ -330,17 +334,17 @@ class _Writer:
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
         both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
         self.told_before = following.key if following and both else ""
-        return filled(both or self.words.phrase(step, self.before), own)  # no other step may slip in by its key
+        return filled(both or self.words.phrase(step, self.before), own)  # not the keys of other steps
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
-        """The numbers that a step puts in for the first time, in the units in which it does."""
+        """Return the numbers that a step substitutes for the first time, in their units."""
         used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
         new, self.converted = used - self.converted, self.converted | used
         return joined(conversions(self.problem, new), self.words.labels["and"])
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
-    """A display ends with a comma where the sentence goes on after it."""
+    """End a display with a comma where the sentence continues after it."""
     result: list[Block] = []
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         if isinstance(block, Display) and following is not None and _goes_on(following):
@@ -350,13 +354,13 @@ def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
 
 
 def _parts_nothing(blocks: Sequence[Block], i: int) -> bool:
-    """Whether a drawing may stand before this block: not between words and the lines that they introduce or explain."""
+    """Return whether a drawing may precede this block: not between words and the lines they introduce or explain."""
     introduced = i > 0 and isinstance(blocks[i - 1], Paragraph) and isinstance(blocks[i], Display)
     return not introduced and not (i > 0 and _goes_on(blocks[i]))
 
 
 def _goes_on(block: Block) -> bool:
-    """Whether the sentence of the lines before it goes on in it."""
+    """Return whether this block continues the sentence of the lines before it."""
     first = block.nodes[0] if isinstance(block, Paragraph) else None
     return isinstance(first, Text) and first.text.lstrip()[:1].islower()
 
@@ -364,7 +368,7 @@ def _goes_on(block: Block) -> bool:
 def _illustrated(
     blocks: tuple[Block, ...], own: Sequence[Illustration], ends: Mapping[str, int], steps: int
 ) -> tuple[Block, ...]:
-    """Each drawing after the step that completes it; one that rests on nothing opens the part, others close it."""
+    """Put each drawing after the step that completes it; a drawing without steps begins the part, others end it."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
     completed = [max((ends[k] for k in d.rests_on if k in ends), default=n) for d, n in zip(own, without, strict=True)]
     places = [

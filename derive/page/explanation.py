@@ -1,4 +1,4 @@
-"""What there is to tell of one step: why it is there, how it was checked, in what words, and where its law stands."""
+"""The explanation of one step: why it is there, how it was checked, in what words, and where its law is in the code."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Need:
-    """A part that asks for an answer, and the steps by which this rests on the step that is explained."""
+    """A part that asks for an answer, and the steps through which the answer depends on the step that is explained."""
 
     part: str
     answer: str
@@ -28,9 +28,9 @@ class Need:
 
 @dataclass(frozen=True)
 class Explanation:
-    """One step, explained; `part` shows it, and at `own_words` the problem says something else than the `sentence`.
+    """The explanation of one step, shown in `part`; at `own_words` the problem replaces the `sentence`.
 
-    A problem has no words of its own for a step that only gives an answer its number: `names` is empty then.
+    A problem cannot replace the words of a step that only gives the number of an answer: `names` is empty then.
     """
 
     step: Step
@@ -52,7 +52,7 @@ class Explanation:
         return f"{place.path}:{place.line}" if place else ""
 
     def facts(self) -> dict[str, Any]:
-        """The same for other programs."""
+        """Return the same facts for other programs."""
         return {
             "key": self.step.key,
             "part": self.part,
@@ -112,14 +112,14 @@ def _label(index: int) -> str:
 
 
 def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step]) -> dict[str, str]:
-    """The part that first asks for each answer, also by the key of its number."""
+    """Return the part that first asks for each answer, also by the key of its number."""
     answers = [derivation.answering(part.answers) for part in problem.parts]
     asked = {step.key: _label(i) for i, steps in reversed(list(enumerate(answers))) for step in steps}
     return asked | {value.key: asked[key] for key, value in values.items()}
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """The answers that rest on it, each by its shortest way, but not those that do so only through another answer."""
+    """Yield the answers that depend on the step, each by its shortest path, but not through another answer."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])
@@ -136,11 +136,11 @@ def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Itera
 
 # --- in words --------------------------------------------------------------------------------------------------------
 
-Section = tuple[str, tuple[tuple[Inline, ...], ...]]  # its heading, and what is told under it
+Section = tuple[str, tuple[tuple[Inline, ...], ...]]  # its heading, and the sentences under it
 
 
 def told_of(explanation: Explanation, words: Phrases) -> list[Section]:
-    """What is told of a step, under a few headings."""
+    """Return the explanation of a step, under a few headings."""
     say = _Teller(explanation, words)
     headings = words.labels["explain_headings"]
     sections = (say.why(), say.checked(), say.wording(), say.shown(), say.law())
@@ -148,7 +148,7 @@ def told_of(explanation: Explanation, words: Phrases) -> list[Section]:
 
 
 class _Teller:
-    """Puts the facts of an explanation into the sentences of the phrases."""
+    """Writes the facts of an explanation in sentences of the phrases."""
 
     def __init__(self, explanation: Explanation, words: Phrases):
         self.of, self.step, self.words = explanation, explanation.step, words

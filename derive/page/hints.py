@@ -1,7 +1,7 @@
-"""A ladder of hints, made of a solution: what to compute next, then its law, then how it goes on.
+"""Graded hints derived from a solution: what to compute next, then its law, then how it continues.
 
-A line tells its result where nothing of it is left to do: neither another result to put in, nor a derivative or an
-integral to carry out. Such a line is on no rung, and neither is what follows from it; a number has no law.
+A line gives its result away if it has nothing left to do: no result to substitute, no derivative or integral to
+evaluate. Hints show neither such a line nor the lines after it. A number has no law.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from derive.page.wording import Inline, Math, Phrases
 from derive.steps.derivation import Derivation
 from derive.steps.step import Step
 
-OF_NUMBERS = "numeric."  # the rules of steps that only put numbers in
+OF_NUMBERS = "numeric."  # the rules of steps that only substitute numbers
 TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 
 
 def with_hints(
     document: Document, problem: Problem, derivation: Derivation, values: Mapping[str, Step], words: Phrases
 ) -> Document:
-    """The page with its hints in place of what is derived."""
+    """Return the page with hints in place of the derivation."""
     hints = _Hints([*derivation.steps, *values.values()], problem.dimensions, words)
     hints.answers = {_of(s.result) for part in problem.parts for s in derivation.answering(part.answers)}
     parts = tuple(hints.of(part) for part in document.parts_shown)
@@ -41,9 +41,9 @@ def with_hints(
 
 @dataclass
 class _Hints:
-    """Those of one page.
+    """The hints of one page.
 
-    introduced  letters that need no word any more
+    introduced  symbols that need no explanation any more
     """
 
     steps: Sequence[Step]
@@ -60,7 +60,7 @@ class _Hints:
         self.clauses = Clauses(self.words)
 
     def of(self, part: PartPage) -> PartPage:
-        """A part with its rungs, each folded."""
+        """Return a part with its hints, each folded."""
         titles = self.words.labels["hints"]
         told = [each for each in sentences(part.blocks) if any(isinstance(block, Display) for block in each)]
         rungs = (
@@ -72,7 +72,7 @@ class _Hints:
         return replace(part, blocks=found)
 
     def _what(self, sentence: Sentence) -> list[Block]:
-        """The words that lead to a display, and what they lead to, as yet unknown."""
+        """Return the words that lead to a display, and its left sides with the results still unknown."""
         found: list[Block] = []
         before: list[Block] = []
         for block in sentence:
@@ -86,14 +86,14 @@ class _Hints:
         return found
 
     def _sought(self, group: Equations) -> tuple[ChainLine, ...]:
-        """T = ?; of an equation its left side too is sought, if it is no plain letter."""
+        """Return T = ?; in an equation the left side is unknown too, unless it is a single symbol."""
         firsts = [lines[0] for lines in _chains(group)]
         if self.by_key[group.key].symbol is not None or isinstance(firsts[0].left, Symbol):
             return tuple(ChainLine(line.left, line.relation, BLANK, beside=line.beside) for line in firsts)
         return (ChainLine(BLANK, firsts[0].relation, firsts[0].right if firsts[0].right == 0 else BLANK),)
 
     def _cut(self, sentence: Sentence, rung: slice) -> list[Block]:
-        """Of the chains of a sentence the law, or what follows it, as far as it tells no result."""
+        """Return the law in the chains of a sentence, or the lines after it, without results."""
         found: list[Block] = []
         for display in (block for block in sentence if isinstance(block, Display)):
             groups = tuple(cut for group in display.groups if (cut := self._part_of(group, rung)))
@@ -104,14 +104,14 @@ class _Hints:
         return found
 
     def _due(self, shown: Any) -> list[Step]:
-        """The steps whose letters are shown for the first time, and that no rung has."""
+        """Return the steps whose symbols appear for the first time and are not in any hint."""
         due = wanting(shown, set(), self.steps, self.introduced)
         found = [step for step in self.steps if step.key in due]
         self._introduce({letter for step in found for letter in letters_of(step.symbol)})
         return found
 
     def _introduce(self, letters: set[Any]) -> None:
-        """A vector brings its components along."""
+        """Mark symbols as introduced; a vector introduces its components."""
         known = [letters_of(step.symbol) for step in self.steps]
         self.introduced |= letters.union(*(each for each in known if each & letters))
 
@@ -120,7 +120,7 @@ class _Hints:
         return replace(group, lines=lines, framed=0) if lines else None
 
     def _kept(self, chain: Sequence[ChainLine], step: Step, rung: slice) -> list[ChainLine]:
-        """The lines of a rung, the first of which has the left side."""
+        """Return the lines for one hint; the first has the left side."""
         lines = [*_law_behind(chain, step), *(line for line in chain if not line.numeric)]
         if step.rule.startswith(OF_NUMBERS) or lines[0].because != "law":
             return []
@@ -133,24 +133,24 @@ class _Hints:
         return kept
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
-        """Whether nothing of it is left to do, or it is what another step has found."""
+        """Return whether the line has nothing left to do, or is the result of another step."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results
 
     def _tells(self, nodes: Sequence[Inline]) -> bool:
-        """Whether the words themselves have an answer in them."""
+        """Return whether the words themselves contain an answer."""
         formulas = [node.expr for node in nodes if isinstance(node, Math) and not isinstance(node.expr, Symbol)]
         return any(_of(formula) in self.answers or self._is_answer(formula) for formula in formulas)
 
     def _is_answer(self, formula: Any) -> bool:
-        """Whether it is one, written differently; a general law is none, though for some letters it says 0 = 0."""
+        """Return whether a formula is an answer in another form; a general law is not, even if it reduces to 0 = 0."""
         is_plain = isinstance(formula, Basic) and not formula.is_Atom and not formula.has(*TO_BE_DONE)
         return is_plain and any(equal(formula, answer) for answer in self.answers)
 
 
 def _chains(group: Equations) -> Iterator[tuple[ChainLine, ...]]:
-    """The lines of each step that stands in them; of a list of results each is one."""
+    """Yield the lines of each step in the group; in a list of results each line is one chain."""
     starts = [
         i for i, line in enumerate(group.lines) if not i or line.beside or (line.left is not None and not line.because)
     ]
@@ -158,7 +158,7 @@ def _chains(group: Equations) -> Iterator[tuple[ChainLine, ...]]:
 
 
 def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
-    """The law of an equation that the page leaves out, for a theorem or an equation before it has said it."""
+    """Return the law that the page leaves out, because a theorem or an equation before it has stated it."""
     law = step.chain[0]
     if law.because != "law" or chain[0].because == "law" or not isinstance(law.expr, Relation):
         return []
@@ -166,7 +166,7 @@ def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
 
 
 def _sides(line: ChainLine, step: Step) -> list[Any]:
-    """What it says: of an equation both sides."""
+    """Return the expressions of a line: both sides for an equation, else the right side."""
     return [line.right] if step.symbol is not None else [line.left, line.right]
 
 
@@ -176,5 +176,5 @@ def _is_to_be_done(line: ChainLine) -> bool:
 
 
 def _of(value: Any) -> Any:
-    """A value as it is compared: as one formula, however it is written."""
+    """Return a value in the form in which it is compared: one formula, however it is written."""
     return explicit(value) if isinstance(value, Basic | MatrixBase) else value

@@ -1,4 +1,4 @@
-"""What the lines and sentences of a page use, and what they have introduced: no letter comes from nowhere."""
+"""The symbols that the lines and sentences of a page use, and those that they introduce: every symbol is defined."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from derive.steps.step import Step
 
 
 def letters_of(symbol: Any) -> set[Any]:
-    """The letters that a step brings in: its symbol, of a vector also the components."""
+    """Return the symbols that a step introduces: its symbol, and for a vector also the components."""
     if isinstance(symbol, MatrixSymbol):
         return {symbol, *(component_names(symbol.name) if symbol.shape == (3, 1) else ())}
     if isinstance(symbol, MatrixBase):
@@ -26,12 +26,12 @@ def letters_of(symbol: Any) -> set[Any]:
 
 
 def letters_in(exprs: Iterable[Any]) -> set[Any]:
-    """Every letter that occurs in them."""
+    """Return every symbol that occurs in the expressions."""
     return {part for expr in exprs for part in _seen(expr) if isinstance(part, Symbol | MatrixSymbol)}
 
 
 def _seen(expr: Any) -> Iterator[Any]:
-    """Its parts as they are written: of an integral over the mass, what is under the sign, and not what is in dm."""
+    """Yield the parts of an expression as they are written: for an integral over the mass the integrand without dm."""
     parts = preorder_traversal(expr)
     for part in parts:
         yield part
@@ -41,12 +41,12 @@ def _seen(expr: Any) -> Iterator[Any]:
 
 
 def expressions_in(shown: Any) -> Iterator[Any]:
-    """The expressions in a piece of a page: of its lines, its sentences, its drawings."""
+    """Return the expressions in a piece of a page: in its lines, sentences and drawings."""
     return (each for each in _leaves(shown) if isinstance(each, Basic | MatrixBase))
 
 
 def references_in(shown: Any) -> set[str]:
-    """The steps whose numbers it refers to."""
+    """Return the steps whose numbers it refers to."""
     return {each.key for each in _leaves(shown) if isinstance(each, Ref)}
 
 
@@ -63,11 +63,11 @@ def _leaves(shown: Any) -> Iterator[Any]:
 
 
 def wanting(shown: Any, told: Set[str], steps: Iterable[Step], known: Collection[Any]) -> set[str]:
-    """The steps that would introduce what is used but not introduced.
+    """Return the steps that would introduce symbols that are used but not introduced.
 
     shown   what the page shows
-    told    the keys of the steps that it tells
-    known   letters of what is given, and coordinates
+    told    the keys of the steps that it explains
+    known   symbols of the inputs, and coordinates
     """
     sources: dict[Any, list[str]] = {}
     for step in steps:

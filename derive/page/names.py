@@ -1,4 +1,4 @@
-"""What prose may mention on a page: what is given, axes, coordinates, and each step by its key."""
+"""The names that prose may mention on a page: inputs, axes, coordinates, and each step by its key."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from derive.steps.derivation import Derivation
 
 
 def page_names(problem: Problem, derivation: Derivation, words: Phrases) -> dict[str, Any]:
-    """Each name with what stands in the text for it; what is given comes before a step of its name."""
+    """Return each name with its text; an input comes before a step of the same name."""
     described = problem.described.letters if problem.described else {}
     names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
     coordinates = (q for step in derivation.steps for q, _ in step.coordinates)

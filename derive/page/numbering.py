@@ -1,7 +1,7 @@
-"""The numbers of equations: one after the other, and on a page of more detail those that a page of less has already.
+"""The numbers of equations: consecutive; a page of more detail keeps the numbers of a page of less detail.
 
-What the page of less detail leaves out stands behind the number before it with a letter, (7a) behind (7): so every
-paper that is made of one derivation refers to an equation by one number.
+An equation that the page of less detail leaves out has the number before it with a letter, (7a) after (7). So every
+document of one derivation refers to an equation by one number.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from string import ascii_lowercase
 
 @dataclass(frozen=True, order=True)
 class Number:
-    """7, or 7a: the first of those behind it."""
+    """An equation number: 7, or 7a for the first equation after it that a page of less detail leaves out."""
 
     whole: int
     behind: int = 0
@@ -30,7 +30,7 @@ class Numbering(dict[str, Number]):
         self._like = like
 
     def add(self, key: str) -> None:
-        """The next number; one that was given up for that of another equation is free."""
+        """Assign the next number; a number that was replaced by that of another equation is free again."""
         last = max(self.values(), default=Number(0))
         self[key] = self._next(key, last)
 
@@ -42,6 +42,6 @@ class Numbering(dict[str, Number]):
 
 
 def _letters(count: int) -> str:
-    """a to z, then aa."""
+    """Return a to z, then aa."""
     more, last = divmod(count - 1, len(ascii_lowercase))
     return (_letters(more) if more else "") + ascii_lowercase[last] if count else ""

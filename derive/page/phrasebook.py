@@ -44,7 +44,7 @@ _SHAPE: dict[str, Any] = {
 
 
 class Phrase(str):
-    """A phrase, and by which keys it is found in its file."""
+    """A phrase, and the keys that lead to it in its file."""
 
     source: Source
     keys: tuple[str, ...]
@@ -55,7 +55,7 @@ class Phrase(str):
 
 
 class PhraseTable(dict[str, Any]):
-    """Phrases by their names; one that is missing is a fault of the file."""
+    """Phrases by their names; a missing phrase is an error of the file."""
 
     def __init__(self, source: Source, keys: tuple[str, ...]):
         super().__init__()
@@ -68,7 +68,7 @@ class PhraseTable(dict[str, Any]):
 
 
 def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> Complaint:
-    """That a step has no sentence, at the place of those that its rule has, or with the file where it is looked for."""
+    """Return the error that a step has no sentence, at the phrases of its rule or with the file for it."""
     message, place = f"`{key}`: no phrase for `{rule}` with the outcome `{outcome}`", None
     help_line = f"write `rules: {{{rule}: {{{outcome}: ...}}}}` in {SHOWN_AS}/{rule.partition('.')[0]}.yaml"
     if isinstance(of_rule, PhraseTable):
@@ -78,15 +78,15 @@ def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> 
 
 
 def read_phrases(folder: Path) -> PhraseTable:
-    """All phrases of a folder's files, or `Rejected` with the line at fault."""
+    """Return all phrases of a folder's files, or raise `Rejected` with the line of the error."""
     page = _phrases_of(folder / OF_EVERY_PAGE)
     for file in sorted(folder.glob("*.yaml")):
         if file.name != OF_EVERY_PAGE:
             _add(page, _phrases_of(file))
     for name in _SHAPE:
-        page[name]  # complains
+        page[name]  # raises the error
     if len(page["labels"]["points"]) != 2:
-        _wrong(page.source, ("labels", "points"), "the word for one point and that for several")
+        _wrong(page.source, ("labels", "points"), "a word for one point and one for several points")
     page["reasons"]["general"]
     return page
 
@@ -97,7 +97,7 @@ def _phrases_of(file: Path) -> PhraseTable:
     try:
         loaded = yaml.load(source.text, Loader=yaml.CSafeLoader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        yaml_tree(source)  # which tells what is wrong, and where
+        yaml_tree(source)  # reports the error and its line
         lines = str(error).splitlines() or [type(error).__name__]
         raise Rejected(Complaint("yaml", f"the phrases cannot be read: {lines[0]}", Place(shown_as, 1))) from None
     table: PhraseTable = _Checked(source).phrases(loaded, _SHAPE, ())
@@ -105,18 +105,18 @@ def _phrases_of(file: Path) -> PhraseTable:
 
 
 def _add(page: PhraseTable, topic: PhraseTable) -> None:
-    """The phrases of a topic to those of the page; what two files tell is told twice."""
+    """Add the phrases of a topic to those of the page; a phrase that two files have is an error."""
     for sort, table in topic.items():
         known = page.setdefault(sort, PhraseTable(page.source, (sort,)))
         for name, phrases in table.items():
             if name in known:
                 place = _place(topic.source, (sort, name))
-                raise Rejected(Complaint("phrases", f"another file has `{sort}.{name}` too", place))
+                raise Rejected(Complaint("phrases", f"another file also has `{sort}.{name}`", place))
             known[name] = phrases
 
 
 class _Checked:
-    """Puts places to phrases, and refuses another shape."""
+    """Adds places to phrases, and rejects files of any other structure."""
 
     def __init__(self, source: Source):
         self.source, self.count = source, 0
@@ -124,7 +124,7 @@ class _Checked:
     def phrases(self, value: Any, shape: Any, keys: tuple[str, ...]) -> Any:
         self.count += 1
         if self.count > MAX_PHRASES:
-            _wrong(self.source, keys, f"one of at most {MAX_PHRASES} phrases")
+            _wrong(self.source, keys, f"one of at most {MAX_PHRASES} phrases, but there are more")
         if shape == _TEXT:
             return self.text(value, keys)
         if isinstance(shape, list):
@@ -136,9 +136,11 @@ class _Checked:
         table = PhraseTable(self.source, keys)
         for name, each in value.items():
             if not isinstance(name, str):
-                _wrong(self.source, keys, f"a table of phrases by their names, and `{abridged(str(name))}` is none")
+                _wrong(
+                    self.source, keys, f"a table of phrases by their names, but `{abridged(str(name))}` is not a name"
+                )
             if name not in shape and _ANY not in shape:
-                message, help_line = f"there are no phrases of the sort `{abridged(name)}`", did_you_mean(name, shape)
+                message, help_line = f"`{abridged(name)}` is not a kind of phrase", did_you_mean(name, shape)
                 raise Rejected(Complaint("phrases", message, _place(self.source, (*keys, name)), help=help_line))
             table[name] = self.phrases(each, shape.get(name, shape.get(_ANY)), (*keys, name))
         return table
@@ -157,7 +159,7 @@ def _wrong(source: Source, keys: tuple[str, ...], wanted: str, help_line: str | 
 
 
 def _place(source: Source, keys: tuple[str, ...]) -> Place:
-    """The line of the last of these keys; the file is read again only to complain of it."""
+    """Return the line of the last of these keys; the file is read again only to report an error."""
     node, index = yaml.compose(source.text, Loader=yaml.CSafeLoader), 0
     for name in keys:
         pairs = node.value if isinstance(node, yaml.MappingNode) else []

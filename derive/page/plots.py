@@ -1,6 +1,6 @@
-"""The curves of a plot: its numbers, case by case, its range, and where each curve turns.
+"""The curves of a plot: its numbers, case by case, its range, and the extrema of each curve.
 
-A case says only what differs from the first one; what no case gives must have a number in the problem.
+A case states only what differs from the first one; a symbol that no case gives must have a number in the problem.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ DEGREE, DEGREES = pi / 180, "°"
 
 @dataclass(frozen=True)
 class Curve:
-    """One curve: the quantity in its SI unit, a function of one letter alone, and the numbers that are put in."""
+    """One curve: the quantity in its SI unit, a function of one symbol, and the numbers that are substituted."""
 
     expr: Expr
     variable: Symbol
@@ -35,8 +35,10 @@ class Curve:
 
 @dataclass(frozen=True)
 class Curves:
-    """The curves of a plot, the numbers that several of them share, and the unit of the horizontal axis: its name, and
-    how many there are in one SI unit."""
+    """The curves of a plot, the numbers that several of them share, and the unit of the horizontal axis.
+
+    `unit` is the name of that unit; `per_unit` is how many of it make one SI unit.
+    """
 
     curves: tuple[Curve, ...]
     unit: str
@@ -45,10 +47,10 @@ class Curves:
 
 
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
-    """Every curve of the plot with its extrema, or `Rejected` with what lacks a number."""
+    """Return every curve of the plot with its extrema, or raise `Rejected` with the symbols that need a number."""
     lower, upper = _range(problem, plot, placement)
     given = placement.cases if placement and placement.cases else ((),)
-    # A number for a letter that the curve does not have would be told of it, but not be true of it.
+    # A number for a symbol that does not occur in the curve would be shown although it has no effect.
     cases = [tuple(number for number in case if number.symbol in plot.expr.free_symbols) for case in given]
     changed = {number.symbol for case in cases[1:] for number in case}
     shared = tuple(number for number in cases[0] if number.symbol not in changed) if len(cases) > 1 else ()
@@ -106,19 +108,19 @@ def _curve(
 
 
 def panel_letters(curves: Curves) -> list[str]:
-    """By which letter each panel is called, where there are several."""
+    """Return the letter of each panel, if there are several."""
     several = len(curves.curves) > 1
     return [case_label(i) if several else "" for i, _ in enumerate(curves.curves)]
 
 
 def told_value(plot: Plot, extremum: Extremum) -> str:
-    """The value at an extremum with its unit, to the figures of the text, in the plot, its words and its caption."""
+    """Return the value at an extremum with its unit, with the same figures in the plot, its words and its caption."""
     shown = f"{extremum.value:#.4g}".rstrip(".") if extremum.value else "0"
     return _signed(f"{shown} {_unit(plot.kind)}")
 
 
 def with_unit(value: float, unit: str) -> str:
-    """A number to four figures with its unit; a degree sign stands close."""
+    """Return a number to four figures with its unit; a degree sign follows directly."""
     gap = "" if unit == "\u00b0" else " "
     return _signed(f"{value:.4g}{gap}{unit}")
 

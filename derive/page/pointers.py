@@ -1,6 +1,6 @@
-"""Results that lines above have already: a root by the sign of both roots, a principal moment by its entry.
+"""Results that earlier lines already have: a root by the sign of both roots, a principal moment by its entry.
 
-Below `full` the sentence of such a step points to those lines in place of lines of its own.
+Below `full` the sentence of such a step points to those lines and has none after it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ BOTH_ROOTS, ENTRIES = "answers.roots_together", {"rotation.entry", "rotation.ent
 
 
 def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
-    """The steps in whose lines the result stands, one for each of several values; none where a value is in no line."""
+    """Return the steps whose lines have the result, one for each of several values; none if a value is in no line."""
     inputs = [derivation.step(key) for key in step.inputs]
     if step.rule == "answers.one_of_two" and "sign" in dict(step.words):
         return tuple(each for each in inputs if each.rule == BOTH_ROOTS)
@@ -33,7 +33,7 @@ def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
 def pointed_out(
     sentence: Iterable[Inline], step: Step, having_it: Sequence[Step], words: Phrases
 ) -> tuple[Inline, ...]:
-    """The sentence of a step with what points to those lines in place of its own."""
+    """Return the sentence of a step with a pointer to those lines in place of its lines."""
     several = isinstance(step.symbol, MatrixBase)
     instead = _names_of_values(step, having_it, words) if several else _clause(step, having_it[0], words)
     nodes = [each for node in sentence for each in (instead if isinstance(node, Chain) else (node,))]
@@ -42,7 +42,7 @@ def pointed_out(
 
 
 def _names_of_values(step: Step, having_it: Sequence[Step], words: Phrases) -> tuple[Inline, ...]:
-    """I_1 = I_2 = I_xx and I_3 = I_zz."""
+    """Return I_1 = I_2 = I_xx and I_3 = I_zz."""
     letters: dict[object, Symbol] = {each.result: each.symbol for each in having_it}
     lines = listed(step.symbol, step.result)
     return joined([(Math(Relation(line.left, "=", letters[line.right])),) for line in lines], words.labels["and"])

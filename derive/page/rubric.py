@@ -1,8 +1,8 @@
-"""A rubric: the points of a part shared among its steps, in halves, so that they add up to those of the part.
+"""A rubric: the points of a part are divided among its steps, in halves, so that they add up to those of the part.
 
-An instructor may say it, `rubric: {lagrangian: 2, motion_theta: 1}` in a part; what is not said is shared by rule: a
-step counts once, an answer twice, and what is left over goes to the answers first. An answer in letters is the answer;
-its number is worth half a point, and nothing where that would leave some step with less.
+The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; the rest is divided by rule. A step
+counts once, an answer twice, and the remainder goes to the answers first. A symbolic answer counts as the answer; its
+number is worth half a point, and nothing where that would leave a step with less.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from derive.page.tree import Display, Document, PartPage
 from derive.steps.step import Step
 
 UNITS = (Fraction(1, 2), Fraction(1, 4))  # the least that a step may be worth: halves where they suffice
-ANSWER, STEP, NUMBER = 2, 1, 0  # how much each counts; a number behind its formula does not share
+ANSWER, STEP, NUMBER = 2, 1, 0  # how much each counts; a number after its formula does not share
 
 
 @dataclass(frozen=True)
@@ -31,14 +31,14 @@ class Weighed:
 
 @dataclass(frozen=True)
 class Credit:
-    """What a step is worth: one of the equations of the page."""
+    """The points of a step, which is one of the equations of the page."""
 
     equations: Equations
     points: Fraction
 
     @property
     def result(self) -> ChainLine:
-        """The last equation of the step, with its own left side."""
+        """Return the last equation of the step, with its left side."""
         lines = self.equations.lines
         left = next((line.left for line in reversed(lines) if line.left is not None), None)
         return replace(lines[-1], left=left)
@@ -47,10 +47,9 @@ class Credit:
 def credits_of(
     document: Document, said: Mapping[str, Mapping[Word, Fraction]], values: Iterable[Step] = ()
 ) -> dict[str, tuple[Credit, ...]]:
-    """The rubric of each part by its label; `said` is what the problem says, by label.
+    """Return the rubric of each part by its label; `said` is what the problem specifies, by label.
 
-    `values` are the steps that put numbers in. Parts that name no points share what those that do leave of the points
-    of the problem.
+    `values` are the steps that substitute numbers. Parts without points share the rest of the points of the problem.
     """
     into = {value.key: value.inputs for value in values}
     asked = [part for part in document.parts_shown if not part.extra]
@@ -70,7 +69,7 @@ def credits_of(
 
 
 def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighed]:
-    """The steps of a part; where a number follows its formula, the formula is the answer."""
+    """Return the steps of a part; where a number follows its formula, the formula is the answer."""
     groups = _groups(part)
     keys = {group.key for group in groups}
     formulas = {group.key: keys & set(into.get(group.key, ())) for group in groups}
@@ -85,7 +84,7 @@ def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighe
 
 
 def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Half a point for each number, if all steps can have as much; the rest is shared among the others."""
+    """Give half a point to each number, if all steps can have as much, and divide the rest among the others."""
     numbers = [group.equations.key for group in groups if group.weight == NUMBER]
     others = [group for group in groups if group.weight != NUMBER]
     worth = UNITS[0] if points >= UNITS[0] * len(groups) else Fraction(0)
@@ -94,7 +93,7 @@ def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
 
 
 def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """In whole units by largest remainder; where there is not enough for all, the answers and later steps have it."""
+    """Divide points in whole units by largest remainder; if there are too few, answers and later steps have them."""
     if not groups or points <= 0:
         return {}
     weights = [group.weight for group in groups]
@@ -105,12 +104,12 @@ def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fractio
     for i in order[: int(points / unit) - sum(counts)]:
         counts[i] += 1
     shares = {group.equations.key: unit * count for group, count in zip(groups, counts, strict=True)}
-    shares[groups[-1].equations.key] += points - sum(shares.values(), Fraction(0))  # what is less than a unit
+    shares[groups[-1].equations.key] += points - sum(shares.values(), Fraction(0))  # the remainder below one unit
     return {key: share for key, share in shares.items() if share}
 
 
 def faults_of_rubric(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) -> list[Complaint]:
-    """Steps that a rubric names, and that do not stand in their part."""
+    """Return errors for steps that a rubric names but that are not in their part."""
     faults = []
     for part in document.parts_shown:
         steps = [group.key for group in _groups(part)]

@@ -1,12 +1,12 @@
-"""What a level shows: which steps stand on their own, which a step that uses them tells or takes in, which lines stay.
+"""The selection of a level: steps with separate lines, steps that others mention or absorb, and lines that stay.
 
-    brief      the set-up, the law, the law with values put in, the result
-    standard   what a good teacher writes; algebra that one does in the head is left out
+    brief      the set-up, the law, the law with values substituted, the result
+    standard   what a good teacher writes; mental arithmetic is left out
     full       every line of every step
 
-Each rule says in its record how its steps are shown, for every problem. What a part asks for, what an
-instructor has words for or refers to by its number, stands on its own at every level; so does a step of which a line
-that is shown needs the letter or the number (`Needed`), so that a page never uses what it has not introduced.
+The record of each rule specifies how its steps are shown, for every problem. Some steps have separate lines at every
+level: answers, steps that the author rewords or refers to by number, and steps whose symbol or number a line needs
+(`Needed`). So a page never uses what it has not introduced.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ LESS = {
     LEFT_OUT: OWN,
     POINTED_OUT: OWN,
     OWN: OWN,
-}  # what becomes of a step whose letter is needed after all
+}  # the manner of a step whose symbol is needed after all
 
-LONGEST_CLAUSE = 24  # nodes of a value that is still told within a sentence
+LONGEST_CLAUSE = 24  # most nodes of a value within a sentence
 
 
 @dataclass(frozen=True)
 class Needed:
-    """Steps that the page turned out to need: for their letter, or for the number of their equation."""
+    """Steps that the page turned out to need: for their symbol, or for the number of their equation."""
 
-    letters: Mapping[str, int]  # key -> how often it was asked for
+    letters: Mapping[str, int]  # key -> how often it was needed
     numbers: frozenset[str] = frozenset()
 
     def with_more(self, letters: Iterable[str], numbers: Iterable[str]) -> Needed:
@@ -57,9 +57,9 @@ class Selection:
     """The steps of a derivation as a page of this level shows them.
 
     asked   keys of the answers
-    shown   what the problem's `show:` says, by key
-    worded  keys of the steps for which the problem has words of its own
-    values  the numbers of answers, by key: they may stand for the formula
+    shown   the problem's `show:`, by key
+    worded  keys of the steps that the problem rewords
+    values  the numbers of answers, by key: they may replace the formula
     """
 
     def __init__(
@@ -84,38 +84,41 @@ class Selection:
 
     @property
     def steps(self) -> Collection[Step]:
-        """All of them, shown or not, with the evidence of the lines that the level has written anew."""
+        """Return all steps, shown or not, with the evidence of the lines that the level has rewritten."""
         return self._steps.values()
 
     def manner(self, key: str) -> Manner:
         return self._manners.get(key, OWN)
 
     def having_it(self, step: Step) -> tuple[Step, ...]:
-        """The steps whose lines have the result of one that is pointed out."""
+        """Return the steps whose lines have the result of a step that points to them."""
         return self._having_it[step.key]
 
     def standing_for(self, keys: Collection[str]) -> set[str]:
-        """The steps in whose lines the results of these are."""
+        """Return the steps whose lines have these results."""
         pointed = {key for key in keys if self.manner(key) is POINTED_OUT}
         return (set(keys) - pointed) | {each.key for key in pointed for each in self._having_it[key]}
 
     def step(self, step: Step) -> Step:
-        """The step with the lines that are shown."""
+        """Return the step with the lines that are shown."""
         return self._steps.get(step.key, step)
 
     def standing_after(self, key: str, keys: Sequence[str]) -> list[Step]:
-        """The steps of a part that are shown behind this one."""
+        """Return the steps of a part that are shown after this one."""
         return [self._steps[each] for each in keys[keys.index(key) + 1 :] if self.stands(each)]
 
     def stands(self, key: str) -> bool:
         return self.manner(key) is OWN and self.shown.get(key) != "hidden"
 
     def could_stand(self, key: str) -> bool:
-        """Whether it is the level that keeps it from standing on its own, and not the instructor."""
+        """Return whether only the level hides the lines of a step, rather than the author."""
         return self.manner(key) is not OWN and self.shown.get(key) != "hidden"
 
     def _can_be_pointed_out(self, step: Step) -> bool:
-        """Whether lines above have its result, those of the same part if a part asks for it and has no number of it."""
+        """Return whether earlier lines have the result of a step, so that its sentence can point to them.
+
+        If a part asks for the step and it has no number, the lines must be in the same part.
+        """
         having_it = {each.key for each in self._having_it[step.key]}
         if not having_it or step.key in self.shown or step.key in self.needed.numbers or self.level is Level.FULL:
             return False
@@ -158,9 +161,10 @@ class Selection:
         return found
 
     def _lines(self, step: Step, repeats: bool, in_turn: bool) -> tuple[Form, ...]:
-        """The lines of the level; of steps of one form the first is shown as the level has it, the others briefly.
+        """Return the lines of the level; the first step of one form is shown as the level specifies, the others
+        briefly.
 
-        Those that follow it at once have the same sentence, and need their law even less.
+        Steps directly after it have the same sentence and need their law even less.
         """
         if self.level is Level.FULL or self.shown.get(step.key) == "full":
             return step.chain
@@ -171,12 +175,12 @@ class Selection:
 
 
 def needs_no_words(step: Step) -> bool:
-    """Whether the sentence before it may tell it along: it has no condition to tell."""
+    """Return whether the sentence before a step may describe it too: the step has no condition to state."""
     return step.display.told_along and dict(step.words).get("seen", "any") == "any"
 
 
 def _is_short(step: Step) -> bool:
-    """Whether it can be told within a sentence: `rho = M/V`."""
+    """Return whether the step fits within a sentence: `rho = M/V`."""
     value = step.result
     if step.symbol is None or isinstance(value, Relation | MatrixBase) and not _is_row(value):
         return False
@@ -188,5 +192,5 @@ def _length(value: Any) -> int:
 
 
 def _is_row(value: Any) -> bool:
-    """A vector is written in a row where it stands in a sentence."""
+    """Return whether the value is a vector, which a sentence shows in a row."""
     return isinstance(value, MatrixBase) and value.shape[1] == 1

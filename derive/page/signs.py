@@ -1,4 +1,4 @@
-"""What stands between a line of a chain and the one before it: equals, about equals, tends to."""
+"""The sign between a line of a chain and the one before it: equals, about equals, tends to."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ _BY_REASON = {"rounded": "approx", "series": "approx", "limit": "tends"}
 
 
 def sign_before(form: Form) -> str:
-    """The sign, as a page's tree names it: a number that is rounded and a series cut off are only about equal."""
+    """Return the sign by its name in the page's tree: rounded numbers and truncated series are only about equal."""
     return _BY_REASON.get(form.because, "equals")
 
 
 def sign_behind_name(step: Step, form: Form) -> str:
-    """The sign between the name of a step and one of its lines; derived from an approximation they are about equal."""
+    """Return the sign between the name of a step and a line; results of an approximation are only about equal."""
     sign = sign_before(form)
     return "approx" if sign == "equals" and step.about else sign
 
 
 def name_before(step: Step) -> Any:
-    """What stands on the left of the chain: the letter of the whole, before a limit or a series of it."""
+    """Return the left side of a chain: the step's symbol, or before a limit or a series the symbol of the whole."""
     return step.approximates if step.breaks_off and not isinstance(step.approximates, Str) else step.symbol
 
 
 def sign_of_relation(step: Step, word: str) -> str:
-    """An equation that is derived from an approximation holds only about."""
+    """Return the sign of an equation: if it follows from an approximation, it holds only about."""
     return "approx" if word == "equals" and not step.exact else word

@@ -1,6 +1,6 @@
-"""Where templates lie and are filled, those of phrases and of TeX: an unknown name is an error, and none reaches code.
+"""Templates of phrases and of TeX, and how they are filled: an unknown name is an error, and no template runs code.
 
-`<<name>>` is printed, `<% if ... %>` chooses, `<# ... #>` says nothing: no braces, which TeX has for itself.
+`<<name>>` is printed, `<% if ... %>` chooses, `<# ... #>` is a comment; braces are left to TeX.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from derive.errors import Complaint, Rejected
 
 
 def template_folder(root: Path) -> Path:
-    """The course's own templates if it has them, else those of the installation."""
+    """Return the course's templates if it has some, else those of the installation."""
     for folder in (each / "templates" for each in (root, Path(FOLDER), Path(FOLDER).parent)):
         if (folder / "phrases" / "en").is_dir():
             return folder
@@ -24,7 +24,7 @@ def template_folder(root: Path) -> Path:
 
 
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:
-    """An environment; `own` is what one kind of templates has besides: where they are found, how they print a value."""
+    """Return an environment; `own` are options of one kind of template: where to find them, how to print a value."""
     return ImmutableSandboxedEnvironment(
         variable_start_string="<<",
         variable_end_string=">>",
@@ -33,6 +33,6 @@ def environment(**own: Any) -> ImmutableSandboxedEnvironment:
         comment_start_string="<#",
         comment_end_string="#>",
         undefined=StrictUndefined,
-        autoescape=False,  # that would be HTML
+        autoescape=False,  # autoescape would be for HTML
         **own,
     )

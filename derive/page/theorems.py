@@ -1,7 +1,7 @@
-"""Theorems in their general form: each stands once on a page, before the first step that uses it.
+"""Theorems in their general form: each appears once on a page, before the first step that uses it.
 
-A page is a part of several documents, its own and that of its set. So it has the words for both, and the document that
-is typeset has the choice: it tells a theorem once, and in a later problem says which one has told it.
+A page is part of several documents: of its problem and of its set. So it has the words for both, and the typeset
+document chooses: it states a theorem once, and a later problem names the problem that stated it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from derive.steps.step import Level, Step
 
 
 def alone(document: Document) -> Document:
-    """The page as a document of its own: each theorem is told in a paragraph before the sentence that uses it."""
+    """Return the page as a separate document: a paragraph before the sentence that uses a theorem states it."""
 
     def of_part(part: PartPage) -> PartPage:
         return replace(part, blocks=tuple(_paragraphs(part.blocks)))
@@ -40,9 +40,9 @@ def _paragraphs(blocks: Iterable[Block]) -> Iterator[Block]:
 
 
 class Theorems:
-    """Those that the page has not told yet; a brief page has only their names, in the sentences of its steps.
+    """The theorems that the page has not stated yet; a brief page only names them, in the sentences of its steps.
 
-    A full page has every line, and so the laws of its steps, and needs no theorem that says them before.
+    A full page has every line, including the laws of its steps, so it needs no theorem that states them before.
     """
 
     def __init__(self, words: Phrases, level: Level, steps: Iterable[Step] = ()):
@@ -51,7 +51,7 @@ class Theorems:
         self._told: list[Theorem] = []
 
     def before(self, step: Step) -> tuple[Inline, ...]:
-        """What is told before that step: it stands at the head of its sentence."""
+        """Return the theorems to state before that step, at the beginning of its sentence."""
         used = [theorem for theorem in self._left if self._is_told_at(theorem, step)]
         self._left = [theorem for theorem in self._left if theorem not in used]
         self._told += used
@@ -65,7 +65,7 @@ class Theorems:
         return tuple(told)
 
     def without_law(self, step: Step) -> Step:
-        """The step without the line that says what a theorem has said already."""
+        """Return the step without the line that repeats a theorem."""
         said = any(theorem.name in step.law_in for theorem in self._told)
         if not (said and self._drops_laws and len(step.chain) > 1 and step.chain[0].because == "law"):
             return step

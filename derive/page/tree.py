@@ -1,4 +1,4 @@
-"""What a page is made of, before any format: title, statement, parts, sentences, displays, drawings."""
+"""The tree of a page, before any format: title, statement, parts, sentences, displays, drawings."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from derive.page.wording import Inline
 
 @dataclass(frozen=True)
 class Display:
-    """Equations set together, and what the margin says of them."""
+    """Equations set together, and what the margin says about them."""
 
     groups: tuple[Equations, ...]
     grades: frozenset[Grade] = frozenset()
@@ -29,11 +29,11 @@ class Display:
 
     @property
     def grade(self) -> Grade:
-        """How sure the least sure of its steps is."""
+        """Return the grade of the least sure of its steps."""
         return min(self.grades, key=LEAST_SURE_FIRST.index)
 
     def with_more(self, other: Display, beside: bool = False) -> Display:
-        """The lines of both, the others beside the last where they fit; the margin names the first step's routes."""
+        """Join the lines of both, next to the last if they fit; the margin names the first step's routes."""
         groups = (
             (*self.groups[:-1], self.groups[-1].beside(other.groups[0])) if beside else (*self.groups, *other.groups)
         )
@@ -42,7 +42,7 @@ class Display:
 
     @property
     def stops(self) -> tuple[str, ...]:
-        """The punctuation behind each step: commas between them, at the end what the sentence needs."""
+        """Return the punctuation after each step: commas between them, at the end what the sentence needs."""
         return (",",) * (len(self.groups) - 1) + (self.end,)
 
 
@@ -53,7 +53,7 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Illustration:
-    """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
+    """A drawing of the script: the common name of its files, its caption and number if any, and what it shows."""
 
     key: str
     stem: str
@@ -66,10 +66,10 @@ class Illustration:
 
 @dataclass(frozen=True)
 class Folded:
-    """What a page of more detail has besides, closed until a reader opens it."""
+    """Additional lines of a page of more detail, closed until a reader opens them."""
 
     blocks: tuple[Block, ...]
-    title: str = ""  # what of it, if it is not the lines of the equations before it
+    title: str = ""  # its heading, if it does not continue the equations before it
 
 
 Block = Paragraph | Display | Illustration | Folded
@@ -82,12 +82,12 @@ class PartPage:
     points: Fraction | None
     blocks: tuple[Block, ...]
     extra: bool = False
-    shown: bool = True  # not where only a page of more detail has it
+    shown: bool = True  # false if only a page of more detail shows the part
 
 
 @dataclass(frozen=True)
 class Document:
-    """One problem's page."""
+    """The page of one problem."""
 
     id: str
     title: tuple[Inline, ...]

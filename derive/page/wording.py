@@ -1,7 +1,7 @@
-"""From steps to words: the phrase of a rule and outcome, with its names filled by what was derived.
+"""From steps to words: the phrase of a rule and outcome, with its names filled from the derivation.
 
-A phrase gives nodes that know no format: `Text`, `Math`, `Ref` and one `Chain`. Only verified things have names here,
-so prose cannot point at anything else: an unknown name is an error.
+A phrase gives nodes that do not depend on a format: `Text`, `Math`, `Ref` and one `Chain`. Only verified quantities
+have names here, so prose cannot mention anything else: an unknown name is an error.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Text:
 
 @dataclass(frozen=True)
 class FigureRef(Text):
-    """A drawing of the page, in words: Figure 1. A document of somebody else has a number of its own for it."""
+    """A drawing of the page, in words: Figure 1. Other documents may number it differently."""
 
     key: str
 
@@ -57,7 +57,7 @@ class Math:
 
 @dataclass(frozen=True)
 class DimensionMark:
-    """A dimension, M L^2 T^-2, which is printed upright."""
+    """A dimension, M L^2 T^-2, printed upright."""
 
     dimension: Dimension
 
@@ -84,30 +84,30 @@ class ProblemRef:
 
 @dataclass(frozen=True)
 class Chain:
-    """Where the lines of the step go."""
+    """The position of the step's lines in its sentence."""
 
 
-AND = " and "  # between the outcome that a phrase is for and the rule of the step that it tells as well
-AFTER = " after "  # between what a phrase is for and what must stand just before it
+AND = " and "  # between the outcome of a phrase and the rule of a second step that the phrase covers
+AFTER = " after "  # between the outcome of a phrase and the outcome or rule that must come just before it
 
-JOINED = "<<chain>>"  # a phrase of a step that only goes on with the lines of the one before
-VALUE = "value_"  # what roles that tell the values of letters begin with
-# words by which a phrase chooses
+JOINED = "<<chain>>"  # a phrase of a step that only continues with lines after the step before
+VALUE = "value_"  # the prefix of roles that give the values of symbols
+# words on which a phrase may branch
 ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case", "between"}
 
-AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the name of the time
+AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the symbol of the time
 
 
 @dataclass(frozen=True)
 class ToldIn:
-    """The problem of a document that has told a theorem first: Problem 1."""
+    """The problem of a document that has stated a theorem first: Problem 1."""
 
     problem: str
 
 
 @dataclass(frozen=True)
 class ToldOnce:
-    """A theorem: what a page tells, and what it says where an earlier problem of the same document has told it."""
+    """A theorem: its statement, and the sentence that replaces it if an earlier problem of the document stated it."""
 
     name: str
     nodes: tuple[Inline, ...]
@@ -119,7 +119,7 @@ Inline = Text | Math | DimensionMark | UnitMark | Ref | ProblemRef | Chain | Tol
 
 @dataclass(frozen=True)
 class Phrases:
-    """The words of one language: see the files of `templates/phrases/en`."""
+    """The phrases of one language: see the files of `templates/phrases/en`."""
 
     rules: Mapping[str, Mapping[str, str]]
     routes: Mapping[str, Mapping[str, str]]
@@ -134,8 +134,10 @@ class Phrases:
     labels: Mapping[str, Any]
 
     def phrase(self, step: Step, before: Step | None = None) -> str:
-        """The sentence of a step; there may be another where a certain step was shown just before: one of the same
-        rule with that outcome, or one of that other rule."""
+        """Return the sentence of a step, which may depend on the step shown just before.
+
+        The phrase may be for a step after one of the same rule with a certain outcome, or after one of another rule.
+        """
         of_rule = self.rules.get(step.rule, {})
         preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule
         following = f"{step.outcome}{AFTER}{preceded_by}"
@@ -145,15 +147,15 @@ class Phrases:
         return phrase
 
     def of_both(self, step: Step, following: Step) -> str:
-        """The sentence of a step and the one after it together, if there is one."""
+        """Return one sentence for a step and the one after it, if there is one."""
         return self.rules.get(step.rule, {}).get(f"{step.outcome}{AND}{following.rule}", "")
 
     def setup(self, step: Step) -> str:
-        """What of its sentence is said although its lines are not shown: the axes, the coordinates."""
+        """Return the part of its sentence that is stated without its lines: the axes, the coordinates."""
         return self.setups.get(step.rule, {}).get(step.outcome, "")
 
     def reason(self, step: Step, because: str, before: str) -> str:
-        """Why a line follows from the line shown before it; a reason may hold only after a certain line."""
+        """Return why a line follows from the line shown before it; a reason may hold only after a certain line."""
         own = {**self.reasons["general"], **self.reasons.get(step.rule, {})}
         return own.get(f"{because}{AFTER}{before}", own.get(because, ""))
 
@@ -161,25 +163,25 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """That it is only named, or which equation has it already."""
+        """Return a note that the answer is only a definition, or that an earlier equation already states it."""
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
 
     def worth(self, points: Any, extra: bool = False) -> str:
-        """`1 point`, `2.5 points`; nothing if there are none, but a word for what is asked beyond the homework."""
+        """Return `1 point`, `2.5 points`, nothing without points, or the label of a question beyond the homework."""
         if extra:
             return str(self.labels["extra"])
         one, many = self.labels["points"]
         return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
 
     def term(self, word: str) -> tuple[Inline, ...]:
-        """The words for a word of a step or of what is given: `diagonal` is "the long diagonal"."""
+        """Return the words for a word of a step or of an input: `diagonal` is "the long diagonal"."""
         return filled(self.terms.get(word, word), AXIS_NAMES)
 
 
 def phrases(folder: Path) -> Phrases:
-    """Those of a folder of templates, as its files are now."""
+    """Return the phrases of a folder of templates, read again if its files have changed."""
     files = sorted((folder / "phrases" / "en").glob("*.yaml"))
     return _phrases(folder, tuple((file.name, file.stat().st_mtime_ns) for file in files))
 
@@ -196,14 +198,14 @@ _TOKEN = re.compile("\x00(\\d+)\x00")
 
 
 class _Nodes:
-    """Collects what a template prints: a node leaves a token in the text, and `split` puts it back."""
+    """Collects what a template prints: a node leaves a token in the text, and `split` restores the node."""
 
     def __init__(self) -> None:
         self.found: list[Inline | tuple[Inline, ...]] = []
 
     def token(self, value: Any) -> Any:
         if value == ():
-            return ""  # so that a phrase can ask whether there is anything
+            return ""  # so that a phrase can test whether there is a value
         if not isinstance(value, Inline | tuple):
             return value
         self.found.append(value)
@@ -222,16 +224,16 @@ class _Nodes:
 
 
 def filled(template: str, names: Mapping[str, Any]) -> tuple[Inline, ...]:
-    """A phrase of ours with its names filled in."""
+    """Return a phrase with its names filled in."""
     nodes = _Nodes()
     try:
         text = _compiled(template).render({name: nodes.token(value) for name, value in names.items()})
     except UndefinedError as error:
-        message = f"a phrase names what this step does not have: {error.message}"
+        message = f"a phrase uses a name that this step does not have: {error.message}"
         raise Rejected(Complaint("undefined-name", message, _place_of(template))) from error
     except DeriveError:
         raise
-    except Exception as error:  # whatever a phrase computes may fail in any way
+    except Exception as error:  # the code in a phrase may fail in any way
         said = (str(error).splitlines() or [""])[0] or type(error).__name__
         raise Rejected(Complaint("bad-phrase", f"a phrase cannot be read: {said}", _place_of(template))) from error
     return nodes.split(text.strip())
@@ -244,7 +246,7 @@ def _compiled(template: str) -> Template:
 
 @lru_cache(maxsize=2048)
 def names_asked(template: str) -> frozenset[str]:
-    """The names that a phrase asks for, whichever of them it prints."""
+    """Return the names that a phrase uses, whether or not it prints them."""
     return frozenset(find_undeclared_variables(_IN_PROSE.parse(template)))
 
 
@@ -258,9 +260,9 @@ def told(
     missing: Callable[[str, Place], None],
     referred: Callable[[Mention], Inline | None] = lambda mention: None,
 ) -> tuple[Inline, ...]:
-    """An instructor's prose with its mentions filled; an unknown name is reported and left out.
+    """Return the author's prose with its mentions filled; an unknown name is reported and left out.
 
-    `referred` is what a mention of an equation or a problem stands for, if it stands for anything.
+    `referred` returns the node for a mention of an equation or a problem, if there is one.
     """
     nodes: list[Inline] = []
     for piece in pieces:
@@ -280,7 +282,7 @@ def told(
 
 
 def joined(items: Iterable[tuple[Inline, ...] | Inline], last: str = "and") -> tuple[Inline, ...]:
-    """`a, b and c`."""
+    """Join items as in `a, b and c`."""
     groups = [item if isinstance(item, tuple) else (item,) for item in items]
     nodes: list[Inline] = []
     for i, group in enumerate(groups):
@@ -291,12 +293,12 @@ def joined(items: Iterable[tuple[Inline, ...] | Inline], last: str = "and") -> t
 
 
 def name_of(step: Step) -> Inline:
-    """What prose calls the result of a step: its symbol, or the number of a relation that has none."""
+    """Return how prose names the result of a step: its symbol, or the number of a relation, which has none."""
     return Ref(step.key) if step.symbol is None else Math(step.symbol)
 
 
 def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> dict[str, Any]:
-    """What a step's phrase may mention besides the page's keys."""
+    """Return the names that a step's phrase may mention in addition to the page's keys."""
     names: dict[str, Any] = {
         "chain": Chain(),
         "symbol": name_of(step),
@@ -315,18 +317,18 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
 
 
 def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]:
-    """b = c = a, where value_1 is b = a and value_2 is c = a; what else is told keeps its role."""
+    """Join b = a in value_1 and c = a in value_2 to b = c = a; other roles are unchanged."""
     values = [told for role, told in roles if role.startswith(VALUE) and isinstance(told, Relation)]
     joined_at: dict[Any, Any] = {}
     for each in values:
-        at = each.right if each.mark == "=" and isinstance(each.right, Symbol) else each  # a number is not joined
+        at = each.right if each.mark == "=" and isinstance(each.right, Symbol) else each  # equal numbers are not joined
         joined_at[at] = Relation(Relation(joined_at[at].left, "=", each.left), "=", at) if at in joined_at else each
     others = [(role, told) for role, told in roles if not (role.startswith(VALUE) and isinstance(told, Relation))]
     return [*others, *((f"{VALUE}{i}", told) for i, told in enumerate(joined_at.values(), 1))]
 
 
 def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
-    """The coordinates of a step and of those that follow it without words of their own: `theta, x and y`."""
+    """Return the coordinates of a step and of the steps after it without words: `theta, x and y`."""
     steps = [step]
     for each in following:
         if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:
@@ -337,7 +339,7 @@ def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, 
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:
-    """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
+    """Return an input in the form of the statement: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
     if given.word is not None:
         return words.term(given.word)
     if given.written is not None:
@@ -357,9 +359,9 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
 
 
 def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
-    """Prose in which the number of a letter is told only where the letter comes first: `a = 10 cm`, then `a`.
+    """Keep the number of a symbol only at its first occurrence: `a = 10 cm`, then `a`.
 
-    `last` is the word before the letters behind an expression: in `a/2 with a = 10 cm` it goes with them.
+    `last` is the word before the symbols after an expression: it is removed with them, as in `a/2 with a = 10 cm`.
     """
     kept: list[Inline] = []
     known: set[Any] = set()
@@ -379,14 +381,14 @@ def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
 
 
 def conversions(problem: Problem, put_in: Collection[Any]) -> list[tuple[Inline, ...]]:
-    """Those of the given numbers that are among what was put in; an angle in degrees may be put in as radians."""
+    """Return the conversions of given numbers that a step substitutes; angles in degrees may appear in radians."""
     given = [(m, problem.amounts[m.symbol]) for m in problem.measured]
     written = [(m, amount) for m, own in given for amount in dict.fromkeys((own, in_radians(own)))]
     return [conversion(m, amount, problem.figures) for m, amount in written if amount in put_in]
 
 
 def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Inline, ...]:
-    """`omega = 900 rpm = 30 pi rad/s = 94.25 rad/s` (rounded), `M = 1.5 kg`."""
+    """Return `omega = 900 rpm = 30 pi rad/s = 94.25 rad/s` (rounded), or `M = 1.5 kg`."""
     written = Amount(measured.number, measured.unit, measured.factor)
     nodes: list[Inline] = [Math(measured.symbol), Text(" = "), Math(written)]
     if measured.unit != amount.args[1].name:
@@ -401,13 +403,13 @@ def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Inline, ...]:
 
 
 def around_chain(nodes: tuple[Inline, ...]) -> tuple[tuple[Inline, ...], tuple[Inline, ...]]:
-    """What is said before the lines of a step, and behind them."""
+    """Return the words before the lines of a step, and the words after them."""
     at = next((i for i, node in enumerate(nodes) if isinstance(node, Chain)), len(nodes))
     return _trimmed(nodes[:at]), _trimmed(nodes[at + 1 :])
 
 
 def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
-    """Without blank text at either end."""
+    """Remove blank text at either end."""
     kept = list(nodes)
     while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):
         kept.pop(0)
@@ -417,10 +419,12 @@ def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
 
 
 def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> list[Complaint]:
-    """What `wording:` and `show:` say of steps that are not there, or of outcomes that no step of the rule has."""
+    """Return errors for keys of `wording:` and `show:` that are not steps, and for outcomes that their rule does not
+    have.
+    """
     here = {step.key: step for step in derivation.steps}
     in_another_case = {key for step in derivation.steps for key in step.stands_for}
-    known = {*here, *in_another_case, *derivation.unshown}  # the words of these wait for the part that was left out
+    known = {*here, *in_another_case, *derivation.unshown}  # `unshown`: of a part that was left out
     faults = []
     for section, key in [*(("wording", key) for key in problem.wording), *(("show", key) for key in problem.show)]:
         if key not in known:
@@ -431,6 +435,8 @@ def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> li
         outcomes = [name for name in phrases_of if AFTER not in name and AND not in name]
         if outcome != ANY_OUTCOME and outcomes and outcome not in outcomes:
             message, place = f"the step `{key}` has no outcome `{outcome}`", problem.place_of("wording", key, outcome)
-            help_line = did_you_mean(outcome, outcomes) or "they are " + ", ".join(f"`{each}`" for each in outcomes)
+            help_line = did_you_mean(outcome, outcomes) or "its outcomes are " + ", ".join(
+                f"`{each}`" for each in outcomes
+            )
             faults.append(Complaint("unknown-key", message, place, help=help_line))
     return faults

@@ -1,6 +1,6 @@
-"""A problem solved and printed in every format: what a worker hands to its parent, and what is kept between builds.
+"""A problem solved and printed in every format: a worker passes it to its parent, and builds keep it.
 
-It is plain text and numbers, and goes to JSON and back.
+It contains only text and numbers, so JSON can store it.
 """
 
 from __future__ import annotations
@@ -17,24 +17,24 @@ SourceFault = tuple[str, str, str, str, str]
 
 
 class Html(str):
-    """HTML that may stand on a page as it is. Whatever else a template prints is text, and is escaped."""
+    """HTML that a page contains unchanged. Anything else that a template prints is text, and is escaped."""
 
 
 class Tex(str):
-    """TeX that may stand on a page as it is. Whatever else a template prints is text, and is escaped."""
+    """TeX that a page contains unchanged. Anything else that a template prints is text, and is escaped."""
 
 
 @dataclass(frozen=True)
 class Rendered:
-    """One problem, solved and printed in the formats that were asked for.
+    """One problem, solved and printed in the requested formats.
 
     texts                   its page by the name of each format
     latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
     html, title_html        the solution and its title, for a page in a browser
-    papers                  fragments of the other papers that were asked for, in TeX by name and in HTML by `name.html`
-    counts                  the numbers of how it was checked, see `Checks.counts`
+    papers                  fragments of the other requested documents, in TeX by name and in HTML by `name.html`
+    counts                  the counts of its checks, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
-    source_faults           errata of the source and remarks on it: which of them, line, what is printed,
+    source_faults           errata of the source and remarks on it: which of the two, line, what is printed,
                             what is right (of an erratum), and why, as plain text
     """
 
@@ -66,7 +66,7 @@ class Rendered:
 
     @classmethod
     def from_data(cls, data: Any) -> Rendered | None:
-        """What `to_data` gave; nothing if the data are of any other shape."""
+        """Return the problem from the data of `to_data`; None if the data have another structure."""
         try:
             return cls(
                 id=_text(data["id"]),

@@ -1,4 +1,4 @@
-"""Bodies: where their centre of mass is, and their inertia about points, axes and directions."""
+"""Bodies: their centre of mass, and their inertia about points, axes and directions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from derive.stock.keys.results import RESULTS, Result, read_result
 
 AXES = "xyz"
 SIZES = ("length", "area", "volume")
-# the answers that depend on each key, by how their names begin
+# answers that depend on each key, by the beginning of their names
 DEPENDING = {
     "about": ("inertia_tensor", "parallel", "moment", "radius", "turned", "principal", "perpendicular"),
     "origin": ("centre_of_mass",),
@@ -50,35 +50,35 @@ DEPENDING = {
 
 @dataclass(frozen=True)
 class Questions(Record):
-    """What is asked of a body besides what it is."""
+    """The questions about a body, in addition to its description."""
 
     about: Word | None = key("the point of its tensor and of the axes of its moments: `apex`, `corner`, `pivot`", TEXT)
-    origin: Word | None = key("the point from which its centre of mass is counted", TEXT)
+    origin: Word | None = key("the point from which its centre of mass is measured", TEXT)
     direction: Tree | None = key("the axis of `moment_about`: `diagonal`, `x` or components", DIRECTION)
     turned: Mapping[Word, Tree] = key(
-        "by which angles the axes of `turned_tensor` are turned: `{z: alpha}`", mapping_of(SCALAR)
+        "the angles by which the axes of `turned_tensor` are rotated: `{z: alpha}`", mapping_of(SCALAR)
     )
 
 
 @dataclass(frozen=True)
 class OneOfManyKeys(Questions, BodyKeys):
-    """What describes one of several bodies."""
+    """The keys of one of several bodies."""
 
 
 @dataclass(frozen=True)
 class GivenBody(Questions):
-    """What describes a body, or several, and what is asked of them."""
+    """The keys of a body, or of several, and the questions about them."""
 
     body: BodyKeys | None = key("the body", BODY)
     bodies: Mapping[Word, OneOfManyKeys] = key(
         "several bodies by name, in place of one", mapping_of(record_of(OneOfManyKeys, "a body", "a mapping"))
     )
-    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
 
 
 @dataclass(frozen=True)
 class Asked:
-    """A body, and the points and axes about which is asked."""
+    """A body, and the points and axes of the questions about it."""
 
     described: DescribedBody
     about: str = "centre"
@@ -89,14 +89,14 @@ class Asked:
 
 @dataclass(frozen=True)
 class DescribedBodies(Described):
-    """Bodies in their letters."""
+    """Bodies in symbols."""
 
     bodies: tuple[Asked, ...] = ()
     results: tuple[Result, ...] = ()
 
 
 def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) -> DescribedBodies:
-    """What the keys say in the declared letters."""
+    """Return the description in the declared symbols."""
     known = InLetters(symbols)
     found: list[Asked] = []
     with faults:
@@ -113,7 +113,7 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
 
 
 def _without(written: GivenBody) -> tuple[tuple[Word, set[str]], ...]:
-    """For each key that specifies a point or an axis, the answers that do not depend on it."""
+    """Return, for each key that specifies a point or an axis, the answers that do not depend on it."""
     own = {f"{name.replace(' ', '_')}_": keys for name, keys in written.bodies.items()}
     asks = [*Answers(Asked(DescribedBody("", (), True))).asks()]
     every = {f"{prefix}{name}" for prefix in own or [""] for name in asks}
@@ -141,7 +141,7 @@ def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: I
 
 
 def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
-    """What is asked of one body; what it does not say is as for all."""
+    """Return the questions about one body; missing ones are those for all bodies."""
     about, origin = own.about or others.about, own.origin or others.origin
     directions = Directions(known)
     direction = own.direction or others.direction
@@ -158,7 +158,7 @@ def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLett
 
 @dataclass(frozen=True)
 class Elsewhere:
-    """About which other point or axis an answer is wanted, and what it is called."""
+    """The other point or axis of an answer, and its name."""
 
     key: str
     about: Word | None
@@ -168,7 +168,7 @@ class Elsewhere:
 
 
 class Answers:
-    """What parts may ask of one body, each derived when it is first asked for."""
+    """Answers of one body, each derived when it is first needed."""
 
     def __init__(self, asked: Asked):
         self.asked = asked
@@ -189,8 +189,8 @@ class Answers:
     def size(self, name: str) -> Quantity:
         found = getattr(self.body, "extent", None)
         if self.body.filling != name or not isinstance(found, Quantity):
-            message = f"the {name} of {self.asked.described.told} is no step: it is known"
-            rejected("no-such-answer", message, None, "ask for `density`, which tells it")
+            message = f"the {name} of {self.asked.described.told} is not a step: it is known"
+            rejected("no-such-answer", message, None, "ask for `density`, which shows it")
         return found
 
     def mass(self) -> Quantity:
@@ -202,14 +202,14 @@ class Answers:
     def density(self) -> Quantity:
         found = self.body.density
         if found.step.kind == "mass":
-            rejected("no-such-answer", f"{self.asked.described.told} has no density that is to be found", None)
+            rejected("no-such-answer", f"the density of {self.asked.described.told} is given", None)
         return found
 
     def moment(self, axis: str) -> Quantity:
         return moment_of_inertia(self.body, axis, self.about, f"I_{axis}", f"moment_of_inertia_{axis}")
 
     def entry(self, pair: str) -> Quantity:
-        """The step that an entry of the tensor is, or one that reads it off."""
+        """Return the step of an entry of the tensor, or a step that reads it off."""
         tensor = self.inertia_tensor
         found = next((parent for parent in tensor.parents if parent.key == f"{tensor.key}_{pair}"), None)
         return found or tensor_entry(tensor, pair, key=f"{tensor.key}_{pair}")
@@ -238,13 +238,13 @@ class Answers:
     def perpendicular_axes(self) -> Quantity:
         across = self.body.flat_across
         if across is None:
-            message = f"the theorem of perpendicular axes is about flat bodies, but {self.asked.described.told} is none"
+            message = f"the perpendicular-axis theorem needs a flat body, but {self.asked.described.told} is not flat"
             rejected("not-flat", message, None)
         first, second = (self.moment(axis) for axis in AXES if axis != across)
         return perpendicular_axes(first, second)
 
     def parallel_axes(self) -> Quantity:
-        """From the centre to the point of the tensor; where that is the centre, from where its own axes begin."""
+        """Move the tensor from the centre to its point; if that is the centre, from the origin of the body's axes."""
         if self.about == "centre":
             start = self.body.reference
             there = inertia_tensor(self.body, start, key=f"{start.replace(' ', '_')}_tensor")
@@ -253,7 +253,7 @@ class Answers:
         return moved_from_centre(central, centre_of_mass(self.body, self.about), key="parallel_axes")
 
     def called(self, name: Word, own: str, another: str, asked: Elsewhere) -> Quantity:
-        """The answer of that name under the name of a result; `another` is the letter of its tensor."""
+        """Return the answer under the name of a result; `another` is the symbol of its tensor."""
         depends = {"about": asked.about, "origin": asked.origin, "direction": asked.direction}
         for given in (given for given, value in depends.items() if value is not None):
             if not own.startswith(DEPENDING[given]):
@@ -275,13 +275,13 @@ class Answers:
         rejected("wrong-argument", f"`answer` yields {known}, not `{name}`", name.place)
 
     def _tensor_of(self, asked: Elsewhere, another: str) -> Quantity:
-        """About the point of a result, under a key of its own; else that which parts ask for."""
+        """Return the tensor about the point of a result under a separate key; else the tensor that parts ask for."""
         if not asked.about:
             return inertia_tensor(self.body, self.about)
         return inertia_tensor(self.body, self.about, symbol=another, key=f"{asked.key}_tensor")
 
     def asks(self) -> dict[str, Callable[[], object]]:
-        """Every name that a part may ask by."""
+        """Return every name that a part may ask for."""
         pairs = [first + second for n, first in enumerate(AXES) for second in AXES[n:]]
         return {
             "centre_of_mass": lambda: self.centre_of_mass,
@@ -303,7 +303,7 @@ class Answers:
         }
 
     def centre_component(self, axis: str) -> Quantity:
-        """The step that it is, or one that reads it off."""
+        """Return the step of a component, or a step that reads it off."""
         key = f"centre_of_mass_{axis}"
         along = key if axis != "z" else "centre_of_mass_on_axis"
         centre = self.centre_of_mass
@@ -315,7 +315,7 @@ class Answers:
 
 
 def solve(described: DescribedBodies, asked: Sequence[Word]) -> dict[str, object]:
-    """The answers by the names that parts ask for."""
+    """Return the answers by the names that parts ask for."""
     of = _answers(described)
     for one in of.values():
         drawn(one.body)
@@ -323,7 +323,7 @@ def solve(described: DescribedBodies, asked: Sequence[Word]) -> dict[str, object
 
 
 def _answers(described: DescribedBodies) -> dict[str, Answers]:
-    """Those of each body, by what stands before their names."""
+    """Return the answers of each body, by the prefix of their names."""
     called = {one.described.called.replace(" ", "_"): one for one in described.bodies}
     return {f"{name}_" if name else "": Answers(one) for name, one in called.items()}
 
@@ -348,7 +348,7 @@ def _elsewhere(
     symbol: str | None,
     of: Mapping[str, Answers],
 ) -> Quantity:
-    """An answer about another point or axis than the one given."""
+    """Return an answer about another point or axis than the given one."""
     prefix = max((prefix for prefix in of if wanted.startswith(prefix)), key=len, default=None)
     if prefix is None:
         rejected("no-such-answer", f"`{wanted}` is not an answer of one of these bodies", wanted.place)
@@ -363,7 +363,7 @@ def _elsewhere(
 
 
 def every(described: DescribedBodies) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-    """All that parts may ask for, or why it cannot be derived."""
+    """Return every answer that parts may ask for, or why it cannot be derived."""
     return _by_name(described, _answers(described)).every()
 
 

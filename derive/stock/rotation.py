@@ -1,4 +1,4 @@
-"""Rigid bodies that turn: angular momentum, energy and torque, Euler's equations, and whether a rotation is stable."""
+"""Rigid bodies that rotate: angular momentum, energy, torque, Euler's equations, and the stability of a rotation."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ from derive.stock.keys.outlines import drawn_free, drawn_turning
 from derive.stock.keys.results import RESULTS, Result, read_result
 
 AXES = "xyz"
-CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their letters
-MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # of a rotation that changes
+CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their symbols
+MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # for a rotation that changes
 KINDS_OF_COMPONENTS = {
     "moments": "moment of inertia",
     "rates": "angular speed",
@@ -66,7 +66,7 @@ CENTRE_OF_MASS, FIXED_POINT = "centre_of_mass", "fixed_point"
 
 @dataclass(frozen=True)
 class RotationKeys(Record):
-    """What describes a body that turns."""
+    """The keys of a body that rotates."""
 
     body: BodyKeys | None = key("the body", BODY)
     moments: tuple[Tree, ...] = key(
@@ -74,26 +74,26 @@ class RotationKeys(Record):
         list_of(SCALAR, "three moments of inertia, `[A, B, C]`", length=3),
     )
     about: Word | None = key("the point that is fixed; by default the centre of mass", TEXT)
-    rate: Tree | None = key("the constant rate at which it turns", SCALAR)
-    along: Tree | None = key("the axis about which it turns: `diagonal`, `x` or components", DIRECTION)
+    rate: Tree | None = key("the constant rate of rotation", SCALAR)
+    along: Tree | None = key("the axis of rotation: `diagonal`, `x` or components", DIRECTION)
     rates: tuple[Tree, ...] = key(
         "the components of a constant angular velocity, in place of `rate` and `along`",
         list_of(SCALAR, "three angular speeds", length=3),
     )
     start: tuple[Tree, ...] = key(
-        "the components of the angular velocity at one moment, of a body on which no torque acts",
+        "the components of the angular velocity at one instant, for a body on which no torque acts",
         list_of(SCALAR, "three angular speeds", length=3),
     )
     torque: tuple[Tree, ...] = key(
-        "the torque on a body that turns in any way, along its axes; by default none",
+        "the components along its axes of the torque on a body that rotates in any way; by default none",
         list_of(SCALAR, "three torques", length=3),
     )
-    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
 
 
 @dataclass(frozen=True)
 class DescribedRotation(Described):
-    """A rotation in its letters."""
+    """A rotation in symbols."""
 
     body: DescribedBody | None = None
     moments: tuple[Expr, Expr, Expr] | None = None
@@ -108,7 +108,7 @@ class DescribedRotation(Described):
 
 
 def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedRotation:
-    """What the keys say in the declared letters."""
+    """Return the description in the declared symbols."""
     known = InLetters(symbols)
     found: dict[str, Any] = {}
     with faults:
@@ -124,7 +124,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         with faults:
             if written.torque and steady in written.values_at:
                 message = (
-                    f"`torque` has no effect beside `{steady}`: the torque that keeps up a given rotation is derived"
+                    f"`torque` has no effect with `{steady}`: the torque that maintains a given rotation is derived"
                 )
                 rejected("unused-key", message, written.places["torque"], f"leave it or `{steady}` out")
     with faults:
@@ -172,7 +172,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
-    """The answers that do not depend on the `rate` of a rotation that is disturbed, and those not on the `torque`."""
+    """Return the answers that do not depend on the `rate` of a disturbed rotation, or not on the `torque`."""
     asks = {*Answers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
@@ -186,14 +186,14 @@ def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
 def _one_way(written: RotationKeys, first: str, second: str, required: bool = False) -> None:
     both = [name for name in (first, second) if name in written.values_at]
     if len(both) == 2:
-        message = f"`{second}` is given, and `{first}` too"
+        message = f"`{second}` and `{first}` are both given"
         rejected("unknown-key", message, written.places[first], "leave one of them out")
     if required and not both:
         rejected("missing-key", f"`given` needs `{first}` or `{second}`", written.places[""])
 
 
 def _point(written: RotationKeys, body: DescribedBody | None) -> str:
-    """The point that stays at rest: one of the body's; of a body that is told by its moments, whether it is held."""
+    """Return the point at rest: a point of the body, or for a body specified by its moments, whether it is held."""
     if written.body is not None:
         return body.point(written.about) if body is not None and written.about else "centre"
     if written.about is None:
@@ -206,7 +206,7 @@ def _point(written: RotationKeys, body: DescribedBody | None) -> str:
 
 
 class Answers:
-    """What parts may ask of a rotation, each derived when it is first asked for."""
+    """Answers of a rotation, each derived when it is first needed."""
 
     def __init__(self, described: DescribedRotation):
         self.described = described
@@ -226,24 +226,24 @@ class Answers:
 
     @property
     def is_given(self) -> bool:
-        """Whether the angular velocity is, for good or for one moment."""
+        """Return whether the angular velocity is given, constant or at one instant."""
         return bool(self.described.along or self.described.rates or self.described.start)
 
     @cached_property
     def spin(self) -> Quantity:
-        """The constant angular velocity, or that of one moment."""
+        """Return the constant angular velocity, or the one at one instant."""
         if self.described.start:
             return momentary_angular_velocity(self.described.start, self.about, key="spin")
         if self.described.rates:
             return constant_angular_velocity(self.described.rates, self.about, key="spin")
         rate, along = self.described.rate, self.described.along
         if rate is None or along is None:
-            message = "nothing says how this body turns"
+            message = "the rotation of this body is not specified"
             rejected("missing-key", message, self.described.place, "give `rate` and `along`, `rates`, or `start`")
         if self.body is not None:
             return spin(rate, along=self.body.direction(along.named), through=self.about)
         if along.named.name == "diagonal":
-            message = "a body that is told by its moments has no diagonal"
+            message = "a body specified by its moments has no diagonal"
             rejected("no-such-axis", message, self.described.place, "write `along: x`, or components")
         components = along.components if not along.is_name else tuple(int(along.named.name == axis) for axis in AXES)
         name = along.named.name or "components"
@@ -251,7 +251,7 @@ class Answers:
 
     @cached_property
     def changing(self) -> Quantity:
-        """An angular velocity that changes in any way."""
+        """Return an angular velocity that changes in any way."""
         return changing_angular_velocity(self.about)
 
     @cached_property
@@ -273,7 +273,7 @@ class Answers:
         return axis_of_symmetry(self.inertia_tensor)
 
     def between(self, name: str) -> tuple[Quantity, Quantity]:
-        """The two vectors that make an angle of that name."""
+        """Return the two vectors of the angle of that name."""
         axis, omega, L = self.axis_of_symmetry, self.spin, self.angular_momentum
         return {"body_cone": (axis, omega), "space_cone": (L, omega), "tilt": (axis, L)}[name]
 
@@ -285,8 +285,8 @@ class Answers:
 
     def precession_rate(self) -> Quantity:
         if not self.described.start:
-            message = "free precession is that of a body on which no torque acts"
-            rejected("missing-key", message, self.described.place, "give its angular velocity at one moment, `start`")
+            message = "free precession needs a body on which no torque acts"
+            rejected("missing-key", message, self.described.place, "give its angular velocity at one instant, `start`")
         return precession_rate(self.inertia_tensor, self.angular_momentum)
 
     # -- a rotation that changes ----------------------------------------------------------------------------------
@@ -301,7 +301,7 @@ class Answers:
     def equations(self) -> tuple[Quantity, Quantity, Quantity]:
         self._along_principal_axes()
         if self.described.along or self.described.rates:
-            message = "Euler's equations are about a body that turns in any way, but its rotation is given"
+            message = "Euler's equations need a body that rotates in any way, but its rotation is given"
             rejected("is-steady", message, None, "leave out `along` and `rates`")
         rate = rate_in_space(self.changing_momentum, self.changing)
         acting = self.described.torque
@@ -312,7 +312,7 @@ class Answers:
 
     def _along_principal_axes(self) -> None:
         if not self.inertia_tensor.value.is_diagonal():
-            message = "the axes of this body are no principal axes, along which Euler's equations are"
+            message = "Euler's equations need principal axes, but the axes of this body are not principal"
             rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
 
     @cached_property
@@ -376,7 +376,7 @@ class Answers:
         return vector_component(getattr(self, vector), axis, key=f"{vector}_{axis}")
 
     def asks(self) -> dict[str, Callable[[], object]]:
-        """Every name that a part may ask by."""
+        """Return every name that a part may ask for."""
         of_axes: dict[str, Callable[[], object]] = {}
         for axis in AXES:
             of_axes[f"stability_{axis}"] = partial(self.stability, axis)
@@ -409,13 +409,13 @@ class Answers:
 
 
 def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, object]:
-    """The answers by the names that parts ask for."""
+    """Return the answers by the names that parts ask for."""
     answers = Answers(described)
     found = _by_name(described, answers).answers(asked)
     if described.body is not None:
         drawn_turning(answers, "angle_between" in asked)
     elif described.about in ("centre", CENTRE_OF_MASS):
-        turns = {"changing", "angular_momentum"} <= vars(answers).keys()  # as far as what is asked has needed them
+        turns = {"changing", "angular_momentum"} <= vars(answers).keys()  # whether the answers have needed them
         drawn_free(answers, turns and not (described.rate or described.start or described.torque))
     return found
 
@@ -426,7 +426,7 @@ def _by_name(described: DescribedRotation, answers: Answers) -> ByName:
 
 
 def every(described: DescribedRotation) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-    """All that parts may ask for, or why it cannot be derived."""
+    """Return every answer that parts may ask for, or why it cannot be derived."""
     return _by_name(described, Answers(described)).every()
 
 

@@ -60,19 +60,19 @@ from derive.stock.keys.results import RESULTS, Result, names, read_result, writt
 
 STATE = mapping_of(SCALAR)
 RELATIONS = as_written(one_or_more(SCALAR.schema), "a relation such as `l < r_0`, or a list of them")
-POSITIVE_CONSTANT = "positive"  # before the letter of a constant, as in `positive length`
+POSITIVE_CONSTANT = "positive"  # before the symbol of a constant, as in `positive length`
 INDIFFERENT_TO_STATES = (
     "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
     "energy_function_rate", "hamiltonian", "hamilton_equations", "no_slip", "angular_velocity", "accelerations",
     "multipliers",
 )  # fmt: skip
 OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
-SYSTEM = "system"  # what the drawing of it is called
+SYSTEM = "system"  # the name of its drawing
 
 
 @dataclass(frozen=True)
 class SystemKeys(Record):
-    """What describes a system."""
+    """The keys of a system."""
 
     coordinates: Mapping[Word, SortOfLetter] = key(
         "what varies: `theta: angle`, `x: length`, `r: positive length`, `beta: angle in (0, pi/2)`",
@@ -80,7 +80,7 @@ class SystemKeys(Record):
         required=True,
     )
     axes: Mapping[Word, tuple[Mapping[Word, Tree], ...]] = key(
-        "axes that turn, by the turns that lead to them from those of space: `hoop: [{z: omega*t}]`", TURNS
+        "rotating axes, by the rotations that lead to them from the axes of space: `hoop: [{z: omega*t}]`", TURNS
     )
     points: Mapping[Word, WrittenPlace] = key(
         "places by name: `A: [l*sin(theta), -l*cos(theta)]`, `B: {from: A, by: [x, y]}`; the last component is upwards",
@@ -92,37 +92,37 @@ class SystemKeys(Record):
     rolling: Sequence[RollingKeys] = key("bodies that roll without slipping", ROLLING)
     gravity: Tree | None = key("the acceleration of free fall, downwards; without gravity nothing has weight", SCALAR)
     springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
-    central: Sequence[CentralKeys] = key("potential energies of the distance of two places", CENTRAL)
+    central: Sequence[CentralKeys] = key("potential energies that depend on the distance between two places", CENTRAL)
     lagrangian: Tree | None = key(
         "the Lagrangian itself, given as a formula of coordinates, their rates and `t`, in place of all bodies: "
-        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may stand beside it",
+        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may be added",
         SCALAR,
     )
     potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
     forces: Sequence[ForceKeys] = key("given forces and torques", FORCES)
-    damping: Sequence[DampingKeys] = key("drag against a velocity, in proportion to it", DAMPING)
+    damping: Sequence[DampingKeys] = key("drag opposite and proportional to a velocity", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
-    constraints: Sequence[ConstraintKeys] = key("conditions that forces keep", CONSTRAINTS)
-    blow: BlowKeys | None = key("what happens in a moment: impulses and collisions", BLOW)
+    constraints: Sequence[ConstraintKeys] = key("conditions kept by constraint forces", CONSTRAINTS)
+    blow: BlowKeys | None = key("impulses and collisions at one instant", BLOW)
     conserved: Mapping[Word, Tree] = key(
-        "letters for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or what they are, "
+        "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
         "`psi: C*s`",
         mapping_of(SCALAR),
     )
     assume: Tree | None = key(
-        "relations between constant letters that hold: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
+        "relations between constant symbols that are true: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
     )
     at: Tree | None = key(
-        "the state about which equations are linearised and stability is judged: `{theta: 0}`, or one of the states of "
-        "rest by its name, `rest_3`; by default all of them",
+        "the state about which equations are linearised and stability is decided: `{theta: 0}`, or an equilibrium by "
+        "its name, `rest_3`; by default all equilibria",
         as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
     )
-    results: Mapping[Word, Record] = key("what is made of answers, by names of your own", RESULTS)
+    results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
 
 
 @dataclass(frozen=True)
 class DescribedSystem(Described):
-    """A system in its letters; those of forces of constraint and of constant momenta are `brought` in somewhere."""
+    """A system in symbols; `brought` are those of constraint forces and constant momenta, with their places."""
 
     coordinates: tuple[tuple[str, str, bool], ...] = ()
     parts: tuple[Part, ...] = ()
@@ -140,7 +140,7 @@ class DescribedSystem(Described):
 
 
 def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
-    """What the keys say in the declared letters and in the coordinates."""
+    """Return the description in the declared symbols and the coordinates."""
     letters = coordinate_letters(written.coordinates, symbols, faults)
     known = InLetters({**symbols, **letters})
     places = Places(written.points, written.axes, known, {name: one.at for name, one in written.particles.items()})
@@ -167,7 +167,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     with faults:
         names = {str(name) for name in written.bodies}
         parts += each([partial(one.part, places, known, names) for one in written.rolling])
-    with faults:  # friction is in proportion to what keeps a condition
+    with faults:  # friction is proportional to the constraint force
         with_multipliers = InLetters({**known.letters, **_multipliers(parts)})
         with_multipliers.numbers = known.numbers
         acting: list[Any] = [*written.forces, *written.damping]
@@ -235,7 +235,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
 
 
 def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
-    """The answers that do not depend on the state `at`, and those that do not depend on `conserved`."""
+    """Return the answers that do not depend on `at`, `conserved` and `blow`."""
     of_each = ("motion", "momentum", "acceleration")
     one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
     general = one | {*found, *INDIFFERENT_TO_STATES}
@@ -261,20 +261,20 @@ def _value(node: Tree | None, name: str, kind: str, letters: InLetters, faults: 
 def _momenta(
     written: Mapping[Word, str], coordinates: Mapping[str, Declared], lagrangian: str | None
 ) -> dict[str, Declared]:
-    """The momenta of coordinates, which functions of both hold: `x*p_y - y*p_x`."""
+    """Return the momenta of coordinates, for functions of both: `x*p_y - y*p_x`."""
     kinds = {f"p_{q}": kind_of_momentum(coordinates[q].kind, lagrangian) for q in written if q in coordinates}
     return {name: Declared(name, scalar(name), kind) for name, kind in kinds.items() if kind is not None}
 
 
 def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:
-    """The letters of forces of constraint, which results may be solved for."""
+    """Return the symbols of constraint forces, for which results may be solved."""
     makers = ("constraint", "rolling")
     names = [dict(part.named)["force"] for part in parts if part.maker in makers and "force" in dict(part.named)]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
 
 def letters_at(written: SystemKeys) -> list[Word]:
-    """The letters that the description brings in besides its coordinates, where they stand."""
+    """Return the symbols that the description introduces in addition to its coordinates, with their places."""
     forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
     momenta = [Word.at(_letter(word)[0], word.place) for word in _words(written.conserved).values()]
     return [*(force for force in forces if force), *(letter for letter in momenta if is_letter(letter))]
@@ -285,15 +285,15 @@ def _words(written: Mapping[Word, Tree]) -> dict[Word, Word]:
 
 
 def _check_different(brought: Sequence[Word]) -> None:
-    """Of two letters one is another."""
+    """Check that all these symbols are different."""
     for i, word in enumerate(brought):
         if word in brought[:i]:
-            message = f"`{word}` stands for something else already"
-            rejected("letter-clash", message, word.place, "use another letter")
+            message = f"`{word}` already denotes something else"
+            rejected("letter-clash", message, word.place, "use another symbol")
 
 
 def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: InLetters) -> dict[str, Declared]:
-    """The letters of the rates of steady motions, in the order of the coordinates that have no value there."""
+    """Return the symbols for the rates of steady motions, in the order of the coordinates without a value there."""
     found = {}
     for result in written.results.values():
         held = written_in(result)
@@ -301,7 +301,7 @@ def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: I
             placed = {str(letter) for letter, _ in held["values"].items()} if "values" in held else set()
             turning = [q for q in written.coordinates if q in letters and q not in placed]
             for q, name in zip(turning, names(held.get("symbol")), strict=False):
-                known.unused(name, "leave it out of `symbols`, or give the rate another letter")
+                known.unused(name, "leave it out of `symbols`, or give the rate another symbol")
                 found[str(name)] = Declared(str(name), scalar(name, positive=True), kind_of_rate(letters[q].kind))
     return found
 
@@ -309,23 +309,25 @@ def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: I
 def _constants(
     written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters, faults: Faults
 ) -> dict[str, Declared]:
-    """The letters of constant momenta."""
+    """Return the symbols of constant momenta."""
     found = {}
     for q in (q for q in written if q not in letters):
-        faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=did_you_mean(q, letters))
+        faults.error(
+            "no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=did_you_mean(q, letters)
+        )
     for q, word in _words(written).items():
         name, is_positive = _letter(word)
         if q not in letters or not is_letter(name):
-            continue  # an expression is its value, see `_kept`
+            continue  # an expression is the value of the momentum, see `_kept`
         with faults:
-            known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another letter")
+            known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another symbol")
         kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
         found[name] = Declared(name, constant(name, positive=is_positive), kind)
     return found
 
 
 def _kept(written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters) -> list[tuple[str, Expr]]:
-    """The values of constant momenta that are told by an expression, `psi: C*s`."""
+    """Return the values of constant momenta that are given by an expression, `psi: C*s`."""
     found = []
     for q, node in written.items():
         if q not in letters or isinstance(node, Scalar) and is_letter(_letter(node.word)[0]):
@@ -336,7 +338,7 @@ def _kept(written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: 
 
 
 def _letter(word: Word) -> tuple[str, bool]:
-    """The letter of a constant, and whether it is counted so that it is positive."""
+    """Return the symbol of a constant, and whether it is declared positive."""
     name = word.removeprefix(f"{POSITIVE_CONSTANT} ").strip()
     return name, name != word
 
@@ -352,7 +354,7 @@ def _state(
     for q, node in written.items():
         if q not in coordinates:
             help_line = did_you_mean(q, coordinates)
-            faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=help_line)
+            faults.error("no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=help_line)
             continue
         with faults:
             value = letters.of_kind(node, str(q), coordinates[q].kind)
@@ -362,14 +364,14 @@ def _state(
 
 
 def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
-    """About an end of its range, or beyond it, nothing of small displacements to both sides is known."""
+    """Reject a state at an end of its range or beyond: small displacements need room on both sides."""
     if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
-        message = f"`{q}` lies between {lies.least} and {lies.greatest}, so that {value} is no state to start from"
+        message = f"`{q}` lies between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"
         rejected("range", message, q.place, help=f"give `{q}` a wider range, or none")
 
 
 def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object]:
-    """The answers by the names that parts ask for, and a drawing of the system."""
+    """Return the answers by the names that parts ask for, and draw the system."""
     of = Answers(described)
     if described.given is None:
         with told_at(described.place):
@@ -381,7 +383,7 @@ def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object
 
 
 def every(described: DescribedSystem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-    """All that parts may ask for, or why it cannot be derived."""
+    """Return every answer that parts may ask for, or why it cannot be derived."""
     return Answers(described).by_name.every()
 
 

@@ -290,14 +290,14 @@ def test_what_an_earlier_part_has_answered_is_referred_to(solved: list[Rendered]
         (
             "<<eq mass>>",
             "no step on this page is called `mass`",
-            "use the key of a step that the answers rest on",
+            "use the key of a step on which the answers depend",
         ),
         (
             "<<eq spin>>",
             "the equation of `spin` is hidden, so it has no number",
             "change `spin: hidden` under `show`, or write `<<spin>>`",
         ),
-        ("<<problem blok>>", "there is no problem `blok` in this set", "did you mean `block`?"),
+        ("<<problem blok>>", "`blok` is not a problem of this set", "did you mean `block`?"),
         (
             "<<part a>>",
             "`<<part a>>` is not a mention",

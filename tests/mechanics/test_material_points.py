@@ -109,7 +109,7 @@ def test_the_contact_of_a_ball_that_slides_asks_for_its_body(tmp_path: Path) -> 
 @pytest.mark.parametrize("name", ["bal", "floor"])
 def test_a_body_that_is_not_there_is_not_acted_on(name: str, tmp_path: Path) -> None:
     (found,) = messages(tmp_path, edited(BALL, ("of: ball", f"of: {name}")))
-    assert found == f"9: there is no body and no particle `{name}`"
+    assert found == f"9: `{name}` is not a body or particle of this system"
 
 
 def test_a_ball_on_a_turntable_goes_round_at_two_sevenths_of_its_rate(tmp_path: Path) -> None:

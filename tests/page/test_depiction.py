@@ -144,7 +144,7 @@ def test_a_drawing_of_what_no_part_asks_for_is_left_out(tmp_path: Path) -> None:
 
 def test_a_drawing_of_what_no_part_asks_for_that_is_given_a_place_is_told(tmp_path: Path) -> None:
     (fault,) = faults(tmp_path, {**WITHOUT_THE_ANGLE, CAPTION: CAPTION + "    at: c\n"})
-    assert "the drawing `vectors` shows `angle_between`, on which no answer rests" in fault
+    assert "the drawing `vectors` shows `angle_between`, on which no answer depends" in fault
 
 
 def test_a_drawing_may_stand_with_the_step_that_a_part_asks_for(tmp_path: Path) -> None:
@@ -176,7 +176,7 @@ def test_a_name_that_the_script_does_not_draw_is_told_with_the_nearest(tmp_path:
 
 def test_a_letter_that_the_drawing_lacks_is_told(tmp_path: Path) -> None:
     (fault,) = faults(tmp_path, {CAPTION: CAPTION + "    values: {theta: 40 deg}\n"})
-    assert "error[unknown-letter]: the drawing `vectors` has no letter `theta`" in fault
+    assert "error[unknown-letter]: the drawing `vectors` has no symbol `theta`" in fault
 
 
 def test_what_cannot_be_drawn_is_told_at_the_line_of_the_script(tmp_path: Path) -> None:

@@ -33,10 +33,10 @@ def with_page(folder: Path, text: str) -> Path:
         (PAGE, "", "the file must be a table of phrases"),
         (PAGE, "- 1\n", "the file must be a table of phrases"),
         ("terms:", "terms: [", "this `[` is not closed"),
-        ("terms:", "tirms:", "there are no phrases of the sort `tirms`"),
+        ("terms:", "tirms:", "`tirms` is not a kind of phrase"),
         ("  part: part\n", "  part: 3\n", "`labels.part` must be text"),
         ("points: [point, points]", "points: point", "`labels.points` must be a list of phrases"),
-        ("points: [point, points]", "points: [point]", "`labels.points` must be the word for one point"),
+        ("points: [point, points]", "points: [point]", "`labels.points` must be a word for one point"),
         ("grades:\n", "grades: none\nmarks:\n", "`grades` must be a table of phrases"),
     ],
 )
@@ -64,7 +64,7 @@ def test_a_phrase_that_cannot_be_filled_is_told_at_its_line(tmp_path: Path, phra
 
 def test_a_phrase_that_two_files_have_is_told(tmp_path: Path) -> None:
     with_page(tmp_path, PAGE + "routes:\n  rotation.torque:\n    carried_round: once more\n")
-    with pytest.raises(Rejected, match=r"another file has `routes\.rotation\.torque` too"):
+    with pytest.raises(Rejected, match=r"another file also has `routes\.rotation\.torque`"):
         read_phrases(tmp_path / "phrases" / "en")
 
 

@@ -52,17 +52,17 @@ def called(letter: str) -> dict[str, str]:
 @pytest.mark.parametrize(
     ("letter", "why"),
     [
-        ("theta", "the step `angle_between` calls its result so too"),
+        ("theta", "the step `angle_between` also uses it for its result"),
         ("omega_x", "it is a component of `omega`"),
         ("L_y", "it is a component of `L`"),
         ("I_yx", "it is an entry of `I`"),
-        ("z_C", "but `r_C_z` is printed so too: "),
-        ("rho", "the step `density` calls its result so too"),
+        ("z_C", "but `r_C_z` looks the same in print: "),
+        ("rho", "the step `density` also uses it for its result"),
     ],
 )
 def test_a_letter_that_a_step_brings_in_is_not_free(letter: str, why: str, block: Known, tmp_path: Path) -> None:
     (complaint,) = clashes(tmp_path, "block", block, called(letter))
-    assert (complaint.code, complaint.help) == ("letter-clash", "use another letter")
+    assert (complaint.code, complaint.help) == ("letter-clash", "use another symbol")
     assert why in complaint.message
     assert complaint.place
     assert complaint.place.text[complaint.place.column - 1 :].startswith(f"{letter}: mass")
@@ -76,7 +76,7 @@ def test_a_letter_that_looks_otherwise_is_free(letter: str, block: Known, tmp_pa
 
 @pytest.mark.parametrize(
     ("letter", "why"),
-    [("theta", "integrates over it"), ("I_1", "`principal_moments` calls its result so too"), ("z_C", "`r_C_z`")],
+    [("theta", "integrates over it"), ("I_1", "`principal_moments` also uses it for its result"), ("z_C", "`r_C_z`")],
 )
 def test_a_letter_of_integration_is_not_free_either(letter: str, why: str, cone: Known, tmp_path: Path) -> None:
     (complaint,) = clashes(tmp_path, "cone", cone, called(letter))
@@ -99,7 +99,7 @@ def test_a_letter_that_is_only_declared_stands_for_nothing(slab: Known, tmp_path
 def test_a_letter_that_has_only_a_number_is_in_use(slab: Known, tmp_path: Path) -> None:
     edits = {"g: acceleration}": "g: acceleration, N: force}\nvalues: {N: 2 N}"}
     (complaint,) = clashes(tmp_path, "slab", slab, edits)
-    assert "the step `normal_force` calls its result so too" in complaint.message
+    assert "the step `normal_force` also uses it for its result" in complaint.message
 
 
 def test_a_letter_chosen_for_a_number_is_told_at_the_number(slab: Known, tmp_path: Path) -> None:
@@ -117,7 +117,7 @@ def test_a_letter_chosen_for_a_number_is_told_at_the_number(slab: Known, tmp_pat
 def test_letters_of_the_problem_that_look_alike_are_told(block: Known, tmp_path: Path) -> None:
     edits = {"{a: length": "{b_1_2: length, b_12: length", "[a, 2*a, 3*a]": "[b_1_2, b_12, b_12]"}
     (complaint,) = clashes(tmp_path, "block", block, edits)
-    assert complaint.message == "`b_1_2` and `b_12` are printed alike"
+    assert complaint.message == "`b_1_2` and `b_12` look the same in print"
 
 
 def test_what_is_compared_is_what_is_printed() -> None:

@@ -47,7 +47,7 @@ def test_what_a_template_prints_is_escaped_unless_it_is_tex_of_ours(tmp_path: Pa
         ("a\n<< heading.nothing >>\n", "has no attribute 'nothing'", 2),
         ("a\n\n<< 1/0 >>\n", "division by zero", 3),
         ("a\n<% endfor %>\n", "unknown tag 'endfor'", 2),
-        ("<% include 'other.j2' %>", "there is no template `other.j2`", 0),
+        ("<% include 'other.j2' %>", "the template `other.j2` does not exist", 0),
     ],
 )
 def test_a_broken_template_is_told_at_its_line(tmp_path: Path, text: str, message: str, line: int) -> None:

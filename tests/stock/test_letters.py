@@ -114,14 +114,14 @@ def test_a_constant_momentum_has_a_letter(edit: tuple[str, str], said: str, tmp_
 
 def test_one_letter_for_two_momenta_is_refused(tmp_path: Path) -> None:
     text = edited(CUT_STRING, ("  constraints:\n", "  conserved: {x: p, y: p}\n  constraints:\n"))
-    assert "9: `p` stands for something else already" in messages(tmp_path, text)
+    assert "9: `p` already denotes something else" in messages(tmp_path, text)
 
 
 def test_a_force_that_is_called_as_a_moment_of_inertia_is_refused_at_its_line(tmp_path: Path) -> None:
     text = CUT_STRING.replace("force: T", "force: I").replace("put_in: T", "put_in: I")
     (found,) = complaints(tmp_path, text)
     assert (found.code, found.place.line) == ("letter-clash", 10)
-    assert "stands for two things" in found.message
+    assert "denotes two quantities" in found.message
 
 
 def test_letters_that_are_free_stay() -> None:
@@ -146,8 +146,8 @@ def test_the_frequency_has_a_name_of_its_own(tmp_path: Path) -> None:
 
 def test_an_answer_that_there_is_not_is_told_with_those_that_there_are(tmp_path: Path) -> None:
     (found,) = complaints(tmp_path, edited(PENDULUM, ("equations_of_motion", "wavelength")))
-    assert found.message == "there is no answer `wavelength`"
-    assert found.help.startswith("one may ask for kinetic_energy, potential_energy, lagrangian")
+    assert found.message == "`wavelength` is not the name of an answer"
+    assert found.help.startswith("you may ask for kinetic_energy, potential_energy, lagrangian")
 
 
 def test_a_constant_momentum_may_be_in_the_state(tmp_path: Path) -> None:

@@ -120,10 +120,10 @@ def test_the_cones_of_a_free_symmetric_body(tmp_path: Path) -> None:
 def test_free_precession_is_that_of_a_free_body(tmp_path: Path) -> None:
     edits = (BLOCK_IS, "moments: [A, A, C]"), asked("precession_rate")
     assert messages(tmp_path, edited(BLOCK, *edits, ("  along: diagonal", "  along: [1, 0, 1]"))) == [
-        "5: free precession is that of a body on which no torque acts"
+        "5: free precession needs a body on which no torque acts"
     ]
     text = edited(COIN, ("  results:\n", "  torque: [0, 0, A*omega**2]\n  results:\n"))
-    assert messages(tmp_path, text) == ["6: `torque` is given, and `start` too"]
+    assert messages(tmp_path, text) == ["6: `torque` and `start` are both given"]
 
 
 def test_components_of_vectors(tmp_path: Path) -> None:
@@ -143,21 +143,24 @@ def test_the_body_is_drawn_with_its_axis(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("edit", "said"),
     [
-        (("along: diagonal", "along: diagnal"), "7: `along` must be a direction, but `diagnal` names none"),
-        (("along: diagonal", "along: [1, a, 0]"), "7: of the components of `along` one is a length, another a number"),
+        (("along: diagonal", "along: diagnal"), "7: `along` must be a direction, but `diagnal` is not one"),
+        (
+            ("along: diagonal", "along: [1, a, 0]"),
+            "7: the components of `along` have different dimensions: one is a length, another a number",
+        ),
         (("along: diagonal", "along: [1, 0]"), "7: `along` must be a direction or three components"),
-        (("along: diagonal", "rates: [omega, 0, 0]"), "7: `rate` is given, and `rates` too"),
+        (("along: diagonal", "rates: [omega, 0, 0]"), "7: `rate` and `rates` are both given"),
         (("rate: omega", "rate: a"), "6: `rate` must be an angular speed, but `a` is a length"),
         (("  rate: omega\n", ""), "6: a rotation along an axis needs its `rate`"),
-        ((BLOCK_IS, f"{BLOCK_IS}\n  moments: [A, B, C]"), "5: `moments` is given, and `body` too"),
+        ((BLOCK_IS, f"{BLOCK_IS}\n  moments: [A, B, C]"), "5: `moments` and `body` are both given"),
         ((BLOCK_IS, "moments: [A, B]"), "5: `moments` must be three moments of inertia, `[A, B, C]`, but it is a list"),
         ((BLOCK_IS, "moments: [A, A, 3*A]"), "5: no body has such moments: that about z is more than the other two"),
-        ((BLOCK_IS, "moments: [A, B, C]"), "5: a body that is told by its moments has no diagonal"),
+        ((BLOCK_IS, "moments: [A, B, C]"), "5: a body specified by its moments has no diagonal"),
         ((f"  {BLOCK_IS}\n", ""), "5: `given` needs `body` or `moments`"),
         (("along: diagonal", "about: edge"), "7: a cuboid has no point `edge`"),
-        (("answer: torque", "answer: euler_equations"), "11: Euler's equations are about a body that turns in any way"),
+        (("answer: torque", "answer: euler_equations"), "11: Euler's equations need a body that rotates in any way"),
         (("answer: torque", "answer: tork"), "11: a rotation has no answer called `tork`"),
-        (("  along: diagonal\n", ""), "5: nothing says how this body turns"),
+        (("  along: diagonal\n", ""), "5: the rotation of this body is not specified"),
     ],
 )
 def test_a_fault_is_told_at_its_place(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
@@ -168,4 +171,4 @@ def test_a_fault_is_told_at_its_place(edit: tuple[str, str], said: str, tmp_path
 def test_euler_equations_are_along_principal_axes(tmp_path: Path) -> None:
     edits = ("along: diagonal", "about: corner"), asked("euler_equations")
     (found,) = messages(tmp_path, edited(BLOCK, *edits))
-    assert found.startswith("11: the axes of this body are no principal axes")
+    assert found.startswith("11: Euler's equations need principal axes")

@@ -1,7 +1,7 @@
-"""From a drawing's expressions to points on paper: numbers for the letters, and the direction one looks from.
+"""From a drawing's expressions to points on paper: numbers for the symbols, and the viewing direction.
 
-A letter with a number has that number. Every other letter has a stand-in: the letters of a kind get 1, 3/2, 2, ... in
-the order in which they are declared (times what the numbers of that kind are like), angles 36, 54, 72 degrees.
+A symbol with a number has that number. Every other symbol has a substitute value: the symbols of a kind get 1, 3/2,
+2, ... in the order of their declaration (times the typical size of that kind), angles 36, 54, 72 degrees.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from derive.figures.marks import PLANE, Drawing, Surface
 from derive.figures.space import Stance, Vector, angle_of, size_of, unit
 
 ANGLE = pi / 5
-APART = 0.25  # of the size of the body: how far the head of an arrow looks from a corner
-SHARES = (0.8, 0.6, 1.0, 0.7)  # what lengths are drawn with that are coordinates, in terms of those that are given
+APART = 0.25  # least distance of an arrowhead from a corner in the view, in units of the body's size
+SHARES = (0.8, 0.6, 1.0, 0.7)  # lengths of coordinates in the drawing, in units of the given lengths
 
 
 def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:
-    """A number for each letter, given with its kind: its own, or one that stands in for it."""
+    """Return a number for each symbol, given with its kind: its value, or a substitute."""
     found = {symbol: float(explicit(number)) for symbol, number in numbers.items()}
     known: dict[str, list[float]] = {}
     for symbol, kind in letters:
@@ -45,7 +45,7 @@ def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, An
 
 
 def with_coordinates(drawing: Drawing, lengths: Mapping[Symbol, float], typical: float) -> dict[Symbol, float]:
-    """The letters' numbers, and one for each coordinate that has none: as the drawing says, or by its kind."""
+    """Return the numbers of the symbols, and for each coordinate without one a number from the drawing or its kind."""
     found = dict(lengths)
     free = [(q, kind) for q, kind in drawing.coordinates if q not in found]
     for (q, kind), share in zip(free, cycle(SHARES), strict=False):
@@ -57,9 +57,9 @@ def with_coordinates(drawing: Drawing, lengths: Mapping[Symbol, float], typical:
 
 
 class Numbers:
-    """The values of expressions, by the numbers of their letters; a letter of which nothing is known is an angle.
+    """The values of expressions from the numbers of their symbols; a symbol without a number is taken as an angle.
 
-    A drawing asks for each of them again whenever it tries a scale, so they are kept.
+    A drawing needs each value again whenever it tries a scale, so values are kept.
     """
 
     def __init__(self, values: Mapping[Symbol, float]):
@@ -80,12 +80,12 @@ class Numbers:
         return self._found[expr]
 
     def vector(self, column: Any) -> Vector:
-        """The place or the direction; what has two components is in the plane of the drawing."""
+        """Return a position or direction; a column of two components lies in the plane of the drawing."""
         x, y, *rest = (self.of(entry) for entry in _entries(column))
         return x, y, rest[0] if rest else 0.0
 
     def along(self, column: Any, letter: Any, ends: tuple[Any, Any], steps: int) -> list[Vector]:
-        """The places that a formula runs through while one of its letters goes from one end to the other."""
+        """Return the positions on a curve while one symbol of its formula goes from one end to the other."""
         curves = [self._along(entry, letter, *(self.of(end) for end in ends), steps) for entry in _entries(column)]
         return [(x, y, rest[0] if rest else 0.0) for x, y, *rest in zip(*curves, strict=True)]
 
@@ -109,11 +109,11 @@ def _name(letter: Expr) -> str:
     return letter.func.__name__ if isinstance(letter, AppliedUndef) else str(letter.name)
 
 
-# --- where one looks from --------------------------------------------------------------------------------------------
+# --- viewing directions ----------------------------------------------------------------------------------------------
 
 
 def stance_from(azimuth: float, elevation: float) -> Stance:
-    """Looking from an azimuth about z, from x towards y, and an elevation above the plane of x and y, in degrees."""
+    """Return the view from an azimuth about z, from x towards y, and an elevation above the xy plane, in degrees."""
     az, el = radians(azimuth), radians(elevation)
     return Stance(
         right=(-sin(az), cos(az), 0.0),
@@ -127,11 +127,14 @@ USUAL = stance_from(25, 18)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
-    """The usual stance, turned where vectors would point at the eye or fall on one another, or seem to end at a corner
-    of the body, whose size is given, that they do not reach."""
+    """Return the usual view, rotated if vectors would point at the eye, overlap, or seem to end at a corner of the
+    body.
+
+    `reach` is the size of the body.
+    """
     if drawing.view == PLANE:
         return FLAT
-    if TIME in dict(drawing.values):  # a plane that is carried round has been turned to be seen from its front
+    if TIME in dict(drawing.values):  # a plane that moves has been rotated so that its front is seen
         return USUAL
     shown = [[unit(numbers.vector(each)) for each in mark.directions] for mark in drawing.marks]
     vectors = [v for directions in shown if len(directions) == 1 for v in directions if size_of(v)]
@@ -150,14 +153,14 @@ def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stanc
 
 
 def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector], enough: float) -> float:
-    """How far the tips look from the corners, up to what is enough; 1 if all do."""
+    """Return how far the tips appear from the corners, in units of `enough`, at most 1."""
     spots = [stance.spot(corner) for corner in corners]
     nearest = (hypot(x - u, y - v) for x, y in map(stance.spot, ends) for u, v in spots)
     return min(1.0, min(nearest, default=enough) / enough)
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
-    """How little the worst vector is foreshortened, times how open the worst angle looks."""
+    """Return the length of the most foreshortened vector times the openness of the narrowest angle in the view."""
     longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
     widest = 1.0
     for a, b in pairs:

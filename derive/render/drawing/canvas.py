@@ -1,4 +1,4 @@
-"""The pieces of a drawing as shapes on a sheet: with which pens lines are drawn, how they end, and its labels."""
+"""The pieces of a drawing as shapes on a sheet: the pens of its lines, their ends, and its labels."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from derive.render.notation.notation import Notation
 
 INK, QUIET, LINE, BLANK = "#1F3A5F", "#5B6370", "#22252A", "#FFFFFF"
 MARGIN = 2.0
-BOLD = 0.45  # the outline that makes a letter bold
+BOLD = 0.45  # the width of the outline that makes a letter bold
 
 
 @dataclass(frozen=True)
 class Pen:
-    """A kind of line: its colour, its width, and the dashes and gaps in terms of that."""
+    """A kind of line: its colour, its width, and its dashes and gaps in units of the width."""
 
     colour: str
     width: float
@@ -67,7 +67,7 @@ FILLS = {"blank": BLANK, "body": "#DFE5EC", "solid": "#EFF2F6", "line": LINE, "i
 
 
 def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str, letters: Letters = letters_of) -> Sheet:
-    """The pieces with their labels on a sheet of their size."""
+    """Return a sheet that fits the pieces with their labels."""
     labels = _labels(pieces, notation, letters)
     stand = placed(pieces, lambda label: labels[label].size, _width)
     shapes = shapes_of(pieces) + [shape for each in stand for shape in labels[each.label].shapes_at(each.corner)]
@@ -77,7 +77,7 @@ def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str, letters: Let
 
 
 def labels_of(pieces: Sequence[Piece], notation: Notation, letters: Letters = letters_of) -> list[Placed]:
-    """Where the labels of a drawing stand on its sheet."""
+    """Return the positions of the labels of a drawing on its sheet."""
     labels = _labels(pieces, notation, letters)
     return placed(pieces, lambda label: labels[label].size, _width)
 
@@ -98,7 +98,7 @@ def with_margin(extent: Extent) -> Extent:
 
 
 def _reached(piece: Piece) -> Iterable[Spot]:
-    """Where it ends in every direction."""
+    """Return the extreme points of a piece."""
     if not isinstance(piece, Bullet):
         return piece.spots
     (x, y), size = piece.spot, piece.size
@@ -110,7 +110,7 @@ def _reached(piece: Piece) -> Iterable[Spot]:
 
 @dataclass(frozen=True)
 class _Label:
-    """The contours of a label, where each begins and whether it is bold, and their size together."""
+    """The contours of a label, each with its position and whether it is bold, and the size of the whole."""
 
     contours: tuple[tuple[Contour, Spot, bool], ...]
     size: tuple[float, float]
@@ -123,7 +123,7 @@ class _Label:
 
 
 def _label(parts: Sequence[tuple[Lettered, bool]]) -> _Label:
-    """The runs of a label side by side."""
+    """Join the runs of a label side by side."""
     beside: list[tuple[Contour, float, bool]] = []
     corners: list[Spot] = []
     x = 0.0
@@ -137,7 +137,7 @@ def _label(parts: Sequence[tuple[Lettered, bool]]) -> _Label:
 
 
 def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
-    """A label is a name or an expression, or a word that is printed as it is, or several of these in a row."""
+    """Return the runs of a label: a name or expression, a word printed unchanged, or several of these in a row."""
     if isinstance(label, tuple):
         parts = (span.text.strip("$") for each in label for span in _runs(each, notation))
         return (Span(f"${''.join(parts)}$"),)
@@ -148,7 +148,7 @@ def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
 
 
 def shapes_of(pieces: Sequence[Piece]) -> list[Shape]:
-    """All that is not a label."""
+    """Return the shapes of all pieces except labels."""
     found: list[Shape] = []
     for piece in pieces:
         match piece:
@@ -162,7 +162,7 @@ def shapes_of(pieces: Sequence[Piece]) -> list[Shape]:
 
 
 def _stroke(stroke: Stroke) -> list[Shape]:
-    """The line, shortened under its heads, and the heads."""
+    """Return the line, shortened under its arrowheads, and the arrowheads."""
     pen = PENS[stroke.pen]
     spots = list(stroke.spots)
     heads = []
@@ -177,7 +177,7 @@ def _stroke(stroke: Stroke) -> list[Shape]:
 
 
 def _headed(spots: list[Spot], pen: Pen) -> tuple[list[Spot], Contour]:
-    """A pointed head at the last spot, along the chord over its length, and the line up to its base."""
+    """Return the line up to the base of an arrowhead at its last point, and the arrowhead along the final chord."""
     tip = spots[-1]
     kept = [spot for spot in spots[:-1] if hypot(tip[0] - spot[0], tip[1] - spot[1]) > 0.8 * pen.head] or spots[:1]
     angle = atan2(tip[1] - kept[-1][1], tip[0] - kept[-1][0])

@@ -1,6 +1,6 @@
-"""A paper on which marks draw themselves: spots for places, and of a surface which of its lines are hidden.
+"""Paper on which marks draw themselves: points for positions, and the hidden lines of a surface.
 
-Every surface is convex, so that an edge is hidden where both faces that meet in it face away from the eye.
+Every surface is convex, so an edge is hidden if both faces that meet in it face away from the eye.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from derive.figures.space import (
     unit,
 )
 
-FLAT = 0.25  # what is flatter, in terms of its radius, hides too little to be dashed
+FLAT = 0.25  # a body flatter than this, in units of its radius, hides too little for dashed lines
 
 
 class OnPaper(Paper):
-    """Paper that knows what hides what."""
+    """Paper that determines which lines are hidden."""
 
     # --- flat faces ---
 
     def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
-        """An edge between two faces is seen if one of them faces the eye, and on the outline if the other does not."""
+        """Draw an edge as seen if one of its faces faces the eye; it is on the outline if the other does not."""
         middle = mean(list(corners))
         named = [(name, [(min(edge), max(edge)) for edge in edges]) for name, edges in lengths]
         facing: dict[Edge, list[bool]] = {edge: [] for _, edges in named for edge in edges}
@@ -55,15 +55,16 @@ class OnPaper(Paper):
         ]
 
     def _beside(self, name: object, lines: Sequence[tuple[Spot, ...]]) -> Tag:
-        """Beside the lowest of the outer edges of one length."""
+        """Put the name of a length next to the lowest of its outer edges."""
         spot = min((midway(*line) for line in lines), key=lambda at: (round(at[1], 6), at[0]))
         return Tag(name, spot, direction(self.spot(self.middle), spot))
 
-    # --- round about an axis ---
+    # --- bodies of revolution ---
 
     def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:
-        """The rims of both ends, dashed where they are hidden, and the side: its two lines if it is straight, and
-        otherwise the outline of all its circles.
+        """Draw the rims of both ends, dashed where they are hidden, and the side.
+
+        The side is two lines if it is straight, else the outline of all its circles.
         """
         wide, narrow = (0, -1) if radii[0] >= radii[-1] else (-1, 0)
         normal = plus(centres[narrow], centres[wide], -1.0)
@@ -72,7 +73,7 @@ class OnPaper(Paper):
         axis = unit(plus(centres[-1], centres[0], -1.0))
 
         def side(k: int) -> list[float]:
-            """How the side between one ring and the next faces the eye, all the way round."""
+            """Return how far the side between one ring and the next faces the eye, at each point around it."""
             height, widening = size_of(plus(centres[k + 1], centres[k], -1.0)), radii[k + 1] - radii[k]
             return [height * dot(outward, eye) - widening * dot(axis, eye) for outward in outwards]
 
@@ -88,7 +89,7 @@ class OnPaper(Paper):
         return [*pieces, *(Stroke(self.spots(*side), "edge") for side in sides)]
 
     def _rim(self, rim: Sequence[Vector], seen: Sequence[bool]) -> list[Stroke]:
-        """A closed curve as strokes, dashed where it is hidden; hidden ones first."""
+        """Return a closed curve as strokes, dashed where it is hidden; hidden strokes come first."""
         strokes: list[Stroke] = []
         begin = 0
         for i in range(1, len(rim)):
@@ -99,7 +100,7 @@ class OnPaper(Paper):
 
 
 def _turns(facing: Sequence[float]) -> list[tuple[int, float]]:
-    """Where a side turns away from the eye: after which place of its rim, and by which share of the way to the next."""
+    """Return where a side turns away from the eye: the index on its rim, and the fraction to the next point."""
     pairs = enumerate(pairwise(facing))
     return [(i, at / (at - after)) for i, (at, after) in pairs if (at >= 0) != (after >= 0)]
 

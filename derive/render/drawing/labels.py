@@ -1,8 +1,8 @@
-"""Where the labels of a drawing stand: beside what they name, and on nothing else.
+"""Positions of the labels of a drawing: next to what they name, without covering anything else.
 
-Each label tries a ring of places round its spot and takes the one that covers the least; between equals, the one
-nearest to the side that its mark asked for. Labels on what they name choose first, those of lines last, as they
-can slide; then each looks once more, and where something is still covered, those with few places choose first.
+Each label tries a ring of positions around its point and takes the one that covers the least; between equals, the one
+nearest to the side that its mark prefers. Labels that lie on what they name choose first, those of lines last, as they
+can slide. Then each label chooses again. If something is still covered, labels with few positions choose first.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from derive.figures.space import Spot, direction, is_within
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
 CLEAR = 1.5  # points between a label and a line
-LINE, HEAVY = 3.0, 60.0  # what covering a point of a line costs, and another label
+LINE, HEAVY = 3.0, 60.0  # the cost of covering a point of a line, and of covering another label
 HEAVY_ENOUGH = 20.0
-NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # points from another line than its own, what one of them costs, all at most
-WIDE = 1.0  # points: what is wider is seen by its edges
-OWN = 1.5  # points: what is that close to a label's own line is that line
+NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # points to another line, cost of each point there, most in all
+WIDE = 1.0  # points: a wider line counts by its edges
+OWN = 1.5  # points: a line this close to the line of a label is that line
 ROUNDS = 3
 
 
 @dataclass(frozen=True)
 class Placed:
-    """A label and the lower left corner of its box."""
+    """A label, the lower left corner of its box, and the box."""
 
     label: Any
     corner: Spot
@@ -41,24 +41,26 @@ def placed(
     measured: Callable[[Any], tuple[float, float]],
     width: Callable[[Stroke], float] = lambda stroke: 0.0,
 ) -> list[Placed]:
-    """Every label of the pieces with its place; `measured` gives a label's width and height in points, `width` how wide
-    a line is."""
+    """Return every label of the pieces with its position.
+
+    `measured` gives a label's width and height in points, `width` the width of a line.
+    """
     drawn = _seen(pieces, width)
     tags = [piece for piece in pieces if isinstance(piece, Tag)]
     tried = [sorted(enumerate(_weighed(tag, measured, drawn)), key=lambda each: each[1][0]) for tag in tags]
     order = sorted(range(len(tags)), key=lambda i: (not tags[i].on, tags[i].way is not None))
     cost, found = _one_by_one(order, tried, drawn)
-    if cost >= HEAVY_ENOUGH:  # something is covered: let those choose first that have the fewest places
+    if cost >= HEAVY_ENOUGH:  # something is covered: labels with the fewest positions choose first
         other = sorted(order, key=lambda i: (not tags[i].on, len(tried[i])))
         cost, found = min((cost, found), _one_by_one(other, tried, drawn), key=lambda each: each[0])
     return [Placed(tags[i].label, found[i][:2], found[i]) for i in order]
 
 
-Tries: TypeAlias = Sequence[tuple[int, tuple[float, Extent]]]  # the places of a label, the dearest last
+Tries: TypeAlias = Sequence[tuple[int, tuple[float, Extent]]]  # the positions of a label, the most expensive last
 
 
 def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Spot]) -> tuple[float, dict[int, Extent]]:
-    """The box of each label in this order, then once more of each, now that all others stand; and what all cost."""
+    """Choose the box of each label in this order, then again with all others in place; return the total cost too."""
     found: dict[int, Extent] = {}
     costs: dict[int, float] = {}
     for _ in range(ROUNDS):
@@ -71,7 +73,7 @@ def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Sp
 
 
 def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tuple[float, Extent]:
-    """The box that costs least, with what it covers; where no box is better in itself, none need be looked at."""
+    """Return the box of least cost, including what it covers; boxes whose base cost is higher are not tried."""
     least, best = inf, (-1, (0.0, 0.0, 0.0, 0.0))
     for place, (cost, box) in tried:
         if cost > least:
@@ -85,7 +87,9 @@ def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tupl
 def _weighed(
     tag: Tag, measured: Callable[[Any], tuple[float, float]], drawn: Sequence[Spot]
 ) -> Iterable[tuple[float, Extent]]:
-    """The places of a label; that of a line is dearer beside another line, of which it would seem to be the name."""
+    """Yield the positions of a label; next to another line a label of a line costs more, since it would seem to name
+    it.
+    """
     tried = _tried(tag, *measured(tag.label))
     if tag.way is None:
         yield from tried
@@ -98,13 +102,13 @@ def _weighed(
 
 
 def _distance(spot: Spot, start: Spot, end: Spot) -> float:
-    """How far a spot is from the line through two others."""
+    """Return the distance of a point from the line through two others."""
     x, y = end[0] - start[0], end[1] - start[1]
     return abs((spot[0] - start[0]) * y - (spot[1] - start[1]) * x) / (hypot(x, y) or 1.0)
 
 
 def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """Boxes round the spot, each with what it costs to stand there rather than where the mark asked."""
+    """Yield boxes around the point, each with the cost of its distance from the preferred position."""
     if tag.on:
         yield from _tried_on(tag, width, height)
         return
@@ -117,19 +121,19 @@ def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Exten
             angle = turn * pi / 8
             x = base[0] * cos(angle) - base[1] * sin(angle)
             y = base[0] * sin(angle) + base[1] * cos(angle)
-            # The box touches a circle about the spot: its middle lies beyond by its half size in that direction.
+            # The box touches a circle about the point: its middle is farther by half its size in that direction.
             away = gap + min(width / 2 / max(abs(x), 1e-9), height / 2 / max(abs(y), 1e-9), hypot(width, height) / 2)
             yield abs(turn) * 0.8 + ring * 2.5, _box(_moved(tag.spot, (x, y), away), width, height)
 
 
 def _tried_on(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """In the middle of what it names, or a little to either side."""
+    """Yield boxes in the middle of what the label names, or a little to either side."""
     for share in (0.0, -0.5, 0.5, -1.0, 1.0):
         yield 4.0 * abs(share), _box(_moved(tag.spot, tag.towards, share), width, height)
 
 
 def _tried_along(tag: Tag, way: Spot, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """Along a line on both of its sides, so that no corner of the box touches it."""
+    """Yield boxes along a line on both sides, without a corner that touches it."""
     (x, y), far = tag.towards, hypot(*tag.towards) or 1.0
     normal = x / far, y / far
     away = tag.gap + (abs(normal[0]) * width + abs(normal[1]) * height) / 2
@@ -157,7 +161,7 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
-    """The spots of all lines and points that no later surface hides."""
+    """Return the points of all lines and bullets that no later surface hides."""
     found: list[Spot] = []
     for piece in pieces:
         if isinstance(piece, Patch):
@@ -167,7 +171,7 @@ def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spo
 
 
 def _dots(piece: Piece, width: float) -> list[Spot]:
-    """A stroke as spots a point apart, a wide one by both its edges; a head or a bullet as a small cluster."""
+    """Return a stroke as points one point apart, a wide one by both its edges, and a bullet as a small cluster."""
     if isinstance(piece, Bullet):
         x, y = piece.spot
         reach = max(1, round(piece.size - 0.6))

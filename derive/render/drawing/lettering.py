@@ -1,6 +1,6 @@
-"""Mathematics as contours: matplotlib's mathtext sets it in Computer Modern, as it is on the page.
+"""Mathematics as contours: matplotlib's mathtext sets it in Computer Modern, as on the page.
 
-It comes with all of matplotlib and numpy, which take longer to load than a drawing to draw: nobody else imports them.
+Loading matplotlib and numpy takes longer than drawing, so no other module imports them.
 """
 
 from __future__ import annotations
@@ -12,21 +12,21 @@ from typing import TypeAlias
 from derive.figures.space import Spot
 from derive.render.drawing.sheets import Contour, Extent, extent_of
 
-LETTERS = 10.0  # the size in which letters are set, in points
+LETTERS = 10.0  # the font size of labels, in points
 
 LINES = {1: "M", 2: "L", 4: "C"}  # by matplotlib's codes
 
-Lettered: TypeAlias = tuple[Contour, Extent]  # and how far it reaches
+Lettered: TypeAlias = tuple[Contour, Extent]  # a contour and its extent
 Letters: TypeAlias = Callable[[Collection[str]], Mapping[str, Lettered]]
 
 
 def letters_of(texts: Collection[str]) -> dict[str, Lettered]:
-    """The contours of texts of mathtext, by text; each begins at the origin."""
-    # Nothing here multiplies matrices, and a process with threads should not be forked.
+    """Return the contours of texts of mathtext, by text; each begins at the origin."""
+    # Nothing here multiplies matrices, and a process with threads should not fork.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     import matplotlib
 
-    # The settings of whoever builds the page must not show on it.
+    # The matplotlib settings of the user must not affect the page.
     with matplotlib.rc_context(matplotlib.rcParamsDefault.find_all(r"^(font|text|mathtext)\.")):
         return {text: _lettered(text) for text in sorted(texts)}
 
@@ -58,13 +58,13 @@ def _lettered(text: str) -> Lettered:
 
 
 def _as_cubic(start: Spot, handle: Spot, end: Spot) -> tuple[Spot, ...]:
-    """A PDF has no curves of the second degree."""
+    """Return the cubic form of a quadratic curve, which PDF does not have."""
     near, far = ((p[0] + 2 * (handle[0] - p[0]) / 3, p[1] + 2 * (handle[1] - p[1]) / 3) for p in (start, end))
     return near, far, end
 
 
 def _farthest(start: Spot, handle: Spot, end: Spot) -> list[Spot]:
-    """Where a curve of the second degree turns back within its ends, to either side or up or down."""
+    """Return the extreme points of a quadratic curve between its ends, horizontally and vertically."""
     found = []
     for a, b, c in zip(start, handle, end, strict=True):
         bend = a - 2 * b + c

@@ -1,6 +1,6 @@
 """A layout as runs of mathtext, the part of TeX's mathematics that matplotlib sets.
 
-Its Computer Modern has no bold italic, so a vector's letter is a run of its own that is drawn with an outline.
+Its Computer Modern has no bold italic, so a vector's letter is a separate run drawn with an outline.
 """
 
 from __future__ import annotations
@@ -12,20 +12,20 @@ from derive.render.notation.latex import latex
 from derive.render.notation.layout import Layout, Name, Row
 
 _BOLD = re.compile(r"\\bm\{((?:[^{}]|\{[^{}]*\})*)\}")
-_FUNCTION = re.compile(r"([\w})])\s*(\\(?:sin|cos|tan|log|exp)\b)")  # before which it leaves no space
+_FUNCTION = re.compile(r"([\w})])\s*(\\(?:sin|cos|tan|log|exp)\b)")  # mathtext leaves no space before a function
 _UNKNOWN = {r"\tfrac": r"\frac", r"\lvert ": "|", r"\rvert ": "|", r"\mathopen{}": "", r"\!": "", r"\ ": r"\,"}
 
 
 @dataclass(frozen=True)
 class Span:
-    """A piece of mathtext between its dollar signs, to be drawn bold or not."""
+    """A piece of mathtext between its dollar signs, drawn bold or not."""
 
     text: str
     bold: bool = False
 
 
 def runs(layout: Layout) -> tuple[Span, ...]:
-    """The runs of a label, from left to right."""
+    """Return the runs of a label, from left to right."""
     items = layout.items if isinstance(layout, Row) else (layout,)
     found: list[Span] = []
     pending: list[Layout] = []

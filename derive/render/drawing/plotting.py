@@ -1,6 +1,6 @@
 """A plot as files: one panel for each curve, its axes named with quantity and unit, its extrema marked.
 
-Numbers and names are set in the page's letters, and nothing is written over the curve.
+Numbers and names are set in the font of the page, and nothing is written over the curve.
 """
 
 from __future__ import annotations
@@ -26,29 +26,29 @@ from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
 STEPS = 240
-MOST = 6  # intervals between ticks
-ROOM = 0.36  # above and below a curve, in terms of its height
+MOST = 6  # most intervals between ticks
+ROOM = 0.36  # margin above and below a curve, in units of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
 CM = 72 / 2.54
-SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # letters of the axes, of the numbers and of the words at extrema
-TICK = 3.5  # points: how long a tick is, and how far from its number
-PAD = 4.0  # between the numbers and the name of an axis, between a dot and its name
-EDGE = 3.0  # round it all
-DOT = 2.2  # the radius of an extremum
+SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # scales: letters of the axes, numbers, words at extrema
+TICK = 3.5  # points: the length of a tick, and its distance from its number
+PAD = 4.0  # points: between the numbers and the name of an axis, and between a dot and its name
+EDGE = 3.0  # points: the margin around everything
+DOT = 2.2  # points: the radius of the dot at an extremum
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
 
 
 @dataclass(frozen=True)
 class Panel:
-    """What one panel shows, before it has a size.
+    """The contents of one panel, before it has a size.
 
-    points           the curve, by the unit of each axis
+    points           the curve, in the units of the axes
     across, up       the ticks of both axes, with their numbers
-    names            those of both axes
-    values           what the axes run through: left, below, right, above
+    names            the names of both axes
+    values           the ranges of the axes: left, below, right, above
     turns            the extrema: where, whether it is a minimum, and its name
-    numbers          those that were put in
+    numbers          the numbers that were substituted
     """
 
     points: tuple[Spot, ...]
@@ -66,13 +66,13 @@ class Panel:
 
 @dataclass(frozen=True)
 class Frame:
-    """Where the axes of a panel are on paper, and what they run through: left, below, right, above."""
+    """The position of the axes of a panel on paper, and their ranges: left, below, right, above."""
 
     paper: Extent
     values: Extent
 
     def spot(self, place: Spot) -> Spot:
-        """A place of the curve on paper."""
+        """Return the point on paper for a point of the curve."""
         x, y = (
             start + (at - low) / (high - low) * (end - start)
             for at, start, end, low, high in zip(
@@ -93,7 +93,7 @@ class Writing:
         return scale * (right - left), scale * (above - below)
 
     def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
-        """A text of which such shares of its width and height are to the left of a spot and below it."""
+        """Return a text placed so that these fractions of its width and height are left of the point and below it."""
         contour, extent = self.known[text]
         if upwards:
             contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])
@@ -113,7 +113,7 @@ def plot_sheet(
     alt: str,
     letters: Letters = letters_of,
 ) -> Sheet:
-    """The panels side by side; `width` is that of one of them."""
+    """Return the panels side by side; `width` is the width of one panel."""
     wide = (width or PANEL) * CM
     tall = wide * TALL / PANEL
     panels = [
@@ -123,7 +123,7 @@ def plot_sheet(
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
     room = _room(panels, writing)
     widest = max((writing.size(panel.numbers, 1.0)[0] for panel in panels if panel.numbers), default=1.0)
-    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # one size for the numbers over all panels
+    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # one size for the numbers above all panels
     shapes: list[Shape] = []
     for i, panel in enumerate(panels):
         paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], tall - room[3]
@@ -131,11 +131,11 @@ def plot_sheet(
     return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tall), alt)
 
 
-# --- what a panel shows ----------------------------------------------------------------------------------------------
+# --- contents of a panel ---------------------------------------------------------------------------------------------
 
 
 def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases, letter: str = "") -> Panel:
-    """One curve with its axes, which have room for the words under a minimum and over a maximum."""
+    """Return one curve with its axes, which leave room for the words below a minimum and above a maximum."""
     points = values_along(curve.expr, curve.variable, curve.lower, curve.upper, STEPS)
     low, high = min(y for _, y in points), max(y for _, y in points)
     room = ROOM * ((high - low) or abs(high) or 1.0)
@@ -162,16 +162,16 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
 
 
 def _title(letter: str, numbers: str) -> str:
-    """Over a panel: its letter, if there are several, and its numbers."""
+    """Return the text above a panel: its letter, if there are several panels, and its numbers."""
     if not letter:
         return numbers
     return f"$({{\\mathrm{{{letter}}}}})\\;\\;{numbers.strip('$')}$"
 
 
 def _ticks(low: float, high: float, in_degrees: bool, room: float = 0.0) -> Ticks:
-    """A few round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
+    """Return a few round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
 
-    They go on past both ends, so that these lie between two of them, where there is as much room for that.
+    They continue past both ends, so that each end lies between two of them, if there is room.
     """
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
@@ -188,7 +188,7 @@ def _ticks(low: float, high: float, in_degrees: bool, room: float = 0.0) -> Tick
 
 
 def _axis_name(symbol: Any, unit: str, notation: Notation) -> str:
-    """`U / J`: the number of units, as it stands on the axis."""
+    """Return `U / J`, the number of units, as the name of an axis."""
     name = _mathtext(notation.layout(symbol))
     over = rf"\,/\,{_mathtext_of_unit(unit)}" if unit else ""
     return f"${name}{over}$"
@@ -207,7 +207,7 @@ def _mathtext(layout: Any) -> str:
 
 
 def _mathtext_of_value(told: str) -> str:
-    """`2.205 J`: the number and the unit, upright and apart."""
+    """Return `2.205 J`: the number and the upright unit, with a space between them."""
     number, _, unit = told.replace("\u2212", "-").partition(" ")
     return rf"{number}\,{unit_latex(unit)}" if unit else number
 
@@ -216,11 +216,11 @@ def _mathtext_of_unit(unit: str) -> str:
     return r"{}^{\circ}" if unit == DEGREES else unit_latex(unit)
 
 
-# --- where it is on paper --------------------------------------------------------------------------------------------
+# --- positions on paper ----------------------------------------------------------------------------------------------
 
 
 def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
-    """From the edges of a panel to its axes, the same for all panels: left, below, right, above."""
+    """Return the distances from the edges of a panel to its axes, for all panels: left, below, right, above."""
     across = [writing.size(text, SMALL) for panel in panels for _, text in panel.across]
     up = [writing.size(text, SMALL) for panel in panels for _, text in panel.up]
     names = [[writing.size(panel.names[k], SMALL)[1] for panel in panels] for k in (0, 1)]
@@ -235,7 +235,7 @@ def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
 
 
 def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float) -> Iterator[Shape]:
-    """All of a panel; `ends` are those of its whole width, and `size` is that of the numbers over it."""
+    """Yield all shapes of a panel; `ends` are those of its whole width, `size` is that of the numbers above it."""
     left, below, right, above = frame.paper
     yield from shapes_of(list(_pieces(panel, frame)))
     for x, text in panel.across:

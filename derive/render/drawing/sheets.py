@@ -1,7 +1,7 @@
 """Shapes on paper as files: a PDF for TeX and an SVG for other pages, always the same bytes.
 
-Lengths are in points and the sheet is as large as what is on it, so that a drawing is included at its own size and its
-letters are those of the page. Letters are shapes like all else: no font is needed where a drawing is shown.
+Lengths are in points and the sheet is as large as its contents, so a drawing is included in its natural size and its
+letters match those of the page. Letters are shapes like everything else: no font is needed to show a drawing.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from zlib import compress
 
 from derive.figures.space import Spot
 
-Contour: TypeAlias = Sequence[tuple[str, Sequence[Spot]]]  # M, L, C and Z with their spots, as an SVG has them
+Contour: TypeAlias = Sequence[tuple[str, Sequence[Spot]]]  # M, L, C and Z with their points, as in SVG
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
 OPERATORS = {"M": "m", "L": "l", "C": "c", "Z": "h"}
-ROUND = 0.5522847  # of its radius: how far the handles of a quarter of a circle reach
+ROUND = 0.5522847  # how far the handles of a quarter circle reach, in units of its radius
 
 
 @dataclass(frozen=True)
 class Shape:
-    """What a contour bounds, in a colour, or the contour itself as a line; or both, where letters are bold."""
+    """The area inside a contour, in a colour, or the contour itself as a line; both for bold letters."""
 
     contour: Contour
     fill: str = ""
@@ -34,7 +34,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A finished figure in both formats, and how large it is in points."""
+    """A finished figure in both formats, and its size in points."""
 
     pdf: bytes
     svg: bytes
@@ -43,13 +43,13 @@ class Sheet:
 
 
 def contour_through(spots: Sequence[Spot], closed: bool = False) -> Contour:
-    """Straight from spot to spot."""
+    """Return straight lines from point to point."""
     lines = [("M" if i == 0 else "L", (spot,)) for i, spot in enumerate(spots)]
     return [*lines, ("Z", ())] if closed else lines
 
 
 def circle(middle: Spot, radius: float) -> Contour:
-    """Four quarters."""
+    """Return four quarter circles."""
     x, y = middle
     ways = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)]
     spots = [(x + radius * u, y + radius * v) for u, v in ways]
@@ -66,18 +66,18 @@ def moved(contour: Contour, to: Spot, scale: float = 1.0) -> Contour:
 
 
 def turned(contour: Contour) -> Contour:
-    """A quarter of a turn anticlockwise."""
+    """Rotate a contour by 90 degrees anticlockwise."""
     return [(letter, [(-v, u) for u, v in spots]) for letter, spots in contour]
 
 
 def extent_of(spots: Collection[Spot]) -> Extent:
-    """From the leftmost and the lowest to the rightmost and the highest of the spots."""
+    """Return the leftmost, lowest, rightmost and highest coordinates of the points."""
     xs, ys = ([spot[k] for spot in spots] for k in (0, 1))
     return min(xs), min(ys), max(xs), max(ys)
 
 
 def sheet_of_shapes(shapes: Sequence[Shape], extent: Extent, alt: str) -> Sheet:
-    """Both files; the SVG says in words what it shows."""
+    """Return both files; the SVG describes its contents in words."""
     left, below, right, above = extent
     written = [(shape, [(at, *(map(_pair, spots))) for at, spots in shape.contour]) for shape in shapes]
     pdf = "\n".join(["1 j", f"1 0 0 1 {_number(-left)} {_number(-below)} cm", *(_painted(*each) for each in written)])
@@ -86,7 +86,7 @@ def sheet_of_shapes(shapes: Sequence[Shape], extent: Extent, alt: str) -> Sheet:
     return Sheet(_pdf(pdf, *size), _svg(svg, *size, (left, above), alt), right - left, above - below)
 
 
-Written: TypeAlias = list[tuple[str, ...]]  # the letter of each stretch of a contour and its spots in digits
+Written: TypeAlias = list[tuple[str, ...]]  # the letter of each segment of a contour and its points in digits
 
 
 def _number(x: float) -> str:
@@ -108,7 +108,7 @@ def _path(shape: Shape, written: Written) -> str:
 
 
 def _svg(paths: str, width: str, height: str, corner: Spot, alt: str) -> bytes:
-    """The sheet begins at its upper left corner, and heights are counted downwards."""
+    """Return the SVG, whose origin is the upper left corner and whose heights are measured downwards."""
     x, y = (_number(at) for at in (-corner[0], corner[1]))
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}pt" height="{height}pt" '

@@ -24,16 +24,16 @@ if TYPE_CHECKING:
     from derive.steps.derivation import Derivation
     from derive.steps.step import Step
 
-# Documents, made of a page and of what its set says; a format is made of a page alone.
+# A document is made from a page and its set; a format is made from a page alone.
 TYPESET, HTML = ("latex", "pdf"), "html"
-WRITTEN = "Written by derive"  # in the first line of what may be mistaken for written by hand, and may be replaced
+WRITTEN = "Written by derive"  # first line of files that derive may replace, unlike handwritten files
 
 
 @dataclass(frozen=True)
 class Solution:
-    """A page as a tree, and what it was made from: the numbers of answers by key, and how a reference compares.
+    """A page as a tree, with its sources: the numbers of answers by key, and how a reference compares.
 
-    warnings   what whoever wrote it is told beside the page
+    warnings   warnings for the author, next to the page
     """
 
     document: Document
@@ -49,10 +49,10 @@ class Solution:
 
 @dataclass(frozen=True)
 class Format:
-    """What `--format` calls it, the suffix of its files, and the text of a page in it.
+    """The name of a format in `--format`, the suffix of its files, and the function that renders a page.
 
-    built     whether a build writes it for each problem; else it is made where it is asked for
-    drawings  the suffix of the drawings that it refers to, which stand beside it
+    built     whether a build writes it for each problem; otherwise it is made only on request
+    drawings  the suffix of the drawings to which it refers, in the same folder
     """
 
     name: str
@@ -63,12 +63,12 @@ class Format:
 
 
 def formats() -> Mapping[str, Format]:
-    """Every format by its name."""
+    """Return every format by its name."""
     return _formats(tuple(__path__))
 
 
 def built_formats() -> Mapping[str, Format]:
-    """Those that a build writes for each problem."""
+    """Return the formats that a build writes for each problem."""
     return {name: form for name, form in formats().items() if form.built}
 
 

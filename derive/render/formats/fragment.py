@@ -1,4 +1,4 @@
-"""A page as LaTeX without preamble, for `\\input` into a paper of one's own; at its head, the packages it needs."""
+"""A page as LaTeX without preamble, for `\\input` into another document; its first lines list the packages it needs."""
 
 from __future__ import annotations
 

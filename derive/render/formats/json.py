@@ -1,4 +1,4 @@
-"""What other programs read of a page: docs/json.md."""
+"""The data of a page for other programs: docs/json.md."""
 
 from __future__ import annotations
 

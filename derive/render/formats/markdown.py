@@ -1,4 +1,4 @@
-"""A page as Markdown, for a wiki or a learning platform; its drawings are the `.svg` files beside it."""
+"""A page as Markdown, for a wiki or a learning platform; its drawings are `.svg` files in the same folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A page as a Jupyter notebook, the cells of which derive the problem anew; nothing that they show is stored."""
+"""A page as a Jupyter notebook whose cells derive the problem again; no output is stored."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""How firmly a layout holds together, and so where it needs brackets and which sign it has: decided here alone.
+"""How strongly a layout binds, which decides brackets and signs: decided only here.
 
-Brackets follow from what stands on paper, not from what it was made of: a product of which one factor is negative
-begins with a minus sign, whether it is a `Mul`, a `Factors` or a number times a vector, and is bracketed beside others.
+Brackets follow from what is printed, not from the kind of expression. A product with one negative factor begins with a
+minus sign, whether it is a `Mul`, a `Factors` or a number times a vector, and gets brackets next to other factors.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ from derive.render.notation.layout import (
 
 
 class Binding(IntEnum):
-    """From what nothing can pull apart to what is only held by brackets.
+    """From layouts that never need brackets to those that only brackets hold together.
 
     PRODUCT    factors side by side: 2 M a
     DOTTED     numbers and letters with a dot between them: M·1/2 a
     MEASURED   a number with its unit: 2 cm
-    OPEN       what takes in all that follows: a·b and w x L of vectors, an integral, d/dt (...)
+    OPEN       applies to everything that follows: a·b and w x L of vectors, an integral, d/dt (...)
     SIGNED     -M a
     """
 
@@ -74,7 +74,7 @@ def binding(layout: Layout) -> Binding:
 
 
 def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
-    """`ended`: the row ends in a differential."""
+    """Return the binding of an item; `ended`: the row ends in a differential."""
     item = items[i]
     if isinstance(item, IntegralSign) and ended:
         return Binding.PRODUCT
@@ -88,22 +88,22 @@ def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
 
 
 def _is_operator(layout: Layout) -> bool:
-    """d/dt or d^2/dx^2, which waits for what it is applied to."""
+    """Return whether the layout is an operator such as d/dt or d^2/dx^2, which applies to what follows."""
     return isinstance(layout, Fraction) and is_differential(layout.above)
 
 
 def within(layout: Layout, most: Binding) -> Layout:
-    """The layout, in brackets if it would not hold together in a place that takes no more than `most`."""
+    """Return the layout, in brackets if it binds less strongly than `most`."""
     return Fenced(layout) if binding(layout) > most else layout
 
 
 def sign_apart(layout: Layout) -> tuple[Operator | None, Layout]:
-    """The sign that a layout begins with, unless it is that of a sum's first term, and the layout without it."""
+    """Return the leading sign of a layout, unless it belongs to the first term of a sum, and the layout without it."""
     if isinstance(layout, Row) and isinstance(layout.items[0], Operator) and binding(layout) is Binding.SIGNED:
         return layout.items[0], row(*layout.items[1:])
     return None, layout
 
 
 def signed(sign: Operator, layout: Layout) -> Layout:
-    """The layout with a sign before it."""
+    """Return the layout with a sign before it."""
     return row(sign, within(layout, Binding.OPEN))

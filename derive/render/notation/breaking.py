@@ -1,7 +1,7 @@
-"""Sums too long for a line, broken before a sign, as one does on paper: never within a root or a matrix.
+"""Sums too long for a line, broken before a sign as on paper: never within a root or a matrix.
 
-A bracket that is itself too long is opened on one line and closed on another; so is a fraction whose numerator is,
-once its denominator stands in front.
+A bracket that is itself too long opens on one line and closes on another. So does a fraction with a long numerator,
+after its denominator is written as a factor in front.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from __future__ import annotations
 from derive.render.notation.layout import Digits, Fenced, Fraction, Layout, Operator, Row, row, width
 
 BREAKS_BEFORE = {"plus", "minus"}
-SMALL_PART = 0.5  # of the room: a bracket below this stays in one piece
+SMALL_PART = 0.5  # a bracket narrower than this part of the room stays in one piece
 
 
 def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
-    """What stands on the first line, which has `room`, and on the lines after it; one piece if it cannot be broken."""
+    """Return the first line, which has `room`, and the lines after it; one piece if the layout cannot be broken."""
     pieces = _pieces(layout, min(room, room_after)) if width(layout) > room else [layout]
     lines = [pieces[0]]
     for piece in pieces[1:]:
@@ -26,7 +26,7 @@ def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
 
 
 def _pieces(layout: Layout, room: float) -> list[Layout]:
-    """The parts before each of which a line may end."""
+    """Return the parts of a layout; a line may end before each of them."""
     terms = terms_of(layout)
     if len(terms) > 1:
         return [piece for term in terms for piece in (_pieces(term, room) if width(term) > room else [term])]
@@ -44,7 +44,7 @@ def _pieces(layout: Layout, room: float) -> list[Layout]:
 
 
 def terms_of(layout: Layout) -> list[Layout]:
-    """The terms of a sum, each with its sign."""
+    """Return the terms of a sum, each with its sign."""
     if not isinstance(layout, Row):
         return [layout]
     terms: list[list[Layout]] = [[]]

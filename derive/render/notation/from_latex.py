@@ -1,7 +1,7 @@
-"""The layout of a quoted formula, so that a terminal shows it as it shows our own.
+"""The layout of a quoted formula, so that a terminal shows it like ours.
 
-What is quoted may be garbled, so that nothing is understood here, only laid out: a fraction, a root, an index, letters
-in the order in which they are printed. `course/latex/quoting.py` has seen to it that every command is known and nests.
+A quoted formula may be garbled, so nothing is interpreted here, only laid out: a fraction, a root, an index, letters
+in the order in which they are printed. `course/latex/quoting.py` has checked that every command is known and nested.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ _NOTHING = Row(())
 
 
 def in_plain_text(text: str) -> str:
-    """Prose with formulas between dollar signs as a terminal shows it."""
+    """Return prose with formulas between dollar signs as a terminal shows it."""
     return "".join(_formula(piece) if piece.is_formula else piece.text for piece in quoted(text))
 
 
@@ -73,12 +73,12 @@ def _formula(piece: Quoted) -> str:
 
 
 def layout_of_latex(tex: str) -> Layout:
-    """One formula, of commands that may be quoted."""
+    """Return the layout of one formula that contains only quotable commands."""
     return _Reader(_TOKEN.findall(tex)).whole()
 
 
 class _Reader:
-    """Goes through the tokens once; what has no partner, a bracket or a command without value, stands for itself."""
+    """Reads the tokens once; a bracket without a partner or a command without a value is printed unchanged."""
 
     def __init__(self, tokens: Sequence[str]):
         self.tokens = [token for token in tokens if token.strip() and token not in ("~", "\\ ")]
@@ -109,7 +109,7 @@ class _Reader:
         return row(*items) if items else _NOTHING
 
     def group(self) -> Layout:
-        """A value in braces, or the one thing that stands there."""
+        """Return a value in braces, or the single item without braces."""
         if self.next != "{":
             return (self.atom() or _NOTHING) if self.next else _NOTHING
         self.at += 1
@@ -121,7 +121,7 @@ class _Reader:
         token = self.taken()
         if token.startswith("\\text{"):
             word = token[len("\\text{") : -1].strip()
-            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # no product with a number
+            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # not a product
         command = token.removeprefix("\\") if token.startswith("\\") else ""
         if token == "{":
             self.at -= 1
@@ -143,12 +143,12 @@ class _Reader:
         return self.applied(command)
 
     def letter(self, token: str) -> Layout:
-        """A letter, or the sign of a differential before another one."""
+        """Return a letter, or the sign of a differential before another letter."""
         before_letter = re.fullmatch(r"[A-Za-z]|\\[a-zA-Z]+", self.next) and self.next[1:] not in ("right", "end")
         return Upright("d") if token == "d" and before_letter else Name(token)
 
     def applied(self, command: str) -> Layout | None:
-        """A command with what it is applied to; one that only moves things apart prints nothing."""
+        """Return a command with its arguments; a command that only sets spacing prints nothing."""
         if command in FRACTIONS:
             return Fraction(self.group(), self.group())
         if command == "sqrt":
@@ -182,12 +182,12 @@ class _Reader:
         return row(degree, RootSign(self.group()))
 
     def words(self) -> Layout:
-        """Letters that are printed upright, as a word."""
+        """Return letters that are printed upright, as a word."""
         text = in_one_line(self.group()).replace(" ", "")
         return Upright(text)
 
     def function(self, name: str) -> Layout:
-        """The function and the one factor behind it, a letter behind a number too."""
+        """Return the function with the factor after it: also a number and a letter."""
         _, power = self.scripts()
         if not self.next or self.next in _OPERATORS or self.next in _CLOSING | {"}"}:
             return Upright(name)
@@ -197,7 +197,7 @@ class _Reader:
         return Applied(name, argument, power)
 
     def scripts(self) -> tuple[Layout | None, Layout | None]:
-        """What stands below and what above."""
+        """Return the subscript and the superscript."""
         found: dict[str, Layout] = {}
         while self.next in ("_", "^") and self.next not in found:
             sign = self.taken()
@@ -228,7 +228,7 @@ class _Reader:
         return inside if isinstance(inside, Array) else Fenced(inside, _OPENING.get(opening, "("))
 
     def environment(self) -> Layout:
-        """Rows of cells, or aligned lines one after the other."""
+        """Return rows of cells, or aligned lines one after the other."""
         name = self.braced()
         if name == "array" and self.next == "{":
             self.braced()
@@ -247,7 +247,7 @@ class _Reader:
         return Array(tuple((*line, *(_NOTHING,) * (columns - len(line))) for line in filled)) if columns else _NOTHING
 
     def braced(self) -> str:
-        """The plain text of a value in braces."""
+        """Return the plain text of a value in braces."""
         found = ""
         if self.next == "{":
             end = self.tokens.index("}", self.at)

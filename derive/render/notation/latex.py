@@ -1,4 +1,4 @@
-"""Layout to LaTeX: the only place that knows TeX's words for mathematics and how text is escaped."""
+"""Layout to LaTeX: the only module with TeX's commands for mathematics and with the escaping of text."""
 
 from __future__ import annotations
 
@@ -80,35 +80,35 @@ BETWEEN_TERMS = {
     )
 }
 STROKE, COMMA = Operator("stroke"), Operator("comma")
-BLANK = "?"  # what is sought
-# What keeps fractions below one another apart: the one within a row, the other between rows.
+BLANK = "?"  # the unknown result
+# Spacing between fractions below one another: the first within a row, the second between rows.
 SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-.95em]{0pt}{2.45em}", "[3pt]"
 
 
 def latex(layout: Layout, *, inline: bool = False) -> str:
-    """The LaTeX of a layout; inline, fractions are small, or have a stroke where that cannot be misread."""
+    """Return the LaTeX of a layout; inline, fractions are small, or have a stroke where that cannot be misread."""
     return _Printer(inline).show(_with_strokes(layout) if inline else layout)
 
 
 def latex_of_terms(layout: Layout, *, inline: bool = False) -> list[str]:
-    """The same, each term of a sum by itself, with its sign."""
+    """Return the same, each term of a sum separately, with its sign."""
     return [_Printer(inline).show(term) for term in terms_of(_with_strokes(layout) if inline else layout)]
 
 
 def _with_strokes(layout: Layout) -> Layout:
-    """For running text: R > a/2, dL/dt, a(1, 2, 3); before or behind another factor a fraction stays one."""
+    """Write fractions with a stroke in running text: R > a/2, dL/dt, a(1, 2, 3); next to another factor they stay."""
     if isinstance(layout, Fenced):
         return Fenced(_with_strokes(layout.inside), layout.kind)
     items = [_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))]
     around = (None, *items, None)
     alone = [all(x is None or x in BETWEEN_TERMS for x in (around[i], around[i + 2])) for i in range(len(items))]
     if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
-        return row(*items)  # one that cannot have a stroke leaves the others as they are
+        return row(*items)  # if one fraction cannot have a stroke, the others keep their form
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
 
 
 def _flat(item: Layout) -> Layout:
-    """A column as a list of its components."""
+    """Return a column as a list of its components."""
     if not isinstance(item, Array) or len(item.rows[0]) > 1:
         return item
     (first,), *others = item.rows
@@ -116,7 +116,7 @@ def _flat(item: Layout) -> Layout:
 
 
 def _with_stroke(item: Layout) -> Layout:
-    """The fraction with a stroke, if one can see at once what is above it and what below."""
+    """Return the fraction with a stroke, if its numerator and denominator are clear."""
     match item:
         case Fenced():
             return _with_strokes(item)
@@ -131,7 +131,9 @@ def _with_stroke(item: Layout) -> Layout:
 
 
 def _are_letters(layout: Layout) -> bool:
-    """Letters, numbers and functions of one letter side by side, and nothing that is tall or is added."""
+    """Return whether the layout has only letters, numbers and functions of one letter as factors, nothing tall or
+    added.
+    """
     return all(
         _are_letters(factor.argument) and not isinstance(factor.argument, Row)
         if isinstance(factor, Applied)
@@ -141,7 +143,7 @@ def _are_letters(layout: Layout) -> bool:
 
 
 def _has_function(layout: Layout) -> bool:
-    """Whether a stroke behind it could be read as one within the argument: cos x/2."""
+    """Return whether a stroke after the layout could be read as part of an argument: cos x/2."""
     return any(isinstance(factor, Applied) for factor in _factors(layout))
 
 
@@ -201,12 +203,12 @@ class _Printer:
         raise TypeError(f"no LaTeX for {type(layout).__name__}")
 
     def _raised(self, base: Layout) -> str:
-        """A name with a prime in braces: TeX takes the prime itself for an exponent."""
+        """Put a name with a prime in braces: TeX reads the prime itself as an exponent."""
         shown = self.show(base)
         return f"{{{shown}}}" if isinstance(base, Name) and base.primes else shown
 
     def _rows(self, rows: tuple[tuple[Layout, ...], ...]) -> str:
-        """Fractions are small in a matrix and have their full size in a column."""
+        """Return rows with small fractions in a matrix and full-size fractions in a column."""
         if not self.inline and len(rows[0]) == 1 and any(_is_tall(entry, inline=False) for (entry,) in rows):
             return rf" \\{ROW_GAP} ".join(
                 rf"{COLUMN_STRUT if _is_tall(entry, inline=False) else ''}\displaystyle {self.show(entry)}"
@@ -234,7 +236,7 @@ class _Printer:
 
 
 def _separated(pieces: list[str]) -> list[str]:
-    r"""`\pi` before `a` needs a space: a command ends where a letter cannot follow."""
+    r"""Separate a command from a letter after it, as in `\pi` before `a`."""
     result: list[str] = []
     for piece in pieces:
         if result and result[-1][-1:].isalpha() and "\\" in result[-1] and piece[:1].isalpha():
@@ -246,7 +248,7 @@ def _separated(pieces: list[str]) -> list[str]:
 
 
 def _runs_into(before: Layout, item: Layout) -> bool:
-    """A thin space where two factors touch: after a fraction, before a bracket or a vector."""
+    """Return whether two factors need a thin space: after a fraction, before a bracket or a vector."""
     if isinstance(item, Operator) or isinstance(before, Operator | IntegralSign) or begins_with_number(item):
         return False
     return (
@@ -274,7 +276,7 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 def _name(name: Name) -> str:
     base = name.letter
     if base == BLANK:
-        return "{?}"  # as wide apart as a letter would be
+        return "{?}"  # with the spacing of a letter
     letter = rf"\{base}" if base in GREEK_LETTERS else base
     if base in SCRIPT_LETTERS:
         letter = rf"\mathcal{{{base[-1]}}}"
@@ -304,12 +306,12 @@ def _part_below(part: str) -> str:
 
 
 def unit_latex(text: str) -> str:
-    """A unit in mathematics, upright: kg m^2/s."""
+    """Return a unit in mathematics, upright: kg m^2/s."""
     return rf"\mathrm{{{_unit(text)}}}"
 
 
 def dimension_latex(dimension: Dimension) -> str:
-    """A dimension, upright: M L^2."""
+    """Return a dimension, upright: M L^2."""
     parts = [letter if n == 1 else f"{letter}^{{{n}}}" for letter, n in dimension.powers.items() if n]
     return rf"\mathsf{{{chr(32).join(parts)}}}" if parts else "1"
 
@@ -333,7 +335,7 @@ def _encoder() -> UnicodeToLatexEncoder:
 
 
 def escaped(text: str) -> str:
-    """Plain text that TeX prints as it is: every special character is made harmless."""
+    """Return plain text that TeX prints unchanged, with every special character escaped."""
     if text.isascii() and not any(c in text for c in "\\{}$&#^_%~<>|\"'`"):
         return text
     try:
@@ -343,7 +345,7 @@ def escaped(text: str) -> str:
 
 
 def unprintable(text: str) -> int | None:
-    """Where the first character stands that the fonts of the page do not have."""
+    """Return the index of the first character that the fonts of the page do not have."""
     return next((i for i, character in enumerate(text) if not _is_printable(character)), None)
 
 

@@ -1,4 +1,4 @@
-"""Mathematics as it stands on paper, before any format: what is a fraction, what is raised, what is in brackets.
+"""Mathematics as it is printed, before any format: fractions, superscripts, brackets.
 
 `notation.py` decides the layout once; `latex.py` and `text.py` only set it.
 """
@@ -18,7 +18,7 @@ class Digits:
 
 @dataclass(frozen=True)
 class Name:
-    """A symbol: `omega`, with subscript `x`, so many dots; style is scalar, vector or tensor."""
+    """A symbol: `omega`, with subscript `x` and a number of dots; style is scalar, vector or tensor."""
 
     base: str
     subscript: str = ""
@@ -27,7 +27,7 @@ class Name:
 
     @property
     def letter(self) -> str:
-        """The base without its primes."""
+        """Return the base without its primes."""
         return self.base.rstrip("'")
 
     @property
@@ -36,14 +36,14 @@ class Name:
 
     @property
     def below(self) -> tuple[str, tuple[str, ...]]:
-        """The parts of the subscript, and what stands between them: letters run together, a word is set apart."""
+        """Return the separator and the parts of the subscript: letters run together, a word is separated."""
         parts = tuple(self.subscript.split("_"))
         return "," if any(len(part) > 2 for part in parts) else "", parts
 
 
 @dataclass(frozen=True)
 class Upright:
-    """A unit or another word that is printed upright."""
+    """A unit or another word, printed upright."""
 
     text: str
 
@@ -57,7 +57,7 @@ class Operator:
 
 @dataclass(frozen=True)
 class Row:
-    """Things side by side."""
+    """Items side by side."""
 
     items: tuple[Layout, ...]
 
@@ -97,7 +97,7 @@ class Fenced:
 
 @dataclass(frozen=True)
 class Bracketed:
-    """[F] between limits."""
+    """An antiderivative in brackets between limits: [F]."""
 
     inside: Layout
     lower: Layout
@@ -106,7 +106,7 @@ class Bracketed:
 
 @dataclass(frozen=True)
 class Evaluated:
-    """A layout with a bar behind it, and below the bar where it is taken."""
+    """A layout with a bar after it, and below the bar the place where it is evaluated."""
 
     inside: Layout
     where: Layout
@@ -122,7 +122,7 @@ class IntegralSign:
 
 @dataclass(frozen=True)
 class Applied:
-    """A function by its printed name, perhaps raised, and its argument."""
+    """A function by its printed name, with an exponent if it has one, and its argument."""
 
     name: str
     argument: Layout
@@ -161,16 +161,16 @@ GREEK_LETTERS = {
     "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ",
     "Omega": "Ω", "infty": "∞",
 }  # fmt: skip
-SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # of a result whose usual letter is taken
+SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # for a result whose usual letter is taken
 
-DEGREE_SIGN = Upright("degree")  # the only unit that stands close behind its number
+DEGREE_SIGN = Upright("degree")  # the only unit without a space after its number
 DOT, TIMES, PLUS, MINUS, THIN_SPACE = (Operator(kind) for kind in ("dot", "times", "plus", "minus", "space"))
 EITHER_SIGN = Operator("plus_minus")
 INNER, CROSS = Operator("inner"), Operator("cross")  # between two vectors: a dot, and a cross
 
 
 def holds_fraction(layout: Layout) -> bool:
-    """A root or a function with a fraction in it, which would be too high above another."""
+    """Return whether a root or a function contains a fraction, which would be too high in a numerator."""
     inside = layout.inside if isinstance(layout, RootSign) else layout.argument if isinstance(layout, Applied) else None
     if isinstance(inside, Fenced):
         inside = inside.inside
@@ -179,7 +179,7 @@ def holds_fraction(layout: Layout) -> bool:
 
 
 def row(*items: Layout) -> Layout:
-    """Items side by side, rows within rows opened."""
+    """Return items side by side, with nested rows flattened."""
     flat: list[Layout] = []
     for item in items:
         flat.extend(item.items if isinstance(item, Row) else [item])
@@ -195,7 +195,7 @@ def last_of(layout: Layout) -> Layout:
 
 
 def begins_with_number(layout: Layout) -> bool:
-    """Whether it may not stand directly behind another factor: `3a`, `3/2 a`, `10^2`."""
+    """Return whether the layout needs a dot after another factor: `3a`, `3/2 a`, `10^2`."""
     first = first_of(layout)
     if isinstance(first, Raised):
         return begins_with_number(first.base)
@@ -205,7 +205,7 @@ def begins_with_number(layout: Layout) -> bool:
 
 
 def is_numeric(layout: Layout) -> bool:
-    """Whether it is made of numbers alone: 2/(3 sqrt(14))."""
+    """Return whether the layout has only numbers: 2/(3 sqrt(14))."""
     match layout:
         case Fraction(above, below):
             return is_numeric(above) and is_numeric(below)
@@ -217,20 +217,20 @@ def is_numeric(layout: Layout) -> bool:
 
 
 def is_number(layout: Layout) -> bool:
-    """A plain number, or a fraction of plain numbers."""
+    """Return whether the layout is a plain number or a fraction of plain numbers."""
     if isinstance(layout, Fraction):
         return is_number(layout.above) and is_number(layout.below)
     return isinstance(layout, Digits)
 
 
 def is_differential(layout: Layout) -> bool:
-    """d, d^2 or a curly d."""
+    """Return whether the layout is d, d^2 or a curly d."""
     sign = layout.base if isinstance(layout, Raised) else layout
     return sign in (Upright("d"), Upright("partial"))
 
 
 def ends_in_differential(layout: Layout) -> bool:
-    """... dx, behind which an integral takes in nothing more."""
+    """Return whether the layout ends in dx, after which an integral is complete."""
     return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Upright("d")
 
 
@@ -242,7 +242,7 @@ POSITION = re.compile(r"^r(?P<primes>'*)_(?P<of>[^_]+)_(?P<axis>[xyz])(?=_d*dot$
 
 
 def layout_of_name(name: str) -> Name:
-    """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots; `r_C_z`, of a position r_C, is z_C."""
+    """Split `omega_x`, `theta_dot`, `J_xy` into letter, subscript and dots; `r_C_z` of a position r_C is z_C."""
     name = POSITION.sub(r"\g<axis>\g<primes>_\g<of>", name)
     match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
     if not match:
@@ -254,7 +254,7 @@ def layout_of_name(name: str) -> Name:
 
 
 def width(layout: Layout) -> float:
-    """About how many characters wide a layout is in print."""
+    """Return the approximate number of characters that a layout is wide in print."""
     match layout:
         case Digits(digits):
             return len(digits)

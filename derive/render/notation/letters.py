@@ -1,7 +1,7 @@
-"""One letter, one thing: what each letter of a page stands for, and the letters of a problem that stand for two.
+"""One symbol, one meaning: the meaning of each symbol of a page, and the symbols of a problem with two meanings.
 
-Steps bring in letters of their own: symbols, components and entries, coordinates and their rates, variables of
-integration. What counts is what is printed: `z_C` looks just like the component `r_C_z`; a bold `I` is not `I`.
+Steps introduce symbols: of results, components and entries, coordinates and their rates, variables of integration.
+What counts is the printed form: `z_C` looks just like the component `r_C_z`; a bold `I` is not `I`.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
 from derive.steps.step import Quantity, Step, entry_name
 
-ANOTHER = "use another letter"
+ANOTHER = "use another symbol"
 _NOTATION = Notation()
 
 
 def letter_clashes(
     problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol] = ()
 ) -> list[Complaint]:
-    """A complaint for each letter in use that stands, as printed, for something else too; one for each letter.
+    """Return an error for each symbol in use whose printed form also means something else; one for each symbol.
 
-    `coordinates` are those that the script has named: a body that was there before may have taken such a letter.
+    `coordinates` are those that the script has named: a body created before may have taken such a symbol.
     """
     used = letters_in_use(problem)
     looks = {as_printed(letter): letter for letter in used}
@@ -35,7 +35,7 @@ def letter_clashes(
     for letter in used:
         other = looks[as_printed(letter)]
         if other != letter:
-            message = f"`{letter.name}` and `{other.name}` are printed alike"
+            message = f"`{letter.name}` and `{other.name}` look the same in print"
             faults[letter] = Complaint("letter-clash", message, _place(problem, letter), help=ANOTHER)
     for quantity in known.values():
         for name, what in meanings(quantity.step, set(problem.dimensions)):
@@ -48,7 +48,7 @@ def letter_clashes(
 def _integrated_coordinates(
     problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol]
 ) -> list[Complaint]:
-    """Coordinates over which a step integrates as over a variable of its own."""
+    """Return errors for coordinates that a step also uses as a variable of integration."""
     named = {as_printed(q): q for q in coordinates}
     own = [
         (q, quantity.key)
@@ -60,14 +60,14 @@ def _integrated_coordinates(
     ]
     message = "`{}` is a coordinate, but the step `{}` integrates over a variable of that name"
     place = problem.script.returns if problem.script else None
-    help_line = "name the coordinates before the bodies, which then take other letters"
+    help_line = "name the coordinates before the bodies, so that the bodies take other symbols"
     return [
         Complaint("letter-clash", message.format(q.name, key), place, help=help_line) for q, key in dict(own).items()
     ]
 
 
 def letters_in_use(problem: Problem) -> list[Symbol]:
-    """The letters that stand for something given, or have a number; one that is only declared stands for nothing."""
+    """Return the symbols of inputs or with a number; a symbol that is only declared has no meaning yet."""
     found = [letter for given in problem.givens for letter in given.letters]
     return list(dict.fromkeys([*found, *(measured.symbol for measured in problem.measured)]))
 
@@ -77,7 +77,7 @@ def as_printed(name: Any) -> str:
 
 
 def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, str]]:
-    """Every name that a step brings in, and what it stands for; `letters` are those that it has from elsewhere."""
+    """Yield every name that a step introduces, and its meaning; `letters` are those that it has from elsewhere."""
     yield from _named_by(step)
     for q, _ in step.coordinates:
         yield q, "the script has a coordinate of that name"
@@ -90,12 +90,12 @@ def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, 
             yield variable, f"the step `{step.key}` integrates over it"
     free = {name for form in step.chain for name in form.expr.free_symbols if isinstance(name, Symbol)}
     for name in sorted(free - own - set(letters), key=str):
-        yield name, f"the step `{step.key}` has another letter of that form"
+        yield name, f"the step `{step.key}` has another symbol that looks the same"
 
 
 def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
-    """What a step calls its result, and the components or entries of that."""
-    symbol, result = step.symbol, f"the step `{step.key}` calls its result so too"
+    """Yield the name of a step's result, and of its components or entries."""
+    symbol, result = step.symbol, f"the step `{step.key}` also uses it for its result"
     if isinstance(symbol, Symbol):
         yield symbol, result
     elif isinstance(symbol, MatrixBase):
@@ -113,7 +113,7 @@ def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
 
 
 def _integrated(expr: Any) -> Iterator[Symbol]:
-    """The variables of integrals and brackets, which are printed."""
+    """Yield the variables of integrals and brackets, which are printed."""
     for whole in expr.atoms(Integral, Bracket):
         if isinstance(whole, Integral):
             yield from whole.variables
@@ -122,15 +122,15 @@ def _integrated(expr: Any) -> Iterator[Symbol]:
 
 
 def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
-    so = what if name.name == letter.name else f"`{name.name}` is printed so too: {what}"
-    message = f"`{letter.name}` is a letter of this problem, but {so}"
+    so = what if name.name == letter.name else f"`{name.name}` looks the same in print: {what}"
+    message = f"`{letter.name}` is a symbol of this problem, but {so}"
     chosen = f"symbols.{letter.name}" not in problem.places
-    help_line = "declare another letter of its kind under `symbols:`" if chosen else ANOTHER
+    help_line = "declare another symbol of its kind under `symbols:`" if chosen else ANOTHER
     return Complaint("letter-clash", message, _place(problem, letter), help=help_line)
 
 
 def _place(problem: Problem, letter: Symbol) -> Place | None:
-    """Where the letter is declared, or the given for whose number it was chosen."""
+    """Return where the symbol is declared, or the input whose number it replaces."""
     given = next((given.name for given in problem.givens if letter in given.letters), "")
     keys = (f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
     return next((problem.places[key] for key in keys if key in problem.places), None)

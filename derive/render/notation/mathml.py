@@ -1,6 +1,6 @@
-"""Layout to MathML: what `latex` writes, as `math-core` reads it; browsers show it without a script.
+"""Layout to MathML: the output of `latex`, converted by `math-core`; browsers show it without a script.
 
-Decision 0024 compares the converters. What is not MathML Core, such as a frame, is left to the page's own style.
+Decision 0024 compares the converters. The style sheet of the page has what MathML Core lacks, such as frames.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from derive.render.rendered import Html
 
 
 def mathml(layout: Layout, *, inline: bool = False) -> Html:
-    """A formula of its own; inline, its fractions are small or have a stroke."""
+    """Return a separate formula; inline, its fractions are small or have a stroke."""
     return of_latex(latex(layout, inline=inline), inline=inline)
 
 
 def in_pieces(
     layout: Layout, *, inline: bool = False, sign: str = "", goes_on: bool = False
 ) -> list[tuple[float, Html]]:
-    """The terms of a sum as formulas of their own, between which a line may end, each with its width in characters.
+    """Return the terms of a sum as separate formulas, between which a line may end, each with its width in characters.
 
-    Before the first stands a relation, or the sum goes on from another line.
+    Before the first there is a relation, or the sum continues from another line.
     """
     first, *others = latex_of_terms(layout, inline=inline)
     begun = _going_on(first, inline) if goes_on else of_latex(f"{sign} {first}".strip(), inline=inline)
@@ -35,22 +35,22 @@ def in_pieces(
 
 
 def _going_on(formula: str, inline: bool) -> Html:
-    """What begins with a sign that stands between it and the formula before it."""
+    """Return a formula that begins with a sign between it and the formula before it."""
     return Html(of_latex(f"{{}}{formula}", inline=inline).replace("<mrow></mrow><mo", '<mo form="infix"', 1))
 
 
 @cache
 def of_latex(formula: str, inline: bool = False) -> Html:
-    """A formula that is LaTeX of ours; one that `latex` writes can always be read.
+    """Return the MathML of LaTeX that `latex` writes, which can always be converted.
 
-    What keeps the rows of a column apart is for TeX: a browser's rows are as high as what stands in them.
+    The spacing between rows of a column is for TeX only: a browser makes each row as high as its contents.
     """
     for spacing in SPACING:
         formula = formula.replace(spacing, "")
     converted = _converter().convert_with_local_state(formula, displaystyle=not inline)
-    # A block is what its row is; a formula by itself stands within one.
+    # A block becomes its row; a separate formula is within a row.
     converted = converted.replace('<math display="block">', '<math displaystyle="true">', 1)
-    return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML has no name for that character
+    return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML has no name for this character
 
 
 APPLIED = "&ApplyFunction;"

@@ -1,6 +1,6 @@
-"""In which order terms and factors are written.
+"""The order in which terms and factors are written.
 
-Terms: of a motion first, by accelerations and rates; then what is plain, what has letters below, functions of angles.
+Terms of a motion come first, by accelerations and rates; then plain terms, fractions in letters, functions of angles.
 Factors: masses, accelerations of gravity, lengths, sums, numbers, roots, rates, functions.
 """
 
@@ -17,20 +17,23 @@ from derive.algebra.dimensions import Dimension, power, product
 from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.products import Place, positive_first, rank_of_dimension, rank_of_sum, roots_last
 
-RATE_ENDS = ("_ddot", "_dot")  # in the names of accelerations and of rates
+RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
 def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
-    """The terms of a sum as they are written; `moving` numbers the coordinates."""
+    """Return the terms of a sum as they are written; `moving` numbers the coordinates."""
     terms = roots_last(expr.as_ordered_terms())
-    if expr.has(ex.Amount):  # 0.2 m + 1/2 (0.05 m), as R + a/2
+    if expr.has(ex.Amount):  # 0.2 m + 1/2 (0.05 m), like R + a/2
         return positive_first(sorted(terms, key=lambda term: not isinstance(term, ex.Amount)))
     return positive_first(motion_first(plain_first(terms), moving))
 
 
 def plain_first(terms: list[Any]) -> list[Any]:
-    """1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a: letters, then fractions, roots, functions."""
+    """Sort plain terms first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
+
+    Plain terms come before fractions, roots and functions.
+    """
 
     def place(term: Any) -> tuple[int, bool, bool]:
         functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
@@ -45,9 +48,9 @@ def _has_root(term: Expr) -> bool:
 
 
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
-    """Terms with accelerations lead, then those with rates, each by the order of the coordinates and by powers.
+    """Sort terms with accelerations first, then those with rates, each by the order of the coordinates and by powers.
 
-    Beside them what holds a coordinate stands before constants: m y_ddot + k y - m g.
+    After them terms with a coordinate come before constants: m y_ddot + k y - m g.
     """
     rates = sorted(
         {s for term in terms for s in term.free_symbols if s.name.endswith(RATE_ENDS)},
@@ -72,14 +75,14 @@ def _coordinate(letter: Symbol) -> str:
 
 
 def ordered_factors(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
-    """The factors of a product as they are written."""
+    """Return the factors of a product as they are written."""
     return _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
 
 
 def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
-    """omega_z omega_x, as omega_x omega_y and omega_y omega_z in the other components of a cross product.
+    """Write omega_z omega_x, to match omega_x omega_y and omega_y omega_z in the components of a cross product.
 
-    Beside a product of inertia I_xz they stand in the order of its axes.
+    Next to a product of inertia I_xz they have the order of its axes.
     """
     names = [factor.name if isinstance(factor, Symbol) else "" for factor in factors]
     for i, name in enumerate(names):
@@ -93,7 +96,9 @@ def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]
 
 
 def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:
-    """Densities and masses, accelerations of gravity, lengths, sums, numbers, rates; then brackets and functions."""
+    """Return the rank of a factor: densities, masses, accelerations, lengths, sums, numbers, rates; brackets,
+    functions.
+    """
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
     if is_root and not base.has(Function):
@@ -114,7 +119,7 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
 
 
 def _place_of_term(term: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
-    """The place of a product of letters by its dimension; angles, and what else is no letter, do not count."""
+    """Return the place of a product by its dimension; angles and other factors that are not letters do not count."""
     found = [factor.as_base_exp() for factor in Mul.make_args(term)]
     powers = [(letter, n) for letter, n in found if isinstance(letter, Symbol | ex.Amount) and n.is_Rational]
     dimensions = [(dimension_of(letter), n) for letter, n in powers]

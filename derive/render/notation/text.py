@@ -1,16 +1,16 @@
-"""Layout to plain text for a terminal: one line where it can be, a block of lines for vectors and tensors.
+"""Layout to plain text for a terminal: one line where possible, a block of lines for vectors and tensors.
 
-How a line is meant to be read; `tests/printed/from_text.py` reads it so, and every printed line is compared:
+These are the rules for reading a line; `tests/printed/from_text.py` follows them, and every printed line is compared:
 
     a b, 2a      a product; it binds tighter than `·` and `×` between vectors, and those tighter than + and -
-    1/2 M a²/b   from left to right: half of M a², over b; behind the stroke stands one factor, a product in brackets
-    a·3b         a product of which a later factor begins with a number
-    a⃗·b⃗, a⃗ × b⃗  of vectors: all that stands on either side, up to the next sign
-    -a b         minus the whole product; a sign stands only where a sum begins, so never behind `·` or another sign
-    sin θ        of one letter; of anything longer in brackets, `sin(2θ)`; sin² θ is its square
+    1/2 M a²/b   from left to right: half of M a², over b; one factor follows the stroke, a product is in brackets
+    a·3b         a product with a later factor that begins with a number
+    a⃗·b⃗, a⃗ × b⃗  of vectors: everything on either side, up to the next sign
+    -a b         minus the whole product; a sign appears only where a sum begins, so never after `·` or another sign
+    sin θ        of one letter; anything longer is in brackets, `sin(2θ)`; sin² θ is its square
     √a           of one letter or number, else √(...)
     a⃗, I⃡        a vector under an arrow, a tensor under a double one; `I` is a scalar, `1⃡` the unit tensor; a zero is 0
-    ∫(0..a) dx   an integral over all that follows in its product; `∫ f dm` is over a body
+    ∫(0..a) dx   an integral over everything that follows in its product; `∫ f dm` is over a body
     [F](0..a)    F between two limits; U|(x = 0) is U at a place; dL/dt and d/dt (...) are derivatives
 """
 
@@ -73,7 +73,7 @@ TEXT_OPERATORS = {
     "on": "    ",
     "next": ",   ",
 }
-LEADING_SIGNS: dict[Layout, str] = {Operator("minus"): "-", Operator("plus_minus"): "±"}  # where a sum begins
+LEADING_SIGNS: dict[Layout, str] = {Operator("minus"): "-", Operator("plus_minus"): "±"}  # at the beginning of a sum
 UNITS = {DEGREE_SIGN.text: "°", "partial": "∂"}
 PRINTED_LETTERS = {**GREEK_LETTERS, **SCRIPT_LETTERS}
 ACCENTS = {"vector": "\u20d7", "tensor": "\u20e1"}
@@ -81,7 +81,7 @@ _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
 
 
 def columns(text: str) -> int:
-    """How wide a text is: an arrow or a dot above a letter takes no room."""
+    """Return the width of a text: an arrow or a dot above a letter has no width."""
     return len(text) if text.isascii() else sum(not unicodedata.combining(character) for character in text)
 
 
@@ -91,7 +91,7 @@ def to_the_right(text: str, width: int) -> str:
 
 @dataclass(frozen=True)
 class TextBox:
-    """Lines of equal width; `middle` is the one that a line of text continues."""
+    """Lines of equal width; a line of text continues the one at `middle`."""
 
     lines: tuple[str, ...]
     middle: int = 0
@@ -115,12 +115,12 @@ class TextBox:
 
 
 def plain(layout: Layout) -> str:
-    """A layout as text, possibly of several lines."""
+    """Return a layout as text, possibly of several lines."""
     return "\n".join(line.rstrip() for line in text_box(layout).lines)
 
 
 def in_one_line(layout: Layout) -> str:
-    """A layout as text of a single line, a matrix row by row in brackets."""
+    """Return a layout as text on a single line, a matrix row by row in brackets."""
     return plain(_on_one_line(layout))
 
 
@@ -149,7 +149,7 @@ def _holds_matrix(layout: Any) -> bool:
 
 
 def _on_one_line(layout: Any) -> Any:
-    """The layout with every matrix row by row in brackets: under a root or a stroke there is no room for lines."""
+    """Return the layout with every matrix row by row in brackets: a root or a fraction has one line only."""
     if isinstance(layout, Array) and len(layout.rows[0]) > 1:
         lines = [_in_brackets(line) for line in layout.rows]
         return _in_brackets([_on_one_line(line) for line in lines])
@@ -205,7 +205,7 @@ def _line(layout: Layout) -> str:
 
 
 def _tight(layout: Layout, *, is_above: bool = False) -> str:
-    """An operand of `/`: bracketed if it would be misread; a product may stand before the stroke as it is."""
+    """Return an operand of `/`, in brackets if it would be misread; a product before the stroke needs none."""
     text = plain(layout)
     last = last_of(layout)
     if isinstance(last, Applied) and not isinstance(last.argument, Fenced):
@@ -229,20 +229,20 @@ def _row(items: tuple[Layout, ...]) -> TextBox:
 
 
 def _piece(before: Layout | None, item: Layout) -> TextBox:
-    """What stands in a row, behind what is before it."""
+    """Return an item of a row, which depends on the item before it."""
     leads = before is None or isinstance(before, Operator) and before.kind not in ("plus", "minus", "space", "close")
     return TextBox((LEADING_SIGNS[item],)) if leads and item in LEADING_SIGNS else text_box(item)
 
 
 def _gap(before: tuple[Layout, ...], item: Layout, piece: TextBox) -> str:
-    """Between two factors: a dot if the second begins with a figure, but not behind a differential."""
+    """Return the text between two factors: a dot if the second begins with a digit, except after a differential."""
     begins = len(piece.lines) == 1 and piece.lines[0][:1].isdigit() and not isinstance(first_of(item), Name)
     behind_differential = len(before) > 1 and is_differential(before[-2])
     return "·" if begins and not behind_differential else " "
 
 
 def _needs_space(before: Layout, item: Layout) -> bool:
-    """`13/12 M a²`, but `2a` and `3(x + y)`."""
+    """Return whether a space is needed: `13/12 M a²`, but `2a` and `3(x + y)`."""
     if isinstance(before, Operator | IntegralSign) or isinstance(item, Operator):
         return False
     if item == DEGREE_SIGN or is_differential(before):
@@ -258,7 +258,7 @@ def _array(rows: tuple[tuple[Layout, ...], ...]) -> TextBox:
     lines = ["  ".join(to_the_right(text, width) for text, width in zip(line, widths, strict=True)) for line in cells]
     if len(lines) == 1:
         return TextBox((f"({lines[0]})",))
-    if len(rows[0]) == 1:  # a column: one line, as vectors are written in running text
+    if len(rows[0]) == 1:  # a column on one line, as vectors are written in running text
         return TextBox(("(" + ", ".join(line[0] for line in cells) + ")",))
     left = ["⎡"] + ["⎢"] * (len(lines) - 2) + ["⎣"]
     right = ["⎤"] + ["⎥"] * (len(lines) - 2) + ["⎦"]

@@ -1,4 +1,4 @@
-"""A display as LaTeX that every reader of mathematics knows: amsmath in one piece, without commands of our own."""
+"""A display as standard LaTeX: amsmath in one piece, without custom commands."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from derive.render.printing.lines import LINE_WIDTH, Printed, framed_together, p
 
 @dataclass(frozen=True)
 class Row:
-    """What stands before the place where rows are aligned, and behind it; a matrix may be in both."""
+    """The parts of a row before and after the alignment mark; both may have a matrix."""
 
     left: str
     right: str
@@ -25,14 +25,14 @@ class Row:
 
 
 def display_latex(display: Display, notation: Notation, numbered: bool = False) -> str:
-    """The rows below each other, their relations aligned; what answers a question is boxed."""
+    """Return the rows below each other, their relations aligned; answers are boxed."""
     return aligned(display_rows(display, notation, ending=_number if numbered else None))
 
 
 def display_rows(
     display: Display, notation: Notation, limit: float = LINE_WIDTH, ending: Callable[[Printed], str] | None = None
 ) -> list[Row]:
-    """Each row with its punctuation, and behind that what its `ending` is."""
+    """Return each row with its punctuation, followed by its `ending`."""
     return [
         _row(lines, (stop if lines is rows[-1] else "") + (ending(lines[-1]) if ending else ""))
         for group, stop in zip(display.groups, display.stops, strict=True)
@@ -42,13 +42,13 @@ def display_rows(
 
 
 def equation_latex(line: ChainLine, notation: Notation) -> str:
-    """One equation within a line of text."""
+    """Return one equation within a line of text."""
     left = latex(notation.side(line.left), inline=True) if line.left is not None else ""
     return f"{left} {TEX_OPERATORS[line.relation]} {latex(notation.result(line.right), inline=True)}".strip()
 
 
 def aligned(rows: Sequence[Row]) -> str:
-    """Rows in one piece; one alone is aligned with nothing."""
+    """Return rows in one piece; a single row is not aligned."""
     if len(rows) == 1:
         return _spaced(rows[0].left, rows[0].right)
     return "\\begin{aligned}\n" + " \\\\\n".join(map(str, rows)) + "\n\\end{aligned}"
@@ -59,7 +59,7 @@ def _number(line: Printed) -> str:
 
 
 def _row(lines: Sequence[Printed], end: str) -> Row:
-    """A line, or all lines that are in one frame, which begins behind the relation where they go on from another."""
+    """Return a line, or all lines in one frame, which begins after the relation if they continue another line."""
     first, *others = lines
     left = latex(first.left) if first.left else ""
     if not others:
@@ -77,7 +77,7 @@ def _going_on(lines: Sequence[Printed]) -> list[Row]:
 
 
 def _with_box(line: Printed) -> str:
-    """Relations and right sides; those that are the result in a box, the relation before it."""
+    """Return relations and right sides, with the result in a box after its relation."""
     at = len(line.sides) - line.framed
     if not line.framed:
         return _sides(line.sides)

@@ -1,8 +1,8 @@
-"""The names in the lines of a step: what each stands for, and how it is written so that SymPy alone can put it in.
+"""The names in the lines of a step: the meaning of each, and a text that SymPy alone can substitute.
 
-A name is an identifier, that of its letter if this is free in every chain that has it (`omega` is not where a letter
-omega stands beside the vector; then it is `omega_`), or the key of its step if it is a formula such as dV/dtheta. Such
-a formula is written out, `Derivative(V, theta(t))`, wherever with the names in it put in it is its value.
+The name of a symbol is its letter if that identifier is free in every chain that has it. Otherwise it is changed:
+`omega` becomes `omega_` where a letter omega occurs next to the vector. A formula such as dV/dtheta has the key of its
+step. Such a formula is written out, `Derivative(V, theta(t))`, if it has its value after its names are substituted.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ from derive.algebra.expressions import (
 from derive.render.printing.plain_sympy import Setting, Written, identifier, written
 from derive.steps.step import Step
 
-PerRoot = str | list[str]  # a list: one for each of two roots
+PerRoot = str | list[str]  # a list has one text for each of two roots
 
 
 @dataclass(frozen=True)
 class Page:
-    """The steps of a page, by which it is decided what moves on it and what its names are called."""
+    """The steps of a page, which decide the coordinates that move on it and the identifiers of its names."""
 
     steps: Sequence[Step]
 
     @cached_property
     def moving(self) -> frozenset[str]:
-        """The coordinates that are functions of time: those with a rate, or along which a rate is taken."""
+        """Return the coordinates that are functions of time: those with a rate, or along which a rate is taken."""
         coordinates = {q for step in self.steps for q, _ in step.coordinates}
         parts = {part for step in self.steps for expr in _exprs(step) for part in preorder_traversal(expr)}
         along = {
@@ -51,7 +51,7 @@ class Page:
 
     @cached_property
     def identifiers(self) -> dict[Any, str]:
-        """What each name is called, in every chain that has it."""
+        """Return the identifier of each name, the same in every chain."""
         found = self._first_identifiers
         order = {name: place for place, name in enumerate(found)}
         clashes: dict[Any, set[str]] = {name: set() for name in found}
@@ -60,7 +60,7 @@ class Page:
             words = {word for line in lines for word in line.words}
             for name in sorted({name for line in lines for name in line.used}, key=order.__getitem__):
                 clashes[name] |= words
-                words.add(found[name])  # the first of two names that are alike keeps its letter
+                words.add(found[name])  # the first of two equal names keeps its letter
         return {name: identifier(called, clashes[name]) for name, called in found.items()}
 
     @cached_property
@@ -96,8 +96,8 @@ def _exprs(step: Step) -> list[Any]:
 class StepNames:
     """The lines of one step as SymPy reads them, with its names.
 
-    values        the names that are put in, with their values: letters, and formulas that are not written out
-    has_formula   whether the left side is a formula of names that says what the chain begins with
+    values        the names to substitute, with their values: symbols, and formulas that are not written out
+    has_formula   whether the left side is a formula of names that gives the beginning of the chain
     """
 
     step: Step
@@ -107,15 +107,17 @@ class StepNames:
     has_formula: bool
 
     def text(self, expr: Any) -> PerRoot:
-        """The text of a line or of a part of it; two if the step is about two roots."""
+        """Return the text of a line or of a part of it; two texts if the step has two roots."""
         return _of_each_root(written(expr, setting).text for setting in self._with_names)
 
     def text_of_value(self, expr: Any) -> PerRoot:
-        """The text of an expression in which letters alone are meant."""
+        """Return the text of an expression in symbols only."""
         return _of_each_root(written(expr, setting).text for setting in self._in_letters)
 
     def factor(self, i: int) -> Any:
-        """What times the residual of line i is that of the line before, with the names and the motion put in."""
+        """Return the factor f in: residual of the line before = f times residual of line i, with names and motion
+        substituted.
+        """
         puts = dict(self.step.names)
         before, here = (explicit(bound(self.step.chain[n].expr, puts)) for n in (i - 1, i))
         if self.step.chain[i].because == "motion":
@@ -124,7 +126,7 @@ class StepNames:
 
     @property
     def symbol(self) -> PerRoot:
-        """The left side: written out if it is a formula of names, else what it is called."""
+        """Return the left side: written out if it is a formula of names, else its identifier."""
         symbol = self.step.symbol
         if isinstance(symbol, MatrixBase):
             return _of_each_root([written(symbol, Setting(self.identifiers)).text])
@@ -132,18 +134,18 @@ class StepNames:
 
     @property
     def names(self) -> dict[str, PerRoot]:
-        """Each name that stands in a line, and what it stands for."""
+        """Return each name that occurs in a line, and its value."""
         used = {name: called for line in self.lines for name, called in line.used.items()}
         return {called: self.text_of_value(self.values[name]) for name, called in used.items()}
 
     @property
     def motion(self) -> dict[str, PerRoot]:
-        """What the equations of motion make of each rate."""
+        """Return the value of each rate by the equations of motion."""
         return {written(rate, self._plain).text: self.text_of_value(value) for rate, value in self.step.motion}
 
     @cached_property
     def lines(self) -> list[Written]:
-        """Every line, with what its names stand for and what its motion is."""
+        """Return every line, with the values of its names and its motion."""
         shown = [*(form.expr for form in self.step.chain), *([self.step.symbol] if self.has_formula else [])]
         lines = [written(expr, self._with_names[0]) for expr in shown]
         used = {name for line in lines for name in line.used}
@@ -152,7 +154,7 @@ class StepNames:
 
     @cached_property
     def _with_names(self) -> list[Setting]:
-        """The setting of the lines, for each of two roots."""
+        """Return the setting of the lines, for each of two roots."""
         own = {self.step.symbol} if self.has_formula else set()
         return self._for_each_root({name: self.identifiers[name] for name in self.values if name not in own})
 
@@ -175,7 +177,7 @@ class StepNames:
 
 
 def _put_in(step: Step) -> tuple[dict[Any, Any], bool]:
-    """The names that are put in, and whether the left side is a formula of them."""
+    """Return the names to substitute, and whether the left side is a formula of them."""
     known = {name: value for name, value in step.names if isinstance(name, Symbol | MatrixSymbol)}
     formulas = [(name, value) for name, value in step.names if name not in known]
     for name, value in sorted(formulas, key=lambda pair: _size(pair[0])):
@@ -188,7 +190,7 @@ def _put_in(step: Step) -> tuple[dict[Any, Any], bool]:
 
 
 def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
-    """Whether a formula of known names is that value once they are put in."""
+    """Return whether a formula of known names has that value once they are substituted."""
     whole = bound(formula, known)
     if isinstance(value, Relation) or whole == formula or whole.has(MatrixSymbol):
         return False
@@ -196,12 +198,12 @@ def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
 
 
 def factor_between(before: Any, here: Any) -> Any:
-    """The simplest factor f with before = f here."""
+    """Return the simplest factor f with before = f here."""
     for sign in (Integer(1), Integer(-1)):
         if equal(before, sign * here):
             return sign
     if isinstance(before, MatrixBase):
-        raise TypeError("equations of vectors differ by no factor")
+        raise TypeError("vector equations may differ only by a sign")
     quotient = before / here
     simpler = cancel(together(TR5(before.expand(), max=8) / TR5(here.expand(), max=8)))
     return simpler if equal(before, simpler * here) else quotient

@@ -1,17 +1,18 @@
-"""The JSON of `derive solve ID --format json`: the contract that other programs read.
+"""The JSON of `derive solve ID --format json`: the contract with other programs.
 
-Every step says what its page says, in plain SymPy text (`derive.render.printing.plain_sympy`): `names` is what each
-name in its chain stands for, and once SymPy has read them and these are put in, each line equals the one before:
+Every step states the same as its page, in plain SymPy text (`derive.render.printing.plain_sympy`). `names` gives the
+value of each name in its chain. After SymPy has read the lines and these values are substituted, each line equals the
+one before:
 
     a number        of `because: rounded` is `within` of the last line before the numbers
-    a relation      has the residual, left minus right, of the one before it but for `factor`, which does not vanish
+    a relation      has the residual, left minus right, of the one before it up to a `factor`, which does not vanish
                     where the `nonzero` do not (in an inequality, where they are positive)
     a series        of `because: series` is the line before it up to an `order` in its `variable`
-    the motion      of `because: motion` holds with `motion` put in
+    the motion      of `because: motion` holds with `motion` substituted
 
-A left side that is a formula (`symbol.formula`) equals the first line. A step that `approximates` a letter is a limit
-or a series of it; what is derived from that is only `about` equal to its first line. Where there are two roots each
-text is a list.
+A left side that is a formula (`symbol.formula`) equals the first line. A step that `approximates` a symbol is a limit
+or a series of it; a result derived from that is only `about` equal to its first line. A step with two roots has a list
+in place of each text.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ from derive.steps.step import NUMBERS, Step
 
 
 def contract(solution: Solution) -> str:
-    """The JSON text."""
+    """Return the JSON text."""
     problem, derivation, values = solution.problem, solution.derivation, solution.values
     document, notation = solution.document, solution.notation
     answered = [derivation.answering(part.answers) for part in problem.parts]
@@ -106,7 +107,7 @@ def _points(points: Any) -> int | float | None:
 
 
 def _given(given: Any) -> Any:
-    """The value as SymPy text, with the number behind each letter."""
+    """Return the value as SymPy text, with the number of each symbol."""
     if given.word is not None:
         return given.word
     value = given.value.components if isinstance(given.value, Direction) else given.value
@@ -133,12 +134,12 @@ def _answer(named: StepNames, value: Step | None, dimension: Dimension | None, n
 
 
 def _symbol(step: Step, notation: Notation) -> str:
-    """What the page calls the result; a relation has no name."""
+    """Return the symbol of a result in LaTeX; a relation has none."""
     return "" if step.symbol is None else latex(notation.layout(step.symbol))
 
 
 def number_told(value: Any) -> dict[str, Any] | None:
-    """The rounded value, or nothing while letters are left in it; of a relation, that on its right."""
+    """Return the rounded value, for a relation that of its right side, or None if symbols are left in it."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
     if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
         return None  # a comparison of two numbers
@@ -179,7 +180,7 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
 
 
 def _whole(step: Step, notation: Notation) -> str | None:
-    """The letter of the whole, of which the result is a limit or a series; of an equation its key."""
+    """Return the symbol of the whole if the result is a limit or a series of it; for an equation its key."""
     whole = step.approximates
     return None if whole is None else whole.name if isinstance(whole, Str) else latex(notation.layout(whole))
 
@@ -202,7 +203,7 @@ def _form(named: StepNames, i: int, notation: Notation) -> dict[str, Any]:
 
 
 def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
-    """In what a line may differ from the one before it: a rounding, a factor of a relation, the rest of a series."""
+    """Return how a line may differ from the one before it: a rounding, a factor of a relation, the rest of a series."""
     form = named.step.chain[i]
     if form.because == "rounded":
         return {"within": named.text_of_value(_half_units(form.expr))}
@@ -217,7 +218,7 @@ def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
 
 
 def _of_expansion(named: StepNames, i: int) -> dict[str, Any]:
-    """In what an expansion is one, where it is about, and its order: in 1/x where x grows without bound."""
+    """Return the variable of an expansion, its centre, and its order, which is in 1/x if x grows without bound."""
     for node in named.step.chain[i - 1].expr.atoms(Expansion, SwingTime):
         x, place = (node.args[1], node.args[2]) if isinstance(node, Expansion) else (node.args[2], Integer(0))
         order = node.args[3]
@@ -227,6 +228,6 @@ def _of_expansion(named: StepNames, i: int) -> dict[str, Any]:
 
 
 def _half_units(expr: Any) -> Any:
-    """By how much each number of a rounded line may be off."""
+    """Return the largest rounding error of each number in a line."""
     shown = expr.right if isinstance(expr, ex.Relation) else expr
     return shown.xreplace({number: half_a_unit(number) for number in shown.atoms(Rounded)})

@@ -1,6 +1,6 @@
-"""A page as LaTeX for a document of somebody else: amsmath, that document's own numbers, and labels to refer to.
+"""A page as LaTeX for another document: amsmath, equation numbers of that document, and labels to refer to.
 
-A drawing stands where it is put, so that it is no float; its number is one of those of figures all the same.
+A drawing appears where it is placed, so it does not float; it still has a figure number.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from derive.render.printing.lines import Printed
 from derive.render.printing.templates import filled_template
 from derive.render.rendered import Tex
 
-WIDTH = 46.0  # of a line, in characters, for the column of a plain article
-# What asks for a package, in the order in which they are loaded.
+WIDTH = 46.0  # width of a line in characters, in the column of a plain article
+# The commands that need a package, in the order in which packages are loaded.
 PACKAGES = {
     r"\usepackage[T1]{fontenc}": (r"\textquotedbl", r"\guill", r"\k{", r"\DJ", r"\dj"),
     r"\usepackage{amsmath}": ("",),
@@ -39,7 +39,7 @@ def fragment(document: Document, words: Phrases, notation: Notation, folder: Pat
 
 
 class FragmentPage(LatexPage):
-    """The same without commands of ours."""
+    """A page without custom commands."""
 
     def __init__(self, document: Document, words: Phrases, notation: Notation):
         super().__init__(document, words, notation)
@@ -52,17 +52,17 @@ class FragmentPage(LatexPage):
         return Tex(escaped(self.words.worth(self.document.points)))
 
     def files(self) -> Sequence[Tex]:
-        """The drawings that stand beside the document."""
+        """Return the drawings in the folder of the document."""
         return [Tex(f"{drawing.stem}.pdf") for drawing in self.document.illustrations]
 
     def labels(self) -> Sequence[Tex]:
-        """Of equations, and of drawings with a caption."""
+        """Return the labels of equations, and of drawings with a caption."""
         equations = [self._label(number) for number in self._keys if number in self._labelled]
         figures = [drawing.key for drawing in self.document.illustrations if drawing.number is not None]
         return [Tex(label) for label in (*equations, *map(self._figure, figures))]
 
     def drawing(self, drawing: Illustration) -> Tex:
-        """The file, and its caption below, with the number that comes next in the document that it stands in."""
+        """Return the file, with its caption below and the next figure number of the surrounding document."""
         shown = rf"\includegraphics{{{drawing.stem}.pdf}}"
         if drawing.number is None:
             return Tex(shown)
@@ -71,7 +71,7 @@ class FragmentPage(LatexPage):
         return Tex(rf"{shown}\par\smallskip{number}{{\small{label} {self.inline(drawing.caption)}}}")
 
     def display(self, display: Display) -> Tex:
-        """Each numbered line with the number that comes next in the document that it stands in."""
+        """Return the rows, each numbered line with the next equation number of the surrounding document."""
         *rows, last = display_rows(display, self.notation, WIDTH, self._ending)
         return Tex("".join(f"{row} \\\\\n" for row in rows) + str(last))
 

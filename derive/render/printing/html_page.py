@@ -1,7 +1,7 @@
 """A page as HTML: the templates of `templates/html` filled with formulas in MathML and drawings in SVG.
 
-Nothing needs a script, a font of the machine or the network. An equation is a row of sides, which go on below one
-another where the window is narrow; what is still too wide scrolls within its own line.
+A page needs no script, no installed font and no network. An equation is a row of sides, which continue below one
+another in a narrow window; a side that is still too wide scrolls within its line.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from derive.render.printing.text_page import closing_title, inline_text
 from derive.render.printing.told_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
-LISTED = 3  # so many parts have contents before them
-# Characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard.
+LISTED = 3  # a page with this many parts has contents before them
+# Characters that fit a narrow window; a wider formula scrolls, and the keyboard can reach it.
 WIDE, IN_TABLE = 24.0, 14.0
 
 
 @dataclass(frozen=True)
 class HtmlFragments:
-    """One problem for the pages that it stands on; these give it its number and its title."""
+    """One problem for the pages that contain it; those pages add its number and its title."""
 
     title: Html
     solution: Html
@@ -54,7 +54,7 @@ def problem_html(
 
 
 class HtmlPage:
-    """What the template may ask of a document, in HTML."""
+    """The data of a document for the template, in HTML."""
 
     def __init__(
         self,
@@ -65,7 +65,7 @@ class HtmlPage:
         rubric: Mapping[str, Sequence[Credit]] | None = None,
         top: int = 1,
     ):
-        """`top` is the level of the heading that it stands below."""
+        """Prepare a page whose parent heading has the level `top`."""
         self.alone = top == 1
         self.document = alone(document) if self.alone else document
         self.words, self.notation, self.rubric = words, notation, rubric or {}
@@ -88,7 +88,7 @@ class HtmlPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Html:
-        """Its sides, between which and within which a line may end."""
+        """Return the sides of a result; a line may end between or within them."""
         line = credit.result
         sides = [("start", self.notation.side(line.left))] if line.left is not None else []
         sides.append((line.relation, self.notation.result(line.right)))
@@ -99,7 +99,7 @@ class HtmlPage:
         return f"({credit.equations.number})"
 
     def sections(self) -> Sequence[PartPage]:
-        """The parts, and behind them the limiting cases."""
+        """Return the parts, followed by the limiting cases."""
         return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))
 
     def kind(self, block: Block) -> str:
@@ -141,25 +141,25 @@ class HtmlPage:
         raise TypeError(f"nothing prints {type(node).__name__}")
 
     def _anchor(self, number: Number) -> str:
-        """Where an equation stands; on a page of several problems each has its own."""
+        """Return the anchor of an equation; on a page of several problems each problem has separate anchors."""
         return f"{self._within}eq-{number}"
 
     def place(self, part: PartPage) -> str:
-        """What leads to a part or to the limiting cases."""
+        """Return the anchor of a part or of the limiting cases."""
         return f"{self._within}part-{part.label}" if part.label else f"{self._within}limits"
 
     def contents(self) -> Sequence[PartPage]:
-        """What a page of several parts lists at its head."""
+        """Return the contents at the head of a page of several parts."""
         return self.sections() if self.alone and len(self.document.parts_shown) >= LISTED else ()
 
     def listed(self, part: PartPage) -> Html:
-        """What a part asks, within a link: nothing in it leads elsewhere."""
+        """Return the question of a part for use in a link, without links of its formulas."""
         return Html(re.sub(r"</?(?:a|span|wbr)\b[^>]*>", "", self.inline(part.ask)))
 
     # --- equations ---------------------------------------------------------------------------------------------------
 
     def steps(self, display: Display) -> Sequence[Html]:
-        """The rows of each step of a display."""
+        """Return the rows of each step of a display."""
         return [
             Html("\n".join(self._row(line, "" if line is not printed[-1] else stop) for line in printed))
             for group, stop in zip(display.groups, display.stops, strict=True)
@@ -167,12 +167,12 @@ class HtmlPage:
         ]
 
     def numbers(self, folded: Folded) -> str:
-        """Of the equations that are folded."""
+        """Return the numbers of the folded equations."""
         groups = [group for block in folded.blocks if isinstance(block, Display) for group in block.groups]
         return ", ".join(f"({number})" for number in dict.fromkeys(group.number for group in groups))
 
     def tex(self, display: Display) -> str:
-        """The same as LaTeX, to be copied."""
+        """Return the display as LaTeX, to be copied."""
         return display_latex(display, self.notation)
 
     def _row(self, line: Printed, stop: str) -> str:
@@ -187,7 +187,7 @@ class HtmlPage:
         return f'<div class="row"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
-        """Lines that are folded below an equation have its number again, but not its place."""
+        """Return whether a number appears for the first time: folded lines repeat it, but not its anchor."""
         known = number in self._placed
         self._placed.add(number)
         return not known
@@ -198,7 +198,7 @@ class HtmlPage:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
 
     def drawing(self, drawing: Illustration) -> Html:
-        """The shapes themselves, or what they show in words where they are not drawn."""
+        """Return the shapes, or a description in words if the drawing is missing."""
         shapes = self.drawings.get(f"{drawing.stem}.svg", b"").decode()
         return Html(shapes or escape(self.plain(drawing.alt)))
 
@@ -210,7 +210,7 @@ class HtmlPage:
 
 
 def _sides(line: Printed, stop: str) -> str:
-    """Relations and right sides, each of which may begin a line of its own; those that are the result have a frame."""
+    """Return relations and right sides, each of which may begin a line; the result has a frame."""
     at = len(line.sides) - (0 if line.frames_all else line.framed)
     shown: list[str] = []
     for relation, side in line.sides[:at]:
@@ -227,7 +227,7 @@ def _sides(line: Printed, stop: str) -> str:
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:
-    """The sides with their punctuation, which never begins a line: within what scrolls, if the last one does."""
+    """Add punctuation, which never begins a line: if the last side scrolls, it is inside the scrolling element."""
     closed = CLOSED * (2 if sides[-1].endswith(CLOSED * 2) else 1)
     return "".join([*sides[:-1], sides[-1].removesuffix(closed), _stop(stop), closed])
 
@@ -240,7 +240,7 @@ CLOSED = "</span>"
 
 
 def _side(relation: str, side: Layout) -> str:
-    """A side of an equation; where it is wide, a line may end before each of its terms."""
+    """Return a side of an equation; a line may end before each term of a wide side."""
     if relation == "on":
         return f'<span class="side on">{_scrolling_pieces(in_pieces(side, goes_on=True))}</span>'
     sign = TEX_OPERATORS[relation]
@@ -250,7 +250,7 @@ def _side(relation: str, side: Layout) -> str:
 
 
 def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room: float = WIDE) -> str:
-    """One behind the other as far as there is room; one that is too wide alone can be scrolled by the keyboard too."""
+    """Join pieces on a line while there is room; a piece that is too wide alone can be scrolled by keyboard."""
     label = f' role="group" aria-label="{escape(said)}"' if said else ""
     return "<wbr>".join(
         f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > room else formula
@@ -259,7 +259,7 @@ def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room
 
 
 def _numbers_of(blocks: Sequence[Block]) -> Iterator[Number]:
-    """The equations that stand there, folded or not."""
+    """Yield the numbers of the equations in the blocks, folded or not."""
     for block in blocks:
         if isinstance(block, Folded):
             yield from _numbers_of(block.blocks)
@@ -268,7 +268,7 @@ def _numbers_of(blocks: Sequence[Block]) -> Iterator[Number]:
 
 
 class HtmlQuestions(HtmlPage):
-    """The same without what is derived: an equation is referred to by the part that asks for it."""
+    """The questions alone: a reference to an equation names the part that asks for it."""
 
     def _node(self, node: Inline) -> str:
         if isinstance(node, Ref):

@@ -1,4 +1,4 @@
-"""A page, or a set of them, as LaTeX: the templates of `templates/latex` filled with printed lines."""
+"""A page or a set of pages as LaTeX: the templates of `templates/latex` filled with printed lines."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from derive.render.printing.templates import filled_template
 from derive.render.printing.text_page import closing_title, inline_text, second_ways
 from derive.render.rendered import Tex
 
-# About how much room things take on the page, in points, and how many characters a line of text and of a note hold.
+# Approximate heights on the page in points, and characters in a line of text and of a note.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
-FEW_ROWS = 4  # that no page parts
+FEW_ROWS = 4  # most rows that stay on one page
 NARROW = 26  # less than half of a line, in characters
 
 
 @dataclass(frozen=True)
 class Fragments:
-    """One problem without preamble, for the documents that it stands in; these give it its number and its title."""
+    """One problem without preamble, for the documents that contain it; those documents add its number and its title."""
 
     title: Tex
     solution: Tex
@@ -49,7 +49,7 @@ Blocks = tuple[Block, ...]
 
 @dataclass(frozen=True)
 class Passage:
-    """Drawings, and the sentences with their displays before and after them; one alone has some of them beside it."""
+    """Drawings with the sentences and displays before and after them; a single drawing has some of them next to it."""
 
     before: tuple[Blocks, ...] = ()
     drawings: tuple[Illustration, ...] = ()
@@ -74,12 +74,12 @@ def problem_latex(document: Document, words: Phrases, notation: Notation, folder
 
 
 def whole_latex(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
-    """A complete document."""
+    """Return a complete document."""
     return filled_template(folder, template, facts)
 
 
 class LatexPage:
-    """What the template may ask of a document, in TeX."""
+    """The data of a document for the template, in TeX."""
 
     def __init__(
         self,
@@ -104,7 +104,7 @@ class LatexPage:
         return Tex(escaped(self.words.worth(part.points, part.extra)))
 
     def credits(self, part: PartPage) -> Sequence[Credit]:
-        """What the steps of a part are worth, on papers that tell it."""
+        """Return the points of the steps of a part, in documents that show them."""
         return self.rubric.get(part.label, ())
 
     def worth_of(self, credit: Credit) -> str:
@@ -124,11 +124,11 @@ class LatexPage:
         return self.document.parts_shown
 
     def sections(self) -> Sequence[PartPage]:
-        """The parts, and behind them the limiting cases."""
+        """Return the parts, followed by the limiting cases."""
         return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))
 
     def is_last(self, block: Block) -> bool:
-        """Whether the closing note follows."""
+        """Return whether the closing note follows."""
         last = self.sections()[-1].blocks[-1:]
         return any(block is each for each in last) and not self.document.note
 
@@ -167,16 +167,16 @@ class LatexPage:
         return Tex(dotted(self.document.id))
 
     def plain(self, nodes: Sequence[Inline], columns: int) -> str:
-        """For bookmarks, which are no TeX."""
+        """Return plain text for bookmarks, which cannot contain TeX."""
         return textwrap.shorten(inline_text(nodes, self.notation, self.document.numbers), columns, placeholder="\u2026")
 
     def passages(self, part: PartPage) -> Sequence[Passage]:
         return passages_of(part.blocks)
 
     def display(self, display: Display) -> Tex:
-        """The rows of a chain; a page ends between steps, or within one that has more than two rows.
+        """Return the rows of a chain; a page may end between steps, or within a step of more than two rows.
 
-        It does not end within a few equations of one row each: Euler's equations stand together.
+        It does not end within a few equations of one row each, such as Euler's equations.
         """
         steps: list[str] = []
         tall: list[bool] = []
@@ -198,7 +198,9 @@ class LatexPage:
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
-        """Left side, right sides, punctuation, reason and number; a framed row has its left side within the frame."""
+        """Return left side, right sides, punctuation, reason and number; the frame of a framed row includes the left
+        side.
+        """
         first, last = lines[0], lines[-1]
         left = latex(first.left) if first.left else ""
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
@@ -222,13 +224,13 @@ class LatexPage:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
 
     def drawing(self, drawing: Illustration) -> Tex:
-        """The file, what stands in its place where it is missing, and its caption."""
+        """Return the file, the text that replaces it if it is missing, and its caption."""
         number = "" if drawing.number is None else escaped(f"{self.words.labels['figure']} {drawing.number}.")
         alt, caption = self.inline(drawing.alt), self.inline(drawing.caption)
         return Tex(rf"{{{drawing.stem}.pdf}}{{{alt}}}{{{number}}}{{{caption}}}")
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
-        """The note beside a display and the words before it: as much of it as ends before the next note begins."""
+        """Return the note next to a display and the words before it: as many lines as end before the next note."""
         lines = [escaped(self.words.grades[display.grade])]
         said = second_ways(display, self.words)
         fitting = [route for route in said if _note_height(route) <= self._height(display, before)]
@@ -237,13 +239,13 @@ class LatexPage:
         return Tex(r"\\ ".join(lines))
 
     def _height(self, display: Display, before: Sequence[Inline]) -> float:
-        """About how high a display with the words before it is, in points."""
+        """Return the approximate height of a display with the words before it, in points."""
         text = len(inline_text(before, self.notation, self.document.numbers))
         rows = sum(len(printed_lines(group, self.notation)) for group in display.groups)
         return LINE_HEIGHT * math.ceil(text / CHARACTERS) + ROW_HEIGHT * rows + AROUND
 
     def has_margin(self) -> bool:
-        """Whether notes stand beside displays."""
+        """Return whether displays have notes next to them."""
         return self.document.evidence is EvidenceShown.MARGIN
 
     def closing(self) -> Tex:
@@ -252,14 +254,14 @@ class LatexPage:
 
 
 class _Questions(LatexPage):
-    """The same without what is derived: an equation is referred to by the part that asks for it."""
+    """The questions alone: a reference to an equation names the part that asks for it."""
 
     def _reference(self, key: str) -> str:
         return escaped(f"{self.words.labels['part']} ({self.document.shown_in.get(key, '')})")
 
 
 def passages_of(blocks: Sequence[Block]) -> list[Passage]:
-    """A part, drawing by drawing, with what goes before each and after it: half of what is between two, at the most."""
+    """Split a part by drawings, with the sentences before and after each: at most half of those between two."""
     passages = [Passage()]
     for sentence in sentences(blocks):
         first, last = sentence[0], passages[-1]
@@ -276,19 +278,19 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
 
 
 def _is_low(lines: Sequence[Printed]) -> bool:
-    """One row without a column or a tensor."""
+    """Return whether the lines are one row without a column or a tensor."""
     return len(lines) == 1 and not any(isinstance(last_of(side), Array) for _, side in lines[0].sides)
 
 
 def _is_tall_and_narrow(lines: Sequence[Printed]) -> bool:
-    """A vector or a tensor that two may stand side by side with, each with its number."""
+    """Return whether the step is a narrow vector or tensor: two of them fit side by side, each with its number."""
     (line, *others) = lines
     alone = not others and not line.reason and line.width < NARROW
     return alone and isinstance(last_of(line.sides[-1][1]), Array)
 
 
 def _sides(line: Printed) -> str:
-    """Relations and right sides; those at the end that are the result in a frame, the relation before it."""
+    """Return relations and right sides, with the result at the end in a frame after its relation."""
     shown = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
     at = len(shown) - (0 if line.frames_all else line.framed)
     plain = [f"{sign} {side}" for sign, side in shown[:at]]
@@ -308,7 +310,7 @@ def _framed(formula: str) -> str:
 
 
 def dotted(problem_id: str) -> str:
-    """The name of a problem's place in a document."""
+    """Return the name of a problem's anchor in a document."""
     return problem_id.replace("/", ".")
 
 

@@ -1,4 +1,4 @@
-"""Which forms of a chain share a line: as many as fit, a form with a reason ending its line; long ones take several."""
+"""The forms of a chain that share a line: as many as fit, a form with a reason ends its line, long ones are broken."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from derive.render.notation.layout import Layout, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
-LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # of a line on paper, of one in a browser and of one of text
-LINE_INDENT = 4.0  # of a line that goes on
+LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
+LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # between two equations on one row
-MOST_SIDES = 4  # of one line
+MOST_SIDES = 4  # on one line
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 
 
@@ -25,7 +25,7 @@ INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 class Printed:
     """One printed line: `left` if it begins the chain, then relations and right sides, then the reason.
 
-    So many right sides at its end are framed, with the left side where they are all.
+    `framed` counts the right sides at its end in a frame; if all are framed, the frame includes the left side.
     """
 
     left: Layout | None
@@ -36,7 +36,7 @@ class Printed:
 
     @property
     def frames_all(self) -> bool:
-        """Whether the frame has the left side in it: not where the line goes on from another."""
+        """Return whether the frame includes the left side: not if the line continues another line."""
         stands_alone = self.left is not None or self.sides[0][0] in ("start", "on")
         return self.framed == len(self.sides) and stands_alone
 
@@ -45,11 +45,11 @@ class Printed:
         return (width(self.left) if self.left else 0) + sum(2 + width(side) for _, side in self.sides)
 
 
-@lru_cache(maxsize=1024)  # each format asks for them, and so does the height of a display
+@lru_cache(maxsize=1024)  # used by each format and by the height of a display
 def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> tuple[Printed, ...]:
-    """The lines of one step, packed to a width in characters; the last carries the number."""
+    """Return the lines of one step, packed to a width in characters; the last carries the number."""
     packed: list[Printed] = []
-    begun: Layout | None = None  # the left side of the equation that goes on
+    begun: Layout | None = None  # the left side of the equation that continues
     framed_from = len(equations.lines) - equations.framed
     for i, line in enumerate(equations.lines):
         framed = int(i >= framed_from)
@@ -66,7 +66,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed.append(Printed(left, (side,), line.reason, framed=framed))
             continue
         if last and line.relation == "equals" and _alike(last.sides[-1][1], side[1]):
-            # What is laid out alike is one to the reader.
+            # Equal layouts are one line to the reader.
             packed[-1] = replace(last, sides=(*last.sides[:-1], side), framed=max(last.framed, framed))
             continue
         reason_room = max(reason_width(line.reason), reason_width(last.reason)) if last else 0
@@ -83,7 +83,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
 
 
 def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
-    """Rows: of one line each, but for lines that one frame holds."""
+    """Return rows of one line each, except lines that share a frame."""
     rows: list[list[Printed]] = []
     for line in lines:
         goes_on = line.left is None and line.sides[0][0] == "on"
@@ -95,37 +95,37 @@ def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
 
 
 def _with_bare_number_framed(packed: list[Printed], begun: Layout | None) -> list[Printed]:
-    """What is framed is an equation that one may copy, and no more: the left side of the chain once more, and 0."""
+    """Frame a complete equation that you can copy: repeat the left side of the chain before the 0."""
     *others, last = packed
     chain = [replace(last, sides=last.sides[:-1], reason=(), framed=0)] if len(last.sides) > 1 else []
     return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
 
 
 def _with_condition_framed(packed: list[Printed]) -> list[Printed]:
-    """Of an inequality the frame holds all of its row: the number alone is no answer."""
+    """Frame the whole row of an inequality: the number alone is not an answer."""
     *others, last = packed
     is_condition = last.left is not None and last.sides[0][0] in INEQUALITIES
     return [*others, replace(last, framed=len(last.sides))] if is_condition else packed
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
-    """Whether another equation fits on the row, with a gap before it."""
+    """Return whether another equation fits on the row, with a gap before it."""
     return last.width + GAP + width(left) + 2 + width(right) + reason_width(reason) <= limit
 
 
 def _alike(first: Layout, second: Layout) -> bool:
-    """Whether they read the same, or have the same terms in another order."""
+    """Return whether two layouts read the same, or have the same terms in another order."""
     terms, others = terms_of(first), terms_of(second)
     return first == second or len(terms) == len(others) and _as_read(terms) == _as_read(others)
 
 
 def _as_read(terms: list[Layout]) -> list[str]:
-    """In some order, and without spaces: M/(2 pi a) as it was put together, and with its numbers side by side."""
+    """Return the terms as sorted text without spaces: neither their order nor the spacing of factors matters."""
     return sorted("".join(plain(term).split()) for term in terms)
 
 
 def _fitted(line: Printed, limit: float) -> list[Printed]:
-    """A line that is too long as several, if it can be broken; what it says at its end stays at its end."""
+    """Break a line that is too long into several, if possible; its reason and final sides stay at the end."""
     if line.width <= limit or len(line.sides) > 1:
         return [line]
     ((relation, side),) = line.sides
@@ -145,5 +145,5 @@ def _fitted(line: Printed, limit: float) -> list[Printed]:
 
 
 def reason_width(reason: tuple[Inline, ...]) -> float:
-    """A reason is set small, with a gap before it."""
+    """Return the width of a reason, which is set small, with a gap before it."""
     return 3 + 0.75 * sum(len(node.text) if isinstance(node, Text) else 3 for node in reason) if reason else 0

@@ -1,7 +1,7 @@
-"""A page as Markdown with formulas between dollar signs, as GitHub, wikis and learning platforms read it.
+"""A page as Markdown with formulas between dollar signs, for GitHub, wikis and learning platforms.
 
-Readers of Markdown differ in what they do to a formula before they set it: some take `\\,` for a comma, `_` behind a
-brace for the begin of emphasis, `<b` for a tag. So formulas are written in words of TeX that are nothing in Markdown.
+Markdown readers change formulas in different ways before they set them: some read `\\,` as a comma, `_` after a brace
+as the start of emphasis, `<b` as a tag. So formulas use TeX commands that have no meaning in Markdown.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from derive.render.printing.lines import TEXT_WIDTH, Printed
 from derive.render.printing.text_page import closing_title, inline_text
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>$|~#&])")
-_AS_A_LIST = re.compile(r"^(\d+)([.)])(?=\s)|^([-+=])")  # what would begin a list or underline a heading
+_AS_A_LIST = re.compile(r"^(\d+)([.)])(?=\s)|^([-+=])")  # text that would begin a list or underline a heading
 _IN_WORDS = {
     r"\,": r"\thinspace ",
     r"\!": r"\negthinspace ",
@@ -30,7 +30,7 @@ _IN_WORDS = {
     "<": r"\lt ",
     ">": r"\gt ",
 }
-_BREAK = re.compile(r"\\\\(?:\[[^\]]*\])?")  # the end of a row, with room below it or without
+_BREAK = re.compile(r"\\\\(?:\[[^\]]*\])?")  # the end of a row, with or without space below it
 _SIGNS = re.compile(r"\\[,!{} %]|[<>]")
 
 
@@ -41,7 +41,7 @@ class MarkdownPage:
         self.document, self.words, self.notation = document, words, notation
 
     def head(self) -> Iterator[str | Illustration]:
-        """Title, statement and strategy."""
+        """Yield title, statement and strategy."""
         yield self._heading("#", self.inline(self.document.title), self.words.worth(self.document.points))
         yield self.paragraph(self.document.statement)
         yield from (drawing for drawing in self.document.illustrations if drawing.at == STATEMENT)
@@ -49,13 +49,13 @@ class MarkdownPage:
             yield f"**{text_markdown(self.words.labels['strategy'])}** {self.inline(self.document.strategy)}"
 
     def section(self, part: PartPage) -> Iterator[str | Illustration]:
-        """A part, or the limiting cases."""
+        """Yield a part, or the limiting cases."""
         label = f"({part.label}) " if part.label else ""
         yield self._heading("##", label + self.inline(part.ask), self.words.worth(part.points, part.extra))
         yield from self._blocks(part.blocks)
 
     def end(self) -> Iterator[str | Illustration]:
-        """What is said behind the last part."""
+        """Yield the text after the last part."""
         if self.document.note:
             yield self.paragraph(self.document.note)
         yield f"---\n\n**{text_markdown(closing_title(self.document, self.words))}** {self.closing()}"
@@ -67,14 +67,14 @@ class MarkdownPage:
         return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))
 
     def pieces(self) -> Iterator[str | Illustration]:
-        """The whole page."""
+        """Yield the whole page."""
         yield from self.head()
         for part in self.sections():
             yield from self.section(part)
         yield from self.end()
 
     def drawing(self, drawing: Illustration) -> str:
-        """A link to the file beside the page; where it is missing, a reader shows what it is told to show."""
+        """Return a link to the file in the same folder; if the file is missing, a reader shows the alternative text."""
         alt = text_markdown(inline_text(drawing.alt, self.notation, self.document.numbers))
         return "\n\n".join(filter(None, [f"![{alt}]({drawing.stem}.svg)", self.caption(drawing)]))
 
@@ -126,13 +126,13 @@ class MarkdownPage:
         return f"$$\n{formula_markdown(aligned(rows))}\n$$"
 
     def _ending(self, line: Printed) -> str:
-        """The reason and the number of a line, where they cannot be taken for a part of it."""
+        """Return the reason and the number of a line, separated from its formula."""
         number = "" if line.number is None else rf"\qquad\text{{({line.number})}}"
         reason = (Text("["), *line.reason, Text("]")) if line.reason else ()
         return (rf"\quad{self.told_in_formula(reason)}" if reason else "") + number
 
     def told_in_formula(self, nodes: Sequence[Inline]) -> str:
-        """Words within a formula, and the formulas in them."""
+        """Return words within a formula, and the formulas in them."""
         return "".join(self._in_formula(node) for node in nodes).replace(r"}\text{", "")
 
     def _in_formula(self, node: Inline) -> str:
@@ -145,12 +145,12 @@ class MarkdownPage:
 
 
 def text_markdown(text: str) -> str:
-    """Plain text that Markdown shows as it is."""
+    """Return plain text that Markdown shows unchanged."""
     return _SPECIAL.sub(r"\\\1", text)
 
 
 def formula_markdown(tex: str) -> str:
-    """A formula in which nothing means anything to a reader of Markdown."""
+    """Return a formula without characters that have a meaning in Markdown."""
     tex = _SIGNS.sub(lambda sign: _IN_WORDS[sign[0]], _BREAK.sub(r"\\cr ", tex))
     tex = re.sub(r"\\bm(?=\W)", r"\\boldsymbol", tex)
     # Emphasis begins neither within a word nor before a space.
@@ -159,5 +159,5 @@ def formula_markdown(tex: str) -> str:
 
 
 def _in_text(text: str) -> str:
-    """What stands between the braces of `\\text`."""
+    """Return text for the braces of `\\text`."""
     return re.sub(r"[\\{}$#%&_^~]", " ", text)

@@ -1,6 +1,6 @@
 """The notebook of a page: its words and lines as Markdown, and code by `derive.notebook` for drawings and answers.
 
-It follows the fourth format of Jupyter notebooks, in which every cell has a name (nbformat 4.5).
+It uses version 4.5 of the notebook format (nbformat), in which every cell has an id.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ problem = open_problem({id})"""
 
 
 def notebook(solution: Solution) -> str:
-    """The JSON text."""
+    """Return the JSON text."""
     data = {
         "cells": [_named(cell, i) for i, cell in enumerate(_cells(solution), 1)],
         "metadata": {
@@ -56,7 +56,7 @@ def _of(part: PartPage, answers: dict[str, list[str]]) -> list[str]:
 
 
 def _gathered(page: MarkdownPage, pieces: Iterable[str | Illustration]) -> Iterator[dict[str, Any]]:
-    """What is said between two drawings is one cell; a drawing is drawn by a cell of code, its caption below."""
+    """Put the text between two drawings in one cell; a code cell draws a drawing, with its caption below."""
     said: list[str] = []
     for piece in pieces:
         if isinstance(piece, str):

@@ -1,5 +1,7 @@
-"""The papers that are made where they are asked for, in TeX and HTML: a problem's key, its hints and its rubric; and
-the sheet in HTML."""
+"""The documents that are made on request, in TeX and HTML: a problem's key, its hints and its rubric.
+
+The sheet in HTML is made here too.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,7 @@ def paper_fragments(
     folder: Path,
     drawings: Files,
 ) -> dict[str, str]:
-    """Each paper by its name, and as HTML by `name.html`; `pages` yields the page that a paper is made of."""
+    """Return each document by its name, and as HTML by `name.html`; `pages` returns the page for a document."""
     found: dict[str, str] = {}
     for paper in wanted:
         if paper == SHEET:

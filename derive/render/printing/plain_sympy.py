@@ -1,8 +1,8 @@
-"""An expression of the engine as text that SymPy reads with nothing of ours.
+"""An expression of the engine as plain SymPy text.
 
-A letter has its own name; one that SymPy or Python would take for something of its own (`I`, `S`, `beta`, `lambda`) is
-written `Symbol('I')`. A coordinate that moves is a function of the time, `theta(t)`, and its rates are derivatives of
-it. What an earlier step gave a name is written as an identifier, for which the reader puts its value in.
+A symbol keeps its name; a name with another meaning in SymPy or Python (`I`, `S`, `beta`, `lambda`) is written
+`Symbol('I')`. A coordinate that moves is a function of time, `theta(t)`, and its rates are derivatives of it. A result
+that an earlier step named is written as an identifier, for which the reader substitutes its value.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from derive.algebra.node import Node
 
 @dataclass(frozen=True)
 class Setting:
-    """In what surroundings an expression is written.
+    """The context in which an expression is written.
 
-    names    what is written as an identifier: expression -> identifier
-    moving   the names of the coordinates that are functions of the time
-    sign     which of two roots is meant where they differ by it
-    known    what was written in it before: a value stands in several lines, and a line is asked for again
+    names    expressions written as identifiers: expression -> identifier
+    moving   the names of the coordinates that are functions of time
+    sign     the sign of the root, if there are two
+    known    texts written before: several lines contain the same value, and a line is requested again
     """
 
     names: Mapping[Any, str] = field(default_factory=dict)
@@ -42,13 +42,13 @@ class Setting:
 
 
 def sympy_text(expr: Any, setting: Setting | None = None) -> str:
-    """Plain SymPy text of an expression of the engine."""
+    """Return plain SymPy text of an expression of the engine."""
     return written(expr, setting or Setting()).text
 
 
 @dataclass(frozen=True)
 class Written:
-    """The text of an expression, which of the names stand in it, and its other words: letters and functions of time."""
+    """The text of an expression, the names that occur in it, and its other words: symbols and functions of time."""
 
     text: str
     used: Mapping[Any, str]
@@ -65,13 +65,13 @@ def written(expr: Any, setting: Setting) -> Written:
 
 @cache
 def is_taken(name: str) -> bool:
-    """Whether a word means something to SymPy's reader already, or cannot be one."""
+    """Return whether a word already has a meaning for SymPy's parser, or is not a valid name."""
     known = hasattr(sympy, name) or hasattr(builtins, name)
     return known or keyword.iskeyword(name) or not name.isidentifier()
 
 
 def identifier(name: str, taken: Collection[str] = ()) -> str:
-    """The nearest identifier that is free: `I` -> `I_`, `J'_xx` -> `J_prime_xx`."""
+    """Return the nearest free identifier: `I` -> `I_`, `J'_xx` -> `J_prime_xx`."""
     word = re.sub(r"\W", "_", name.replace("'", "_prime"))
     while is_taken(word) or word in taken:
         word += "_"
@@ -79,13 +79,13 @@ def identifier(name: str, taken: Collection[str] = ()) -> str:
 
 
 def coordinate_of(symbol: Symbol) -> tuple[str, int]:
-    """The name of a coordinate and the order of its rate: theta_ddot -> theta, 2."""
+    """Return the name of a coordinate and the order of its rate: theta_ddot -> theta, 2."""
     order = next(n for n in (3, 2, 1, 0) if symbol.name.endswith(RATES[n]))
     return symbol.name.removesuffix(RATES[order]), order
 
 
 class _PlainSymPy(StrPrinter):
-    """SymPy's own text, with names that cannot be mistaken and nodes lowered to what SymPy knows."""
+    """SymPy's printer, with unambiguous names and with our nodes lowered to SymPy's."""
 
     def __init__(self, setting: Setting):
         super().__init__({"order": None})
@@ -102,7 +102,7 @@ class _PlainSymPy(StrPrinter):
         return str(super()._print(expr, **options))
 
     def _factor(self, expr: Any, variables: tuple[Any, ...] = ()) -> str:
-        """The text of a part, in brackets where it could not stand as a factor otherwise."""
+        """Return the text of a part, in brackets if it would otherwise not be a single factor."""
         with self._within(variables):
             if self._is_name(expr):
                 return self._print(expr)
@@ -113,7 +113,7 @@ class _PlainSymPy(StrPrinter):
 
     @contextmanager
     def _within(self, variables: tuple[Any, ...]) -> Iterator[None]:
-        """Where these are variables of an integral or of an antiderivative, which stand for themselves."""
+        """Treat these variables of an integral or an antiderivative as bound, so that they are not renamed."""
         outside, self._variables = self._variables, (*self._variables, *variables)
         try:
             yield

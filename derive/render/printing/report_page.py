@@ -1,4 +1,4 @@
-"""What the template of a report may ask of a problem, in TeX: its steps in rows, and the source in its own letters."""
+"""The data of a problem for the template of a report, in TeX: its steps in rows, and the source in its notation."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from derive.render.notation.latex import escaped, latex
 from derive.render.notation.notation import Notation
 from derive.render.rendered import Tex
 
-LONG = 60  # characters of a formula that has a line of its own
+LONG = 60  # more characters than this put a formula on a separate line
 
 
 class ReportPage:
@@ -40,12 +40,14 @@ class ReportPage:
 
     @property
     def source(self) -> str:
-        """The document whose lines are told."""
+        """Return the name of the document whose lines are compared."""
         return self.document.checks.source
 
     def steps(self, row: Row) -> Tex:
-        """The steps of a row, each by its symbol and the number of its equation; those that have neither, by what they
-        were made from."""
+        """Return the steps of a row, each by its symbol and the number of its equation.
+
+        Steps that have neither are described by their inputs.
+        """
         named = [name for key in row.steps if (name := self._step(key))]
         if len(named) < len(row.steps):
             named += self._made_from(row)
@@ -58,7 +60,7 @@ class ReportPage:
         return [f"{escaped(self.words.labels['report_page']['made_from'])} {', '.join(found)}"] if found else []
 
     def _step(self, key: str) -> str:
-        """Nothing if it has neither a symbol nor a number."""
+        """Return the symbol and number of a step, or nothing if it has neither."""
         symbol, number = self.document.symbols.get(key), self.document.numbers.get(key)
         numbered = f"({number})" if number is not None else ""
         if symbol is None:
@@ -67,12 +69,12 @@ class ReportPage:
         return rf"{formula}~{numbered}" if numbered else formula
 
     def what(self, row: Row) -> str:
-        """What the steps are, in a word or two."""
+        """Return a word or two for the steps."""
         name = row.rule.rpartition(".")[2].replace("_", " ")
         return str(self.words.labels["rules"].get(row.rule, name))
 
     def grade(self, row: Row) -> Tex:
-        """As a word, which stands out where nothing was proved."""
+        """Return the grade as a word, which is bold if nothing was proved."""
         word = escaped(self.words.grades[row.grade])
         return Tex(word if row.grade is Grade.PROVED else rf"\textbf{{{word}}}")
 
@@ -83,10 +85,10 @@ class ReportPage:
         return self.quoted(erratum.instead) if erratum.instead else self._in_our_letters(erratum, erratum.right)
 
     def quoted(self, text: str) -> Tex:
-        """Prose with formulas between dollar signs, these written anew from known commands."""
+        """Return prose with formulas between dollar signs, these rewritten with known commands."""
         if "$" not in text:
             return Tex(escaped(text))
-        from derive.course.latex.quoting import quoted  # which few documents need
+        from derive.course.latex.quoting import quoted  # few documents need it
 
         pieces = quoted(text)
         return Tex("".join(self._formula(p.text, len(pieces)) if p.is_formula else escaped(p.text) for p in pieces))
@@ -97,13 +99,13 @@ class ReportPage:
         return rf"\fitto{{\linewidth}}{{{tex}}}"
 
     def _in_our_letters(self, erratum: Erratum, value: Any) -> Tex:
-        """`L = (...)` where the source was not transcribed as it stands."""
+        """Return `L = (...)` if the source was not transcribed literally."""
         if isinstance(value, MatrixBase) and value.shape[1] == 1:
             value = tuple(value)
         right = latex(self.notation.result(value), inline=True)
         symbol = self.document.symbols.get(erratum.answer)
         if isinstance(value, Expr) and erratum.answer in self.document.symbols and symbol is None:
-            return Tex(f"${right} = 0$")  # an equation is stated by what vanishes in it
+            return Tex(f"${right} = 0$")  # the residual of an equation vanishes
         return Tex(
             f"${right}$" if symbol is None else f"${latex(self.notation.layout(symbol), inline=True)} = {right}$"
         )

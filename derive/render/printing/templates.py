@@ -1,4 +1,4 @@
-"""The templates of TeX and of HTML filled: what is not ours is escaped, and a fault is told at its line."""
+"""Filling the templates of TeX and of HTML: other text is escaped, and an error is reported at its line."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from derive.page.template import environment
 from derive.render.notation.latex import escaped
 from derive.render.rendered import Html, Tex
 
-LATEX, HTML = "latex", "html"  # folders of templates; what is printed in one is of its own kind, or is escaped for it
+LATEX, HTML = "latex", "html"  # folders of templates; printed text is of the kind of its folder, or is escaped for it
 ESCAPED: Mapping[str, tuple[type[str], Callable[[str], str]]] = {LATEX: (Tex, escaped), HTML: (Html, escape)}
 
 
 def filled_template(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
-    """A template of the folder `latex`; what is wrong with it is told at its own line."""
+    """Fill a template of the folder `latex`; an error in it is reported at its line."""
     return Tex(_filled(folder, LATEX, template, facts))
 
 
 def filled_html(folder: Path, template: str, facts: Mapping[str, Any]) -> Html:
-    """A template of the folder `html`."""
+    """Fill a template of the folder `html`."""
     return Html(_filled(folder, HTML, template, facts))
 
 
@@ -36,7 +36,7 @@ def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) ->
     try:
         return _environment(folder, kind).get_template(template).render(facts)
     except TemplateNotFound as error:
-        message = f"there is no template `{error.name}`"
+        message = f"the template `{error.name}` does not exist"
         raise Rejected(Complaint("template", message, help=f"it belongs in `{_shown(folder / kind)}`")) from error
     except TemplateSyntaxError as error:
         file = folder / kind / (error.name or template)
@@ -54,7 +54,7 @@ def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) ->
 
 
 def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
-    """What stands above that line of a template, filled; nothing if there is no such line, or it needs more facts."""
+    """Fill the text above a line of a template; return nothing if the line is missing or needs more facts."""
     with suppress(TemplateError, OSError, UnicodeError):
         above, found, _ = (folder / "latex" / template).read_text(encoding="utf-8").partition(line)
         if found:
@@ -63,7 +63,7 @@ def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any
 
 
 def compile_templates(folder: Path) -> None:
-    """Have them compiled, for the processes that fill them; what is wrong with one is told where it is filled."""
+    """Compile the templates for the processes that fill them; an error in one is reported when it is filled."""
     for loaded in (_environment(folder, kind) for kind in ESCAPED):
         for name in loaded.list_templates(["j2"]):
             with suppress(TemplateError, OSError, UnicodeError):
@@ -71,7 +71,7 @@ def compile_templates(folder: Path) -> None:
 
 
 def _failing_line(error: Exception, folder: Path) -> Place | None:
-    """The line of a template that failed; nothing if the fault is in what it asked for, which is ours."""
+    """Return the line of a template that failed; None if the error is in our code that it calls."""
     files = {str(file): file for file in folder.glob("*.j2")}
     frames = traceback.extract_tb(error.__traceback__)
     theirs = [i for i, frame in enumerate(frames) if frame.filename in files]
@@ -83,7 +83,7 @@ def _failing_line(error: Exception, folder: Path) -> Place | None:
 
 
 def _line(file: Path, number: int) -> Place:
-    """A line of a template, by its path in the folder of templates."""
+    """Return a line of a template, by its path in the folder of templates."""
     try:
         lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
@@ -94,7 +94,7 @@ def _line(file: Path, number: int) -> Place:
 
 
 def _shown(file: Path) -> str:
-    """`templates/latex/set.tex.j2`, wherever the templates are."""
+    """Return `templates/latex/set.tex.j2`, wherever the templates are."""
     parts = file.parts[::-1]
     return "/".join(file.parts[-parts.index("templates") - 1 :]) if "templates" in parts else file.name
 
@@ -104,7 +104,7 @@ def _environment(folder: Path, kind: str) -> Environment:
     ours, safe = ESCAPED[kind]
 
     def printed(value: Any) -> Any:
-        """What a template prints, escaped unless it is of ours; what is not defined is left to complain."""
+        """Escape printed values except our kind of text; an undefined value raises an error when printed."""
         return value if isinstance(value, ours | Undefined) else ours(safe(str(value)))
 
     made = environment(
@@ -112,7 +112,7 @@ def _environment(folder: Path, kind: str) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        finalize=printed,  # so that no template can forget it
+        finalize=printed,  # so that every template escapes
     )
     if kind == LATEX:
         made.filters["bookmark"] = bookmark_text
@@ -120,11 +120,11 @@ def _environment(folder: Path, kind: str) -> Environment:
 
 
 def bookmark_text(text: str) -> Tex:
-    """Plain text for the title of a PDF or of a bookmark, where there are no fonts and no mathematics."""
+    """Return plain text for the title of a PDF or of a bookmark, without fonts and mathematics."""
     return Tex("".join(escaped(c) if c.isascii() else rf"\unichar{{{ord(c)}}}" for c in text))
 
 
 def _said(error: Exception) -> str:
-    """What went wrong, in a line."""
+    """Return the error message on one line."""
     lines = str(error).strip().splitlines()
     return (lines[0] if lines else type(error).__name__).rstrip(".")

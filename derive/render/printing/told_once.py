@@ -1,6 +1,7 @@
-"""Theorems on a page that has several problems: the first that uses one tells it, and the others say which has.
+"""Theorems on a page of several problems: the first problem that uses one states it, and later ones refer to that
+problem.
 
-The problems of a page are printed apart, so each has the words for both, between marks that no page shows.
+The problems of a page are printed separately, so each has the words for both, between marks that no page shows.
 """
 
 from __future__ import annotations
@@ -19,17 +20,17 @@ MARKED = re.compile(
 
 
 def theorem(name: str, told: str, again: str) -> str:
-    """A theorem at the head of a paragraph: one of its own, or a sentence before the others."""
+    """Return a theorem at the beginning of a paragraph: separate, or as a sentence before the others."""
     return f"{FIRST.format(escape(name))}{told}{LATER}{again}{END}"
 
 
 def told_in(problem: str) -> str:
-    """Where the problem stands that has told it: `Problem` is followed by its number."""
+    """Return the mark for the problem that has stated a theorem: the number follows `Problem`."""
     return TOLD_IN.format(escape(problem))
 
 
 def told_once(problems: Iterable[tuple[str, str, str]]) -> list[Html]:
-    """The problems of a page, each of a name and a number, with every theorem where it is first used."""
+    """Return the problems of a page, each from a name and a number, with every theorem where it is first used."""
     first: dict[str, tuple[str, str]] = {}
 
     def chosen(match: re.Match[str], name: str, number: str) -> str:

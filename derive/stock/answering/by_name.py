@@ -1,7 +1,7 @@
-"""Answers by their names, each derived when it is first asked for, for parts and for what is made of answers.
+"""Answers by their names, each derived when it is first needed, for parts and for results computed from answers.
 
 A name is one of those that a description offers, in the singular or in the plural; one of its steps, by its number; the
-name of a result; or the key of any step that one of these rests on, whichever was asked for before.
+name of a result; or the key of any step on which one of these depends. The order of earlier questions does not matter.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from derive.stock.keys.results import Result
 DIGITS = "0123456789"
 IRREGULAR = {"equilibrium": "equilibria", "momentum": "momenta", "axis": "axes"}
 _NUMBERED = re.compile(r"(\w+)_([1-9]\d?)")
-_ALIKE = 0.85  # from here on a name is taken for a slip of the pen, and is not looked for among all steps
+_ALIKE = 0.85  # a name at least this similar to an offered one is a typing error: no further search
 
 
 class ByName:
-    """The answers of one description; what is made of answers is itself one.
+    """The answers of one description, including results computed from answers.
 
     asks          every name that it offers
-    what          what the description is of: "a rotation"
-    results       what is made of answers
-    coordinates   those that results are about
+    what          the kind of description: "a rotation"
+    results       results computed from answers
+    coordinates   the coordinates of the results
     again         makes the same answers from the start, with nothing derived
-    elsewhere     the answer of a result about another point or axis than the one given
+    elsewhere     the answer of a result about another point or axis than the given one
     """
 
     def __init__(
@@ -58,11 +58,11 @@ class ByName:
         self.asks |= {name: partial(one.made, *given) for name, one in self.results.items()}
 
     def answers(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Each answer that a part asks for; what is refused is refused where it is asked for, and all of it."""
+        """Return each answer that a part asks for; every rejected one is reported at the part that asks for it."""
         offered_first = sorted(asked, key=lambda name: self.offered(name) is None)
         try:
             found = dict(each([partial(self._answer, name) for name in offered_first]))
-        except Rejected as refused:  # what several answers rest on is told once
+        except Rejected as refused:  # an error that several answers share is reported once
             first = {(c.code, c.message): c for c in reversed(refused.complaints)}
             raise Rejected([c for c in refused.complaints if c is first[c.code, c.message]]) from None
         each([partial(self._check_own_key, result) for result in self.results.values()])
@@ -72,7 +72,7 @@ class ByName:
         return str(name), self.named(name)
 
     def named(self, name: Word) -> tuple[Quantity, ...]:
-        """The steps of a name."""
+        """Return the steps of a name."""
         own = self.offered(name)
         if own is not None:
             return self._derived(own, name.place)
@@ -83,17 +83,19 @@ class ByName:
         if leading is not None:
             return _called(name, with_ancestors(self._derived(leading, name.place)))
         for own in (own for own in self.asks if name.startswith(f"{own}_")):
-            self._derived(own, name.place)  # or why it cannot be derived
-        help_line = did_you_mean(name, (*self.asks, *self._there())) or f"one may ask for {', '.join(self.asks)}"
-        message = f"{self.what} has no answer called `{name}`" if self.what else f"there is no answer `{name}`"
+            self._derived(own, name.place)  # raises the error if it cannot be derived
+        help_line = did_you_mean(name, (*self.asks, *self._there())) or f"you may ask for {', '.join(self.asks)}"
+        message = (
+            f"{self.what} has no answer called `{name}`" if self.what else f"`{name}` is not the name of an answer"
+        )
         rejected("no-such-answer", message, name.place, help_line)
 
     def offered(self, name: str) -> str | None:
-        """The name under which it is offered: its own, or that in the other number, `frequencies`."""
+        """Return the name under which it is offered: unchanged, or in the other number, `frequencies`."""
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """All that there is under the names that are offered; of a result also why it cannot be derived."""
+        """Return everything under the offered names; for a result also why it cannot be derived."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:
@@ -104,7 +106,7 @@ class ByName:
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
-        """With nothing else on the record whose letter it might need, unless it goes with what is there."""
+        """Derive a name on the current record, or on an empty one if a symbol that it may need is taken."""
         try:
             return self._derived(name, None)
         except DeriveError:
@@ -114,13 +116,13 @@ class ByName:
                 return self.again()._derived(name, None)
 
     def _copied_run(self) -> Run:
-        """A record on which nothing is established, for the same problem."""
+        """Return a record without steps, for the same problem."""
         run = current_run.get() or Run()
         return Run(assumed=[*run.assumed], in_words=[*run.in_words], numbers=run.numbers, letters=run.letters)
 
     def _derived(self, name: str, place: Place | None) -> tuple[Quantity, ...]:
         if name in self._in_progress:
-            rejected("circle", f"`{name}` is made of itself", place)
+            rejected("circle", f"`{name}` is computed from itself", place)
         if name not in self._known:
             self._in_progress.append(name)
             try:
@@ -134,7 +136,7 @@ class ByName:
         return self._known[name]
 
     def _by_number(self, name: Word) -> tuple[Quantity, ...]:
-        """Of `frequency_2` the step of that key, or the second of what `frequency` yields."""
+        """Return the step with the key `frequency_2`, or the second step of `frequency`."""
         numbered = _NUMBERED.fullmatch(name)
         own = self.offered(numbered[1]) if numbered else None
         if numbered is None or own is None:
@@ -143,7 +145,7 @@ class ByName:
         return (one,) if one is not None else ()
 
     def one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
-        """Of the steps that a name yields that of another name: by its key, or by its number after that name."""
+        """Return the step with another name among the steps of a name: by its key, or by its number after that name."""
         by_key = _called(name, {q.key: q for q in found})
         if len(by_key) == 1:
             return by_key[0]
@@ -152,14 +154,16 @@ class ByName:
         return found[n - 1] if numbered and is_own and (n := int(numbered[2])) <= len(found) else None
 
     def _there(self) -> dict[str, Quantity]:
-        """The steps by key that answers have led to."""
+        """Return the steps that answers have derived, by key."""
         run = current_run.get()
         known = with_ancestors(q for quantities in self._known.values() for q in quantities)
         return {**{q.key: q for q in (run.established if run is not None else ())}, **known}
 
     def _leading_to(self, name: Word) -> str | None:
-        """The first of all names offered that rests on a step of that key: found apart from what the page rests on, so
-        that neither the order of parts nor what was asked for before has a say in it."""
+        """Return the first offered name that depends on a step with that key.
+
+        The search uses a separate record, so that the order of parts and earlier questions have no effect.
+        """
         if self.again is None or name in self._sought:
             return None
         with recorded(self._copied_run()):
@@ -175,33 +179,33 @@ class ByName:
         return None
 
     def _in_order(self, name: str, likely: bool) -> Iterator[str]:
-        """The names offered: those that begin as it does and what most steps come of, or all others."""
+        """Yield the likely names (with a matching beginning, or from which most steps follow), or all others."""
         for own in self.asks:
             begins = name.startswith(f"{own}_") or own in ("lagrangian", "equations_of_motion")
             if begins == likely:
                 yield own
 
     def _check_free(self, name: Word) -> None:
-        """A result has a name of its own."""
+        """Check that a result does not have the name of an answer."""
         own = self.offered(name)
         if own is not None:
             as_one = "" if own == name else f", as `{own}`"
-            message = f"`{name}` is the name of an answer already{as_one}, so no result can be called so"
+            message = f"`{name}` is already the name of an answer{as_one}, so a result cannot have this name"
             rejected("name-clash", message, name.place, "give the result another name")
 
     def _check_own_key(self, result: Result) -> None:
-        """No step but its own has the name of a result."""
+        """Check that no other step has the name of a result."""
         run = current_run.get()
         if run is None or result.name not in self._known:
             return
         own = [q.step for q in self._known[result.name]]
         if any(q.key == result.name and q.step not in own for q in run.established):
-            message = f"`{result.name}` is the key of a step already, so no result can be called so"
+            message = f"`{result.name}` is already the key of a step, so a result cannot have this name"
             rejected("name-clash", message, result.name.place, "give the result another name")
 
 
 def _called(name: str, steps: Mapping[str, Quantity]) -> tuple[Quantity, ...]:
-    """The step of that key; else all that have it with a number; `rest_1` is also a single `rest`."""
+    """Return the step with that key; else all steps with that key and a number; `rest_1` is also a single `rest`."""
     if name in steps:
         return (steps[name],)
     for form in (name, *_in_other_number(name)):
@@ -213,7 +217,7 @@ def _called(name: str, steps: Mapping[str, Quantity]) -> tuple[Quantity, ...]:
 
 
 def _in_other_number(name: str) -> Iterator[str]:
-    """The same name with its first or its last word in the plural where it is in the singular, and the other way."""
+    """Yield the name with its last or its first word changed between singular and plural."""
     words = name.split("_")
     for i in dict.fromkeys((len(words) - 1, 0)):
         for other in _others(words[i]):

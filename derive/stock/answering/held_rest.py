@@ -1,4 +1,4 @@
-"""Rest where forces keep conditions: the equations of motion with nothing moving, solved for places and forces."""
+"""Equilibria with constraint forces: the equations of motion at rest, solved for positions and forces."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from derive.steps.step import Quantity
 def rest_with_forces(
     motions: Mapping[str, Quantity], coordinates: Mapping[str, Coordinate], forces: Sequence[Symbol]
 ) -> tuple[Quantity, ...]:
-    """The static equations, and what they tell together: as many places and forces as there are equations."""
+    """Return the static equations and their solution: as many positions and forces as there are equations."""
     still = [_still(name, motion, coordinates) for name, motion in motions.items()]
     present = {s for each in still for s in explicit(each.value).free_symbols}
     unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + [s for s in forces if s in present]
     if len(unknown) != len(still):
         names = ", ".join(s.name for s in unknown) or "nothing"
-        message = f"{len(still)} equations of rest do not tell {names}, where forces keep conditions"
-        help_line = "write the places by fewer coordinates, so that no force keeps them on their way"
+        message = f"{len(still)} static equations do not determine {names}: constraint forces add unknowns"
+        help_line = "describe the positions by fewer coordinates, so that no constraint force is needed"
         raise Rejected(Complaint("constrained", message, help=help_line))
     return solved_for(tuple(still), *unknown, keys=[f"rest_{s.name}" for s in unknown])
 

@@ -1,4 +1,4 @@
-"""What each answer that a description offers is, in words, for the list of all of them."""
+"""The meaning of each answer that a description offers, in words, for the list of all answers."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ MEANINGS: Mapping[str, str] = {
     "squared_momentum_rate": "the rate of change of the squared angular momentum",
     "momentum_rate_in_body": "the rate of change of the angular momentum as seen from the body",
     "momentum_rate_in_space": "the rate of change of the angular momentum in space",
-    "body_cone_rate": "the rate at which the angular velocity goes round in the body",
+    "body_cone_rate": "the rate at which the angular velocity precesses in the body",
     "axis_of_symmetry": "the axis of symmetry",
     "body_cone": "the angle between the axis of symmetry and the angular velocity",
     "space_cone": "the angle between the angular momentum and the angular velocity",
@@ -90,11 +90,11 @@ MEANINGS: Mapping[str, str] = {
     "angular_momentum_*": "the {} component of the angular momentum",
     "torque_*": "the {} component of the torque",
 }
-FORCE = "a force of constraint or an impulse"  # which goes by a letter of its own
+FORCE = "a force of constraint or an impulse"  # its name is its symbol
 
 
 def meaning_of(name: str) -> str:
-    """In words, with the coordinate or the axis that the name ends in."""
+    """Return the meaning in words, with the coordinate or the axis at the end of the name."""
     if name in MEANINGS:
         return MEANINGS[name]
     fitting = []

@@ -1,4 +1,4 @@
-"""The moments of which a drawing shows velocities: how motions that are asked for begin, and a blow."""
+"""The instants at which a drawing shows velocities: the start of a requested motion, and a blow."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SOLUTION = "solution"
 
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
-    """With the places and velocities from which solutions of equations of motion begin; of two the first."""
+    """Return the positions and velocities at which solutions of equations of motion begin; of two the first."""
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:
@@ -29,7 +29,7 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
 
 
 def struck(blow: DescribedBlow | None, system: System) -> Moment | None:
-    """With what acts in a blow, and where."""
+    """Return what acts in a blow, and where."""
     if blow is None:
         return None
     by_name: Mapping[str, Symbol] = {q.name: q for q in system.coordinates}

@@ -1,4 +1,4 @@
-"""What parts may ask of a blow: jumps of momenta, rates just after it, impulses, and what becomes of the energy."""
+"""Answers of a blow: jumps of momenta, rates just after it, impulses, and the change of the energy."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from derive.stock.keys.blows import DescribedBlow
 
 
 class BlowAnswers:
-    """The quantities of a blow, each derived when it is first asked for.
+    """The quantities of a blow, each derived when it is first needed.
 
-    system, kinetic   what yields the system and its kinetic energy
-    bodies            what yields its bodies and particles by name
+    system, kinetic   return the system and its kinetic energy
+    bodies            returns its bodies and particles by name
     """
 
     def __init__(
@@ -72,7 +72,7 @@ class BlowAnswers:
 
     @cached_property
     def found(self) -> tuple[Quantity, ...]:
-        """All rates just after it, and the impulses."""
+        """Return all rates just after the blow, and the impulses."""
         return rates_after(self.blow, self.jumps(), self.meetings)
 
     def rates(self) -> tuple[Quantity, ...]:
@@ -89,7 +89,7 @@ class BlowAnswers:
         return energy_after(self.blow, self._kinetic(), self.found)
 
     def asks(self) -> dict[str, Callable[[], Any]]:
-        """Every name that a part may ask by."""
+        """Return every name that a part may ask for."""
         found: dict[str, Callable[[], Any]] = {
             "jumps": self.jumps,
             "meetings": lambda: self.meetings,

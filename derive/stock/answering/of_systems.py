@@ -1,4 +1,4 @@
-"""What parts may ask of a system by name, each derived when it is first asked for."""
+"""Answers of a system by name, each derived when it is first needed."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ from derive.witness.facts import Rest
 
 
 class OfSystem(Protocol):
-    """A description of a system, in letters."""
+    """A description of a system, in symbols."""
 
     @property
     def coordinates(self) -> tuple[tuple[str, str, bool], ...]: ...
@@ -85,12 +85,12 @@ class OfSystem(Protocol):
 
 
 def constant(name: str, positive: bool = False) -> Symbol:
-    """The letter of a constant momentum, which is taken not to vanish."""
+    """Return the symbol of a constant momentum, which is assumed to be nonzero."""
     return scalar(name, positive=True) if positive else Symbol(name, real=True, nonzero=True)
 
 
 class Answers:
-    """The quantities of a system, and what is made of them."""
+    """The quantities of a system, and results computed from them."""
 
     def __init__(self, described: OfSystem):
         self.described = described
@@ -123,18 +123,18 @@ class Answers:
 
     @cached_property
     def particles(self) -> dict[str, Any]:
-        """Particles by name."""
+        """Return the particles by name."""
         own = [part for part in self.described.parts if part.maker == "particle"]
         return {str(dict(part.named)["name"]): part.made() for part in own}
 
     @property
     def parts_by_name(self) -> dict[str, Any]:
-        """The particles and bodies that what acts may name."""
+        """Return the particles and bodies on which forces may act by name."""
         return {**self.particles, **self.bodies}
 
     @cached_property
     def bodies(self) -> dict[str, Any]:
-        """Bodies that are somewhere, by name."""
+        """Return the bodies with a position, by name."""
         found = {}
         for part in self.described.parts:
             if part.maker == "body":
@@ -144,7 +144,7 @@ class Answers:
 
     @cached_property
     def rolling(self) -> tuple[Any, ...]:
-        """The conditions of rolling without slipping."""
+        """Return the conditions of rolling without slipping."""
         found: list[Any] = []
         for part in self.described.parts:
             if part.maker == "rolling":
@@ -171,7 +171,7 @@ class Answers:
 
     @cached_property
     def cyclic(self) -> dict[str, Quantity]:
-        """The constant momenta, by the names of their coordinates."""
+        """Return the constant momenta, by the names of their coordinates."""
         L = explicit(self.lagrangian.value)
         letters = dict(self.described.conserved)
         found = {}
@@ -182,12 +182,12 @@ class Answers:
                     found[name] = conserved(self.lagrangian, q, value=own)
                 except Rejected as refused:
                     if name in letters or any(each.code != "not-cyclic" for each in refused.complaints):
-                        raise  # else a force acts along it, so its momentum is not constant
+                        raise  # otherwise a force acts along it, so its momentum is not constant
         return found
 
     @cached_property
     def kept(self) -> dict[str, Quantity]:
-        """What constant momenta are, where that is given."""
+        """Return the constant momenta whose values are given."""
         return {
             name: conserved(self.lagrangian, self.coordinates[name], value=value, key=f"constant_{name}")
             for name, value in self.described.kept
@@ -195,7 +195,9 @@ class Answers:
 
     @property
     def reduced(self) -> Quantity:
-        """The Lagrangian, or where momenta are constant and no place is given the Routhian of what is left."""
+        """Return the Lagrangian, or the Routhian if momenta are constant, coordinates remain and no cyclic one is
+        given.
+        """
         is_left = self.cyclic and len(self.cyclic) < len(self.coordinates)
         return self.routhian if is_left and not self._has_place_of_cyclic else self.lagrangian
 
@@ -224,7 +226,7 @@ class Answers:
 
     @cached_property
     def independent(self) -> dict[str, Coordinate]:
-        """The coordinates that are left where rolling gives some by the others."""
+        """Return the coordinates that remain after rolling expresses some by the others."""
         moving = self.lagrangian.coordinates
         return {name: q for name, q in self.coordinates.items() if q.symbol in moving}
 
@@ -239,13 +241,13 @@ class Answers:
 
     @cached_property
     def potential_at_rest(self) -> Quantity:
-        """The effective potential where something turns or a momentum is constant, else the potential energy."""
+        """Return the effective potential if something rotates or a momentum is constant, else the potential energy."""
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
         is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
         is_pushed = is_driven or bool(self.system.given_forces)
-        if self.system.constraints:  # a force of constraint may act along a cyclic coordinate
+        if self.system.constraints:  # a constraint force may act along a cyclic coordinate
             return self.lagrangian if is_pushed else self.potential_energy
         for momentum in self.cyclic.values():
             assume(Relation(momentum.symbol, ">" if momentum.symbol.is_positive else "!=", Integer(0)))
@@ -259,12 +261,12 @@ class Answers:
 
     @property
     def rest(self) -> tuple[Quantity, ...]:
-        """States of rest; where forces keep conditions, the places and the forces that the equations tell."""
+        """Return equilibria; where forces keep constraints, the positions and forces that the equations determine."""
         if self.described.given is not None or not self.system.constraints:
             return self.equilibria
         letters = {each.force for each in self.system.constraints}
         if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
-            message = "sliding friction does not act at rest, where friction has any value up to its greatest"
+            message = "sliding friction does not act at rest: static friction can have any value up to its greatest"
             help_line = (
                 "ask for the equilibria without friction; with static friction there is a range of them around each"
             )
@@ -278,7 +280,7 @@ class Answers:
         return tuple(found for at in self.equilibria for found in self._stability_at(at))
 
     def _stability_at(self, at: Quantity | Mapping[Any, Expr]) -> tuple[Quantity, ...]:
-        """By the potential energy; where forces that turn the motion aside may hold the state, by its small motions."""
+        """Decide stability by the potential energy, or by small motions if gyroscopic forces may stabilise it."""
         try:
             return (stability(self.potential_at_rest, at),)
         except Rejected as refused:
@@ -293,19 +295,19 @@ class Answers:
 
     @property
     def state(self) -> dict[Any, Expr] | Quantity | None:
-        """The state about which the motion is small, if one is given."""
+        """Return the state about which the motion is small, if one is given."""
         if self.described.at_rest is not None:
             return self._state_called(self.described.at_rest)
         found = {self.coordinates[name]: value for name, value in self.described.at}
         return found or None
 
     def _state_called(self, name: Word) -> Quantity:
-        """`rest_2` or `equilibrium_2`, of those that there are."""
+        """Return the equilibrium of a name such as `rest_2` or `equilibrium_2`."""
         states = self.by_name.named(Word.at("equilibria", name.place))
         found = self.by_name.one_of("equilibria", name, states)
         if found is None:
-            help_line = f"they are {', '.join(f'`{q.key}`' for q in states)}"
-            rejected("no-such-answer", f"there is no equilibrium `{name}`", name.place, help_line)
+            help_line = f"the equilibria are {', '.join(f'`{q.key}`' for q in states)}"
+            rejected("no-such-answer", f"`{name}` is not an equilibrium", name.place, help_line)
         return found
 
     @cached_property
@@ -340,12 +342,12 @@ class Answers:
         if len(self.normal_modes) != 1:
             raise Rejected(Complaint("wrong-argument", "`period` is about one frequency, but there are several"))
         if self.normal_modes[0].value == 0:
-            message = "nothing drives the system back to this state, so that it does not oscillate about it"
+            message = "nothing drives the system back to this state, so it does not oscillate about it"
             raise Rejected(Complaint("no-oscillation", message, help="is each body held where it should be?"))
         return period(self.normal_modes[0])
 
     def asks(self) -> dict[str, Callable[[], Any]]:
-        """Every name that a part may ask by."""
+        """Return every name that a part may ask for."""
         found: dict[str, Callable[[], Any]] = {
             "kinetic_energy": lambda: self.kinetic_energy,
             "potential_energy": lambda: self.potential_energy,
@@ -367,13 +369,13 @@ class Answers:
             "period": lambda: self.period,
             "no_slip": lambda: self._some(
                 tuple(each for each in self.rolling if isinstance(each, Quantity)),
-                "the conditions of rolling are kept by forces here, so that nothing is eliminated by `no_slip`"
+                "forces keep the conditions of rolling here, so `no_slip` eliminates nothing"
                 if self.rolling
                 else "nothing rolls in this system",
             ),
             "angular_velocity": lambda: self._some(
                 tuple(angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane),
-                "no body of this system turns in space: in a plane its angular velocity is the rate of an angle",
+                "no body of this system rotates in space: in a plane its angular velocity is the rate of an angle",
             ),
             "accelerations": lambda: accelerations(*self.motions.values()),
             "multipliers": lambda: multipliers(*self.motions.values()),
@@ -393,7 +395,7 @@ class Answers:
 
     @cached_property
     def by_name(self) -> ByName:
-        """These, and what is made of them."""
+        """Return these answers, and results computed from them."""
         again = partial(_again, self.described)
         return ByName(self.asks(), "", self.described.results, self.coordinates, again)
 
@@ -409,13 +411,13 @@ class Answers:
         return self._blow
 
     def check_letters(self) -> None:
-        """What a letter of the description is found to be, and what else a step calls so, are of one kind."""
+        """Check that a symbol of the description and steps with the same symbol are of one kind."""
         for name, place in self.described.brought.items():
             kinds = {q.step.kind: q.key for q in self.established if getattr(q.symbol, "name", "") == name}
             if len(kinds) > 1:
                 keys = " and ".join(f"`{key}`" for key in kinds.values())
-                message = f"`{name}` stands for two things, {keys}"
-                rejected("letter-clash", message, place, "give what this line brings in another letter")
+                message = f"`{name}` denotes two quantities, {keys}"
+                rejected("letter-clash", message, place, "use another symbol on this line")
 
     def _some(self, found: tuple[Quantity, ...], otherwise: str) -> tuple[Quantity, ...]:
         if not found:
@@ -437,7 +439,7 @@ class Answers:
 
     def _one_conserved(self, name: str) -> Quantity:
         if name not in self.cyclic:
-            conserved(self.lagrangian, self.coordinates[name])  # which says why its momentum is not
+            conserved(self.lagrangian, self.coordinates[name])  # raises the error if its momentum is not constant
         return self.cyclic[name]
 
     @property

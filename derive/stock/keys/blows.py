@@ -1,4 +1,4 @@
-"""What happens in a moment: impulses and collisions, as `given:` describes them."""
+"""Events at one instant: impulses and collisions, as `given:` describes them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MAKERS = {"impulse": impulse, "angular": angular_impulse, "collision": collision
 
 @dataclass(frozen=True)
 class Act:
-    """One impulse or collision: by which verb it is made, of what, and where it was described."""
+    """One impulse or collision: the verb that makes it, its arguments, and where it was described."""
 
     maker: str
     of: tuple[Any, ...]
@@ -36,7 +36,7 @@ class Act:
     bodies: tuple[str, ...] = ()
 
     def made(self, known: Mapping[str, Any]) -> Any:
-        """By its verb; `known` are the bodies and particles of the system by name."""
+        """Make it by its verb; `known` are the bodies and particles of the system by name."""
         with told_at(self.place):
             named = [known.get(name, name) for name in self.bodies]
             more = {"of": named[0] if len(named) == 1 else tuple(named)} if named else {}
@@ -48,10 +48,10 @@ class ImpulseKeys(Record):
     """The keys of one of `impulses:`, at a place or on an angle."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
-    at: WrittenPlace | None = key("the place on which it acts", PLACE)
-    of: Word | None = key("the body or particle that it acts on, where the place does not move with it", TEXT)
-    angular: Tree | None = key("in place of them, an angular impulse", SCALAR)
-    on: Tree | None = key("the angle by which that turns something", SCALAR)
+    at: WrittenPlace | None = key("the place where it acts", PLACE)
+    of: Word | None = key("the body or particle on which it acts, if the place does not move with it", TEXT)
+    angular: Tree | None = key("in place of `components` and `at`, an angular impulse", SCALAR)
+    on: Tree | None = key("the angle whose rate it changes", SCALAR)
 
     def act(self, places: Places, letters: InLetters) -> Act:
         if self.components and self.at and not (self.angular or self.on):
@@ -70,9 +70,9 @@ class CollisionKeys(Record):
 
     start: WrittenPlace | None = key("one of the places that meet", PLACE, called="from")
     end: WrittenPlace | None = key("the other one", PLACE, called="to")
-    at: WrittenPlace | None = key("in place of both, the place that meets what is at rest", PLACE)
+    at: WrittenPlace | None = key("in place of both, the place that hits something at rest", PLACE)
     of: Tree | None = key(
-        "the bodies or particles that meet, where a place does not move with its body: `of: [ball, rod]` for `from` "
+        "the bodies or particles that meet, if a place does not move with its body: `of: [ball, rod]` for `from` "
         "and `to`, or one name for `at`",
         as_written(one_or_more(TEXT.schema), "a body, or a list of two"),
     )
@@ -81,10 +81,10 @@ class CollisionKeys(Record):
         COMPONENTS,
     )
     restitution: Tree | None = key(
-        "with `along`, the part of the speed of approach with which they part: 1 where the collision is elastic", SCALAR
+        "with `along`, the speed of separation over the speed of approach: 1 if the collision is elastic", SCALAR
     )
     letter: Word | None = key(
-        "the letter of the impulse, by default `K`; of what stays together its components are `K_x`, `K_y`",
+        "the symbol of the impulse, by default `K`; without `along` its components are `K_x`, `K_y`",
         TEXT,
         called="impulse",
     )
@@ -93,7 +93,7 @@ class CollisionKeys(Record):
         if (self.at is None) == (self.start is None and self.end is None) or (self.start is None) != (self.end is None):
             rejected("missing-key", "a collision needs `from` and `to`, or `at`", self.places[""])
         if self.along and self.restitution is None:
-            help_line = "write `restitution: 1` where it is elastic, 0 where the two do not part"
+            help_line = "write `restitution: 1` if it is elastic, 0 if the two do not separate"
             rejected("missing-key", "a collision along a normal needs its `restitution`", self.places[""], help_line)
         if self.restitution is not None and not self.along:
             message = "`restitution` has no effect on a collision without `along`: by default the two stay together"
@@ -116,7 +116,7 @@ class CollisionKeys(Record):
         found = tuple(" ".join(name.text.split()) for name in written if isinstance(name, Scalar))
         count = 2 if self.start is not None else 1
         if found and len(found) != count:
-            wanted = "two names, of `from` and of `to`" if count == 2 else "one name"
+            wanted = "two names, for `from` and for `to`" if count == 2 else "one name"
             rejected("wrong-length", f"`of` needs {wanted}, not {len(found)}", self.places["of"])
         return found
 
@@ -125,28 +125,35 @@ class CollisionKeys(Record):
         return str(self.letter or "K")
 
     def brings(self, letters: InLetters, size: int) -> list[str]:
-        """The letters of its impulse."""
+        """Return the symbols of its impulse."""
         if self.letter is not None and not is_letter(self.letter):
-            rejected("symbol", f"`{self.letter}` is no letter for an impulse", self.letter.place, "write `impulse: K`")
+            rejected(
+                "symbol",
+                f"`{self.letter}` is not a valid symbol for an impulse",
+                self.letter.place,
+                "write `impulse: K`",
+            )
         place = self.letter.place if self.letter is not None else self.places[""]
         names = [self.name] if self.along else [f"{self.name}_{axis}" for axis in ("xy" if size == 2 else "xyz")]
-        help_line = "leave it out of `symbols`, or give the impulse another letter, `impulse: K`"
+        help_line = "leave it out of `symbols`, or give the impulse another symbol, `impulse: K`"
         return [letters.unused(Word.at(name, place), help_line) for name in names]
 
 
 @dataclass(frozen=True)
 class BlowKeys(Record):
-    """The keys of `blow:`, of what happens in a moment."""
+    """The keys of `blow:`, for events at one instant."""
 
-    at: Mapping[Word, Tree] = key("the values of coordinates in that moment: `{theta: 0}`", mapping_of(SCALAR))
-    before: Mapping[Word, Tree] = key("rates just before it, the others are zero: `{x_dot: v}`", mapping_of(SCALAR))
+    at: Mapping[Word, Tree] = key("the values of coordinates at that instant: `{theta: 0}`", mapping_of(SCALAR))
+    before: Mapping[Word, Tree] = key(
+        "rates just before the blow; the others are zero: `{x_dot: v}`", mapping_of(SCALAR)
+    )
     impulses: Sequence[ImpulseKeys] = key("given impulses", list_of_parts(ImpulseKeys, "an impulse"))
-    collisions: Sequence[CollisionKeys] = key("what meets", list_of_parts(CollisionKeys, "a collision"))
+    collisions: Sequence[CollisionKeys] = key("places that collide", list_of_parts(CollisionKeys, "a collision"))
 
     def read(
         self, coordinates: Mapping[str, Declared], forces: Mapping[str, Declared], places: Places, letters: InLetters
     ) -> DescribedBlow:
-        """In letters; `forces` are those that keep constraints."""
+        """Return the blow in symbols; `forces` are those that keep constraints."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
         if not both:
             rejected("missing-key", "`blow` needs `impulses` or `collisions`", self.places[""])
@@ -164,7 +171,7 @@ class BlowKeys(Record):
         brought: list[str] = []
         for one, size in zip(self.collisions, sizes, strict=True):
             brought += one.brings(letters, size)
-        brought += [letters.unused(Word.at(f"J_{force}", self.places[""]), "use another letter") for force in forces]
+        brought += [letters.unused(Word.at(f"J_{force}", self.places[""]), "use another symbol") for force in forces]
         return DescribedBlow(
             acts=acts,
             at=at,
@@ -177,19 +184,21 @@ class BlowKeys(Record):
 def _value(
     name: Word, node: Tree, ending: str, coordinates: Mapping[str, Declared], letters: InLetters
 ) -> tuple[str, Expr]:
-    """A coordinate, the one of a rate where the name ends so, and its value."""
+    """Return a coordinate and its value; for a rate, named with `ending`, its coordinate and the value of the rate."""
     q = str(name).removesuffix(ending)
     known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
     if name not in known:
         what = "rate" if ending else "coordinate"
-        rejected("no-such-coordinate", f"there is no {what} `{name}`", name.place, did_you_mean(name, known))
+        rejected(
+            "no-such-coordinate", f"`{name}` is not a {what} of this system", name.place, did_you_mean(name, known)
+        )
     kind = coordinates[q].kind
     return q, letters.of_kind(node, str(name), kind_of_rate(kind) if ending else kind)
 
 
 @dataclass(frozen=True)
 class DescribedBlow:
-    """A blow in letters; those of its impulses are its own."""
+    """A blow in symbols; `letters` are the symbols of its impulses."""
 
     acts: tuple[Act, ...]
     at: tuple[tuple[str, Expr], ...]

@@ -26,9 +26,9 @@ PLACE = list_of(SCALAR, "its components, `[x, y]` or `[x, y, z]`")
 CORNERS = list_of(PLACE, "a list of places, such as `[[0, 0], [a, 0], [0, b]]`")
 ENDS = list_of(SCALAR, "its lower and its upper limit, `[0, R]`", length=2)
 
-# where a class calls something otherwise than a person who describes it
+# fields of a class whose YAML keys have other names
 CALLED_IN_YAML = {"corners_at": "corners", "face": "corners"}
-# a triangle may also be told by its base and its height, or by one side
+# a triangle may also be specified by its base and height, or by one side
 TRIANGLES: tuple[tuple[str, ...], ...] = (("corners",), ("base", "height", "foot"), ("side",))
 OPTIONAL = frozenset({"foot"})
 ANGLES = frozenset({"half_angle"})
@@ -51,14 +51,14 @@ OTHER_NAMES = {
 
 @cache
 def shapes() -> dict[str, type[Body]]:
-    """Every body with sizes of its own, by what it is called: `a thick shell` is `thick_shell`."""
+    """Return every body with sizes, by its name in YAML: `a thick shell` is `thick_shell`."""
     offered = (getattr(derive.mechanics, name) for name in dir(derive.mechanics))
     bodies = (each for each in offered if isinstance(each, type) and issubclass(each, Body) and is_dataclass(each))
     return {body.name.partition(" ")[2].replace(" ", "_").replace("-", "_"): body for body in bodies}
 
 
 def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
-    """The sizes by which a shape is told, as its fields have them."""
+    """Return the sets of sizes by which a shape can be specified, as its fields have them."""
     own = tuple(CALLED_IN_YAML.get(f.name, f.name) for f in fields(shape) if f.name != "mass")  # type: ignore[arg-type]
     if "corners" not in own or shape.filling == "volume" and shape is not Wedge:
         return (own,)
@@ -68,7 +68,7 @@ def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
 
 @dataclass(frozen=True)
 class ShapeKeys(Record):
-    """What describes a body that is not made of parts."""
+    """The keys of a body without parts."""
 
     shape: Word | None = key(
         "what it is: `disc`, `cone`, `thick_shell`, ...", Reader({"enum": sorted(shapes())}, TEXT.read)
@@ -85,11 +85,15 @@ class ShapeKeys(Record):
     semi_axes: tuple[Tree, ...] = key("half the length of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
     corners: tuple[tuple[Tree, ...], ...] = key("where the corners of a triangle or a tetrahedron are", CORNERS)
     base: Tree | None = key("the base of a triangle, along x", SCALAR)
-    foot: Tree | None = key("over which x of its base the top of a triangle is; by default over the middle", SCALAR)
+    foot: Tree | None = key(
+        "the x of the top of a triangle, measured along its base; by default over the middle", SCALAR
+    )
     side: Tree | None = key("the side of an equilateral triangle", SCALAR)
-    position: tuple[Tree, ...] = key("where the points of any body are: formulas in the letters of `limits`", PLACE)
+    position: tuple[Tree, ...] = key(
+        "the positions of the points of any body: formulas in the symbols of `limits`", PLACE
+    )
     limits: Mapping[Word, tuple[Tree, ...]] = key(
-        "the letters of `position`, each between two limits, the outermost first: `{r: [0, R], phi: [0, 2*pi]}`",
+        "the symbols of `position`, each between two limits, the outermost first: `{r: [0, R], phi: [0, 2*pi]}`",
         mapping_of(ENDS),
     )
     density: Tree | None = key("its density; with `mass`, what the density is proportional to", SCALAR)
@@ -97,22 +101,22 @@ class ShapeKeys(Record):
 
 @dataclass(frozen=True)
 class PartKeys(ShapeKeys):
-    """What describes a part of a body."""
+    """The keys of a part of a body."""
 
     at: tuple[Tree, ...] = key("where its centre of mass is, or its point `of`", PLACE)
-    of: Word | None = key("which of its points is there: `end`, `corner`, `base`", TEXT)
-    turned: Mapping[Word, Tree] = key("by which angles it is turned: `{x: pi/2}`", mapping_of(SCALAR))
+    of: Word | None = key("the point of the part that is there: `end`, `corner`, `base`", TEXT)
+    turned: Mapping[Word, Tree] = key("the angles by which it is rotated: `{x: pi/2}`", mapping_of(SCALAR))
     cut_out: bool = key("whether it is cut out of the rest", YES_OR_NO)
 
 
 @dataclass(frozen=True)
 class BodyKeys(ShapeKeys):
-    """What describes a body."""
+    """The keys of a body."""
 
     parts: Mapping[Word, PartKeys] = key(
-        "the bodies that it is made of, by name", mapping_of(record_of(PartKeys, "a part", "a mapping with `shape`"))
+        "its parts, by name", mapping_of(record_of(PartKeys, "a part", "a mapping with `shape`"))
     )
-    points: Mapping[Word, tuple[Tree, ...]] = key("names for points of it: `{pivot: [0, 0, a]}`", mapping_of(PLACE))
+    points: Mapping[Word, tuple[Tree, ...]] = key("names of its points: `{pivot: [0, 0, a]}`", mapping_of(PLACE))
 
 
 BODY = record_of(BodyKeys, "a body", "a mapping with `shape`, `position` or `parts`")
@@ -125,9 +129,9 @@ SIZES = tuple(
 class DescribedBody:
     """A body of a description.
 
-    parts    one body as it lies, or several
-    mass     of the whole, where that is given and shared out
-    points   names for places of it
+    parts    one body in its position, or several
+    mass     of the whole, if it is given and divided among the parts
+    points   names of points of the body
     """
 
     called: str
@@ -138,9 +142,9 @@ class DescribedBody:
     place: Place | None = field(default=None, repr=False, compare=False)
 
     def body(self) -> Body:
-        """The body itself; what is said of it is said where it is described."""
+        """Return the body; errors are reported where it is described."""
         with told_at(self.place):
-            for part in self.parts:  # once more, now that the numbers of the letters are known
+            for part in self.parts:  # again: the numbers of the symbols are known now
                 body: Body = part.body if isinstance(part, PlacedPart) else part
                 if is_dataclass(type(body)):
                     body.check_sizes()
@@ -152,14 +156,14 @@ class DescribedBody:
 
     @property
     def other_centre(self) -> str:
-        """The point that one may call its centre too, where that is not its centre of mass."""
+        """Return the point that may also be called its centre, if that is not its centre of mass."""
         only: Any = self.parts[0]
         own: str = "" if self.is_made_of_parts else only.other_centre
         return Composite.other_centre if self.is_made_of_parts or own and self.points else own
 
     @property
     def point_names(self) -> tuple[str, ...]:
-        """Its points, which are those of a whole where it has points of its own."""
+        """Return its points; a whole with named points has only these, its centre and its origin."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts
@@ -167,15 +171,15 @@ class DescribedBody:
         return tuple(dict.fromkeys(("centre", *only.points())))
 
     def point(self, name: Word) -> str:
-        """A point that it has; between words a space or an underscore."""
+        """Return a point that it has; words are separated by a space or an underscore."""
         known_names = {known.replace("_", " "): known for known in self.point_names}
         found = (known_names | {CENTRE_OF_MASS: "centre"}).get(name.replace("_", " "))
         if found == "centre" and name == found and self.other_centre:
             message = f"`centre` of {self.told} could be `centre_of_mass` or `{self.other_centre}`"
-            rejected("unclear-point", message, name.place, "write the one that is meant")
+            rejected("unclear-point", message, name.place, "write the point that you mean")
         if found is None:
             names = ["centre_of_mass", *(known for known in self.point_names if known != "centre")]
-            help_line = did_you_mean(name, names) or f"it has {', '.join(names)}"
+            help_line = did_you_mean(name, names) or f"its points are {', '.join(names)}"
             rejected("no-such-point", f"{self.told} has no point `{name}`", name.place, help_line)
         return found
 
@@ -188,7 +192,7 @@ class DescribedBody:
 
 
 class Bodies:
-    """Bodies as they are written, in the letters of a description."""
+    """Reads bodies in the symbols of a description."""
 
     def __init__(self, letters: InLetters):
         self.letters = letters
@@ -211,7 +215,7 @@ class Bodies:
         names = list(written.points)
         for name in names:
             if name in ("centre", "origin"):
-                rejected("duplicate-key", f"every body has a point `{name}` already", name.place)
+                rejected("duplicate-key", f"every body already has a point `{name}`", name.place)
         found = each([partial(self.place, written.points[name], f"the point {name}") for name in names])
         return {str(name): place for name, place in zip(names, found, strict=True)}
 
@@ -223,7 +227,7 @@ class Bodies:
     def _part(self, name: Word, written: PartKeys, whole_mass: Expr | None, has_others: bool) -> Body | PlacedPart:
         _one_of_three(written, {"shape", "position"}, "a part")
         if whole_mass is not None and written.mass is not None:
-            message = f"the mass of the whole is given, so that `{name}` has its share of it"
+            message = f"the mass of the whole is given and divided among its parts, so `{name}` has no `mass`"
             rejected("unknown-key", message, written.places["mass"], "leave `mass` out, here or for the whole")
         body = self._alone(written, whole_mass)
         with told_at(name.place):
@@ -234,7 +238,7 @@ class Bodies:
             with told_at(written.places["at"]):
                 part = part.at(*place, of=of)
         elif written.of:
-            rejected("missing-key", f"`{name}` says which point of it is held, but not where", written.of.place)
+            rejected("missing-key", f"`{name}` needs `at`, the position of its point `of`", written.of.place)
         for axis, node in written.turned.items():
             angle = self.letters.constant(node, f"the angle of {name}", "angle")
             with told_at(axis.place):
@@ -254,8 +258,10 @@ class Bodies:
         if shape is None:
             meant = OTHER_NAMES.get(name)
             help_line = f"write `{meant}`" if meant else did_you_mean(name, shapes())
-            message = f"there is no shape `{written.shape}`"
-            rejected("no-such-shape", message, written.shape.place, help_line or f"they are {', '.join(shapes())}")
+            message = f"`{written.shape}` is not a known shape"
+            rejected(
+                "no-such-shape", message, written.shape.place, help_line or f"the shapes are {', '.join(shapes())}"
+            )
         faults = Faults()
         way = _way_that_is_told(shape, written, whole_mass is not None, faults)
         readings: list[Callable[[], Any]] = [partial(self._size, shape, size, written) for size in way]
@@ -292,10 +298,10 @@ class Bodies:
 
     def _map(self, written: ShapeKeys) -> Body:
         for size in (name for name in SIZES if name in written.values_at):
-            message = f"a body that is told by `position` has no `{size}`"
+            message = f"a body specified by `position` has no `{size}`"
             rejected("unknown-key", message, written.places[size], "its size is in `limits`")
         if len(written.limits) not in MAPS:
-            message = f"a body has one, two or three letters with limits, not {len(written.limits)}"
+            message = f"a body needs one, two or three symbols with limits, not {len(written.limits)}"
             place = written.places.get("limits", written.places["position"])
             rejected("wrong-length", message, place, "write `limits: {r: [0, R], phi: [0, 2*pi]}`")
         if written.mass is None and written.density is None:
@@ -311,19 +317,19 @@ class Bodies:
             return shape(position, limits, mass=mass, density=density)
 
     def _limits(self, written: Mapping[Word, tuple[Tree, ...]]) -> tuple[WithVariables, dict[Any, tuple[Expr, Expr]]]:
-        """Each letter may be in the limits of those after it."""
+        """Read the limits of each variable, which may contain the variables before it."""
         known = WithVariables(self.letters, {})
         limits: dict[Any, tuple[Expr, Expr]] = {}
         for name, ends in written.items():
             if name in self.letters.letters and name != TIME.name:
-                message = f"`{name}` is declared under `symbols` and is a letter of this body too"
-                rejected("letter-clash", message, name.place, "leave it out there")
+                message = f"`{name}` is declared under `symbols`, but is also a variable of this body"
+                rejected("letter-clash", message, name.place, "remove it from `symbols`")
             if name in RESERVED or name == TIME.name or not name.replace("_", "").isalnum() or not name[0].isalpha():
-                rejected("symbol", f"`{name}` is no letter for a position", name.place)
+                rejected("symbol", f"`{name}` is not a valid symbol for a position", name.place)
             kind, (lower, upper) = known.ends(name, ends)
             if (upper - lower).is_nonpositive:
                 message = f"nothing lies between the limits of `{name}`, {lower} and {upper}"
-                rejected("limits", message, name.place, "the lower limit stands first")
+                rejected("limits", message, name.place, "write the lower limit first")
             letter = scalar(str(name))
             limits[letter] = (lower, upper)
             known = WithVariables(self.letters, {**known.variables, str(name): Declared(str(name), letter, kind)})
@@ -331,7 +337,7 @@ class Bodies:
 
 
 class WithVariables(InLetters):
-    """The letters of a description, with those of a position map."""
+    """The symbols of a description and of a position map."""
 
     def __init__(self, others: InLetters, variables: Mapping[str, Declared]):
         self.variables = variables
@@ -339,7 +345,7 @@ class WithVariables(InLetters):
         self.numbers = others.numbers
 
     def ends(self, name: Word, written: Sequence[Tree]) -> tuple[str, tuple[Expr, Expr]]:
-        """The kind of a letter, a length or an angle (or a number), and its limits."""
+        """Return the kind of a symbol, a length or an angle (or a number), and its limits."""
         refused: Rejected | None = None
         for kind in ("length", "angle"):
             try:
@@ -353,7 +359,7 @@ class WithVariables(InLetters):
         raise Rejected(refused.complaints if refused else ())
 
     def any(self, node: Tree) -> Expr:
-        """What a density is proportional to: an expression of any dimension."""
+        """Return an expression of any dimension, to which a density is proportional."""
         if not isinstance(node, Scalar):
             return self.value(node, "density", "density")
         found, _ = read_expression(node, self.letters)
@@ -364,9 +370,9 @@ def _one_of_three(written: ShapeKeys, ways: set[str], what: str) -> None:
     told = [name for name in ("shape", "position", "parts") if name in ways and getattr(written, name)]
     if not told:
         ways_told = " or ".join(f"`{name}`" for name in ("shape", "position", "parts") if name in ways)
-        rejected("missing-key", f"{what} is told by {ways_told}", written.places[""])
+        rejected("missing-key", f"{what} needs {ways_told}", written.places[""])
     if len(told) > 1:
-        message = f"{what} is told by `{told[0]}` or by `{told[1]}`, not by both"
+        message = f"{what} needs either `{told[0]}` or `{told[1]}`, not both"
         rejected("unknown-key", message, written.places[told[1]])
 
 
@@ -375,7 +381,7 @@ def _point_of(body: Body, name: Word) -> str:
 
 
 def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, faults: Faults) -> tuple[str, ...]:
-    """The sizes of a shape that are written, and complaints about those that lack or are not its own."""
+    """Return the specified sizes of a shape, and report sizes that are missing or do not belong to it."""
     ways = ways_to_tell(shape)
     given = [size for size in SIZES if size in written.values_at and size in ShapeKeys.__dataclass_fields__]
     way = max(ways, key=lambda w: (sum(s in given for s in w), -len(w)))
@@ -392,8 +398,8 @@ def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, fau
             faults.error("missing-key", message, written.places["shape"], help=f"its sizes are {sizes}")
     if written.density is not None or "limits" in written.values_at:
         odd = "density" if written.density is not None else "limits"
-        message = f"{shape.name} is uniform and of its own shape, so that it has no `{odd}`"
-        faults.error("unknown-key", message, written.places[odd], help="any other body is told by `position`")
+        message = f"{shape.name} is uniform and has a fixed shape, so it has no `{odd}`"
+        faults.error("unknown-key", message, written.places[odd], help="describe any other body by `position`")
     if written.mass is None and not has_mass:
         faults.error("missing-key", f"{shape.name} needs `mass`", written.places["shape"])
     return tuple(size for size in way if size in given)

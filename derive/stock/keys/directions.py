@@ -1,4 +1,4 @@
-"""Directions and turns, as `given:` describes them."""
+"""Directions and rotations, as `given:` describes them."""
 
 from __future__ import annotations
 
@@ -46,19 +46,19 @@ class Axis:
 
 
 class Directions:
-    """Directions in the letters of a description."""
+    """Reads directions in the symbols of a description."""
 
     def __init__(self, letters: InLetters):
         self.letters = letters
 
     def axis(self, node: Tree, name: str) -> Axis:
-        """`diagonal`, `x`, `y`, `z`, or three components of one dimension that do not all vanish."""
+        """Return `diagonal`, `x`, `y`, `z`, or three components of one dimension that do not all vanish."""
         names = ", ".join(f"`{known}`" for known in DIRECTION_NAMES)
         if isinstance(node, Scalar) and node.text in DIRECTION_NAMES:
             return Axis(Direction(node.text))
         if isinstance(node, Scalar) and not node.empty:
             help_line = did_you_mean(node.text, DIRECTION_NAMES) or f"the names are {names}"
-            rejected("wrong-kind", f"`{name}` must be a direction, but `{node.text}` names none", node.place, help_line)
+            rejected("wrong-kind", f"`{name}` must be a direction, but `{node.text}` is not one", node.place, help_line)
         if not isinstance(node, Sequence) or len(node.items) != 3:
             message = f"`{name}` must be a direction or three components"
             rejected("wrong-type", message, node.place, f"write {names}, or `[1, 1, 0]`")
@@ -69,7 +69,11 @@ class Directions:
             faults.error("zero-axis", f"`{name}` has no direction: every component is zero", node.place)
         if len(dimensions) > 1:
             one, other = sorted(named(dimension) for dimension in dimensions)[:2]
-            faults.error("dimension", f"of the components of `{name}` one is {one}, another {other}", node.place)
+            faults.error(
+                "dimension",
+                f"the components of `{name}` have different dimensions: one is {one}, another {other}",
+                node.place,
+            )
         faults.stop()
         return Axis(Direction(None, (x[0], y[0], z[0])))
 
@@ -79,10 +83,10 @@ class Directions:
         return read_expression(node, self.letters.letters)
 
     def turns(self, written: Mapping[Word, Tree]) -> tuple[tuple[str, Expr], ...]:
-        """Each turn about one of the axes, in their order."""
+        """Return each rotation about one of the axes, in their order."""
         return tuple(each([partial(self._turn, axis, node) for axis, node in written.items()]))
 
     def _turn(self, axis: Word, node: Tree) -> tuple[str, Expr]:
         if axis not in ("x", "y", "z"):
-            rejected("no-such-axis", f"axes are turned about x, y or z, not about `{axis}`", axis.place)
+            rejected("no-such-axis", f"axes rotate about x, y or z, not about `{axis}`", axis.place)
         return str(axis), self.letters.of_kind(node, f"the angle about {axis}", "angle")

@@ -1,4 +1,4 @@
-"""A formula of answers: an expression in declared letters and in the names of answers, `pi*rate/frequency`."""
+"""A formula of answers: an expression in declared symbols and in the names of answers, `pi*rate/frequency`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from derive.steps.step import Quantity
 
 @dataclass(frozen=True)
 class OfKnownDimension(Declared):
-    """The mark of an answer, whose dimension is that of its value."""
+    """The placeholder of an answer, whose dimension is that of its value."""
 
     has: Dimension | None = None
 
@@ -32,35 +32,37 @@ class OfKnownDimension(Declared):
 
 @dataclass(frozen=True)
 class FoundLetter(Declared):
-    """The letter of what is an answer too, such as a force of constraint: in a formula it stands for that answer."""
+    """The symbol of an unknown that is also an answer, such as a constraint force; a formula uses that answer."""
 
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression whose names are letters or answers; a letter that is given comes before an answer of its name."""
+    """An expression whose names are symbols or answers; a given symbol comes before an answer of the same name."""
 
     node: Scalar
     letters: Mapping[str, Declared]
 
     @property
     def answers(self) -> tuple[Word, ...]:
-        """The names in it that are no letters of what is given."""
+        """Return the names in the formula that are not given symbols."""
         given = {name for name, letter in self.letters.items() if not isinstance(letter, FoundLetter)}
         found = {str(name): name for name in names_in(self.node) if name not in given}
         return tuple(found.values())
 
     def with_answers(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, dict[Any, Quantity]]:
-        """The expression with a mark for each answer, and the answers by their marks; its terms must fit."""
+        """Return the expression with a placeholder for each answer, and the answers by placeholder; dimensions must
+        agree.
+        """
         found = {name: answers(name) for name in self.answers}
         marks = {name: self._mark(name, quantity) for name, quantity in found.items()}
         expression, _ = read_expression(self.node, {**self.letters, **{str(n): mark for n, mark in marks.items()}})
         return expression, {marks[name].symbol: found[name] for name in found}
 
     def _mark(self, name: Word, quantity: Quantity) -> OfKnownDimension:
-        """A letter for an answer, of its sign and dimension."""
+        """Return a placeholder symbol for an answer, with its sign and dimension."""
         value = explicit(quantity.value.right if isinstance(quantity.value, Relation) else quantity.value)
         if not isinstance(value, Expr):
-            rejected("wrong-argument", f"`{name}` is no number", name.place)
+            rejected("wrong-argument", f"`{name}` is not a number", name.place)
         declared = {letter.symbol: letter.dimension for letter in self.letters.values()}
         table, _ = dimension_table(declared, [q.step for q in with_ancestors([quantity]).values()])
         has = dimension_of(value, table)
@@ -69,7 +71,7 @@ class Formula:
 
 
 def formula(node: Tree, letters: Mapping[str, Declared]) -> Formula:
-    """What is written, if it is an expression."""
+    """Return the formula of an expression."""
     if not isinstance(node, Scalar) or node.empty:
-        rejected("wrong-type", "a formula is told by an expression such as `pi*rate/frequency`", node.place)
+        rejected("wrong-type", "a formula must be an expression such as `pi*rate/frequency`", node.place)
     return Formula(node, letters)

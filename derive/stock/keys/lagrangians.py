@@ -1,4 +1,4 @@
-"""A Lagrangian that is given, as `given:` describes it, and what may not stand beside it."""
+"""A Lagrangian that is given, as `given:` describes it, and the keys that cannot be used with it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ WITH_BODIES = (
 
 
 class WithLagrangian(Protocol):
-    """Keys among which a Lagrangian may be given, with the places where they stand."""
+    """Keys among which a Lagrangian may be given, with their places."""
 
     @property
     def lagrangian(self) -> Tree | None: ...
@@ -38,12 +38,12 @@ class WithLagrangian(Protocol):
 
 
 def read_lagrangian(written: WithLagrangian, letters: InLetters) -> tuple[Expr, str | None] | None:
-    """The formula, and the kind of quantity that it is, if it has a name."""
+    """Return the formula, and the kind of quantity that it is, if that has a name."""
     if written.lagrangian is None:
         return None
     beside = next((name for name in WITH_BODIES if name in written.places), None)
     if beside is not None:
-        message = f"`{beside}` cannot stand beside `lagrangian`, which is given in place of bodies"
-        rejected("given-lagrangian", message, written.places[beside], "put it into the formula")
+        message = f"`{beside}` cannot be combined with `lagrangian`, which replaces bodies and forces"
+        rejected("given-lagrangian", message, written.places[beside], "include it in the formula")
     value, dimension = letters.read(written.lagrangian, "lagrangian", "a formula of coordinates and rates")
     return value, kind_of_dimension(dimension)

@@ -1,4 +1,4 @@
-"""`limits:` of a problem: limiting and special cases in which answers are checked, each a step like any other."""
+"""`limits:` of a problem: limiting and special cases that check answers, each a step like any other."""
 
 from __future__ import annotations
 
@@ -24,12 +24,13 @@ from derive.stock.keys.formulas import OfKnownDimension
 
 
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
-    """The steps of each: the limiting case, and behind it what compares it with a known result; none of a case in
-    letters that the result no longer has, since something else is given for them.
+    """Return the steps of each case: the limiting case, and steps that compare it with a known result.
 
-    Each is on a record of its own, beside what the script has found in general: two limits of one quantity have one
-    letter. One of a step that there is not with what is given now, or with a letter that nothing given has now, or that
-    changes in the limit, is left out.
+    Each case has a separate record, together with the general results of the script: two limits of one quantity have
+    one
+    symbol. A case has no steps, and is left out, in three situations: its step does not exist for the current inputs,
+    the
+    inputs or the result no longer have its symbol, or a needed symbol changes in the limit.
     """
     if not problem.limits:
         return []
@@ -54,7 +55,7 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
 def _is_of_another_case(
     given: LimitKeys, problem: Problem, known: Mapping[str, Quantity], letters: Mapping[str, Declared], run: Run
 ) -> bool:
-    """Whether another step stands for what is looked at, or it needs a letter that is declared and not given."""
+    """Return whether another step replaces the one of the case, or it needs a symbol that is declared but not given."""
     together = {key for quantity in known.values() if quantity.step.stands_for for key in quantity.step.stands_for}
     if given.of in together or (given.of in known and known[str(given.of)].step.stands_for):
         return True
@@ -68,7 +69,7 @@ def _is_of_another_case(
 
 
 def _letters(problem: Problem, known: Mapping[str, Quantity]) -> dict[str, Declared]:
-    """Every letter of the problem and of its steps, which have the dimension of what they stand for."""
+    """Return every symbol of the problem and of its steps, with the dimension of its value."""
     table, _ = dimension_table(problem.dimensions, [quantity.step for quantity in known.values()])
     of_steps = {
         letter.name: OfKnownDimension(letter.name, letter, "", has=dimension)
@@ -94,7 +95,7 @@ def _case(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str,
 
 
 def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str, Declared]) -> bool:
-    """Whether the result has the letters of the case: where something else is given in place of one, there is none."""
+    """Return whether the result has the symbols of the case: another input may have replaced one of them."""
     if given.of is None:
         return True
     told = _read(given.letter, letters).free_symbols if given.letter else {_letter(x, letters) for x in given.where}
@@ -103,19 +104,21 @@ def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[
 
 def _letter(name: Word, letters: Mapping[str, Declared]) -> Symbol:
     if name not in letters:
-        rejected("undeclared", f"there is no letter `{name}`", name.place, did_you_mean(name, letters))
+        rejected("undeclared", f"`{name}` is not a symbol of this problem", name.place, did_you_mean(name, letters))
     return letters[name].symbol
 
 
 def _named(name: Word, known: Mapping[str, Quantity]) -> Quantity:
     if name not in known:
-        help_line = did_you_mean(name, known) or "use the key of a step that the script returns or its answers rest on"
+        help_line = (
+            did_you_mean(name, known) or "use the key of a step that the script returns or on which its answers depend"
+        )
         rejected("no-such-answer", f"`solve()` returns nothing called `{name}`", name.place, help_line)
     return known[name]
 
 
 def _free(key: str, taken: Iterable[str]) -> str:
-    """The key, or the first of key_2, key_3, ... that nothing has."""
+    """Return the key, or the first of key_2, key_3, ... that is free."""
     number, found = 1, key
     while found in set(taken):
         number += 1
@@ -130,19 +133,19 @@ def _read(formula: Formula, letters: Mapping[str, Declared]) -> Expr:
 def _as_stated(
     given: LimitKeys, case: Quantity, letters: Mapping[str, Declared], known: Mapping[str, Quantity], keys: set[str]
 ) -> list[Quantity]:
-    """What the file says that the result then is, is what it is; a step where it says so in the letters of others."""
+    """Check the result that the file states for a case; return a step if it uses symbols of other steps."""
     if given.stated is None:
         return []
     stated, value = _read(given.stated, letters), explicit(case.value)
     value = value.right if isinstance(value, Relation) else value
     if isinstance(value, MatrixBase):
-        message = f"`{case.key}` is no number; a vector or a tensor is compared with a step, `known`"
+        message = f"`{case.key}` is not a number; compare a vector or a tensor with a step, `known`"
         rejected("wrong-type", message, given.stated.place)
     if equal(value, stated):
         return []
     stand_for = [q for q in known.values() if q.symbol in stated.free_symbols and isinstance(q.value, Expr)]
     if not equal(value, explicit(bound(stated, {q.symbol: q.value for q in stand_for}))):
-        rejected("wrong-limit", f"`{given.of or given.step}` then is {value}, not {stated}", given.stated.place)
+        rejected("wrong-limit", f"`{given.of or given.step}` is {value} in this case, not {stated}", given.stated.place)
     key = _free(f"{case.key}_in_letters", keys)
     keys.add(key)
     return [case_in_letters(case, stated, stand_for, key=key)]

@@ -1,4 +1,4 @@
-"""The drawing of a body that is described, where one can be made."""
+"""The drawing of a described body, if there is one."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from derive.steps.step import is_zero
 
 
 def drawn(body: Body) -> None:
-    """Its outline, under its name; of a body that lies in a plane as it is seen there."""
+    """Draw its outline, under its name; a body that lies in a plane is drawn in that plane."""
     if marks := seen_outline(body):
         key, view = body.called.replace(" ", "_") or "body", PLANE if is_in_plane(body) else SPACE
         drawing(key, marks, view=view, values=_proportions(body))
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """A letter of what is thinner or narrower than the rest, in terms of it."""
+    """Return the drawn size of a part that is thinner or narrower than the rest, in terms of the rest."""
     if isinstance(body, Torus):
         small, large = body.section, body.radius / 4
     elif isinstance(body, Hollow | Tube):
@@ -37,7 +37,7 @@ def _proportions(body: Body) -> dict[Expr, Expr]:
 
 
 def _inclination(components: Sequence[Expr]) -> list[Mark]:
-    """The arc from one of the body's axes to a direction, where the angle between them is a letter."""
+    """Return the arc from one of the body's axes to a direction, if the angle between them is a symbol."""
     for k in (2, 0, 1):
         angle = next((f.args[0] for f in components[k].atoms(cos) if f.args[0].is_Symbol), None)
         if angle is None:
@@ -50,8 +50,11 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 
 
 def drawn_turning(answers: Any, has_angle: bool) -> None:
-    """A body with its axes at the point about which it turns, and the axis of that or, at one moment, its angular
-    velocity; and with its angular momentum where that angle is asked for."""
+    """Draw a body with its axes at the point about which it rotates, and its axis of rotation.
+
+    If the rotation is known at one instant only, its angular velocity replaces the axis. If the angle to the angular
+    momentum is an answer, that vector is drawn too.
+    """
     body, described = answers.body, answers.described
     if not isinstance(body, RoundBody | EdgedBody):
         return
@@ -71,7 +74,9 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
 
 
 def drawn_free(answers: Any, turns: bool) -> None:
-    """A body of which the principal moments are known, and as it `turns` in any way its angular velocity and angular
-    momentum: they are in different directions, whatever is asked of them."""
+    """Draw a body with known principal moments, and if it `turns` its angular velocity and angular momentum.
+
+    The two vectors are drawn in different directions, whatever the questions are.
+    """
     vectors = (answers.changing, answers.angular_momentum) if turns else ()
     drawing("body", principal_outline(answers.described.moments, *vectors))

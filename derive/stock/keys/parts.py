@@ -1,4 +1,4 @@
-"""What a system is made of, as `given:` describes it: particles, springs, forces, charges, constraints."""
+"""The parts of a system, as `given:` describes them: particles, springs, forces, charges, constraints."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ MAKERS: Mapping[str, Callable[..., Any]] = {
 
 @dataclass(frozen=True)
 class Part:
-    """One part of a system: by which verb it is made, of what, and where it was described."""
+    """One part of a system: the verb that makes it, its arguments, and where it was described."""
 
     maker: str
     of: tuple[Any, ...]
@@ -57,7 +57,7 @@ class Part:
     name: str = ""
 
     def made(self, bodies: Mapping[str, Any] | None = None) -> Any:
-        """By its verb; `bodies` are the particles and bodies that it may name."""
+        """Make it by its verb; `bodies` are the particles and bodies that it may name."""
         with told_at(self.place):
             named = {name: bodies[str(value)] if bodies and value in bodies else value for name, value in self.named}
             return MAKERS[self.maker](*self.of, **named)
@@ -86,7 +86,7 @@ class SpringKeys(Record):
     start: WrittenPlace | None = key("where it begins", PLACE, called="from", required=True)
     end: WrittenPlace | None = key("where it ends", PLACE, called="to", required=True)
     length: Tree | None = key("its natural length; by default zero", SCALAR)
-    massless: Word | None = key("`true` where it may end at a joint without mass", TEXT)
+    massless: Word | None = key("`true` if it may end at a massless joint", TEXT)
 
     def part(self, places: Places, letters: InLetters) -> Part:
         length = letters.value(self.length, "length", "length", or_zero=True) if self.length else Integer(0)
@@ -96,16 +96,16 @@ class SpringKeys(Record):
 
 @dataclass(frozen=True)
 class CentralKeys(Record):
-    """The keys of one of `central:`, a potential energy of the distance of two places."""
+    """The keys of one of `central:`, a potential energy that depends on the distance between two places."""
 
     energy: Tree | None = key("the energy, such as `-G*M*m/d`", SCALAR, required=True)
-    distance: Word | None = key("the letter that it has for the distance", TEXT, required=True)
+    distance: Word | None = key("the symbol for the distance in `energy`", TEXT, required=True)
     start: WrittenPlace | None = key("one of the places", PLACE, called="from", required=True)
     end: WrittenPlace | None = key("the other place", PLACE, called="to", required=True)
-    massless: Word | None = key("`true` where one of the places may be a joint without mass", TEXT)
+    massless: Word | None = key("`true` if one of the places may be a massless joint", TEXT)
 
     def part(self, places: Places, letters: InLetters) -> Part:
-        name = letters.unused(_there(self.distance), "give the distance a letter of its own")
+        name = letters.unused(_there(self.distance), "use another symbol for the distance")
         own = Dummy(name, positive=True)
         with_distance = InLetters({**letters.letters, name: Declared(name, own, "length")})
         energy = with_distance.of_kind(_there(self.energy), "energy", "energy")
@@ -122,19 +122,19 @@ class ForceKeys(Record):
     """The keys of one of `forces:`, at a place or along a coordinate."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
-    at: WrittenPlace | None = key("the place on which it acts", PLACE)
+    at: WrittenPlace | None = key("the place where it acts", PLACE)
     of: Word | None = key(
-        "the body or particle that it acts on, where the place does not move with it: a contact of a ball that slides; "
-        "`massless` for a part without mass",
+        "the body or particle on which it acts, if the place does not move with it: the contact of a sliding ball; "
+        "`massless` for a massless part",
         TEXT,
     )
     by: Word | None = key(
-        "the body or particle that exerts it, on which the opposite force acts: the plank that a block slides on; "
-        "`ground` where nothing described does",
+        "the body or particle that exerts it, on which the opposite force acts: the plank under a sliding block; "
+        "`ground` if no described body exerts it",
         TEXT,
     )
-    torque: Tree | None = key("in place of them, a torque", SCALAR)
-    on: Tree | None = key("the angle by which that turns something", SCALAR)
+    torque: Tree | None = key("in place of `components` and `at`, a torque", SCALAR)
+    on: Tree | None = key("the angle that the torque changes", SCALAR)
 
     def part(self, places: Places, letters: InLetters, bodies: Collection[str] = ()) -> Part:
         if self.components and self.at and not (self.torque or self.on):
@@ -154,10 +154,10 @@ class ForceKeys(Record):
 class DampingKeys(Record):
     """The keys of one of `damping:`."""
 
-    constant: Tree | None = key("its constant, kg/s at a place and for a length", SCALAR, required=True)
-    at: WrittenPlace | None = key("the place whose velocity it is against", PLACE)
-    of: Word | None = key("the body or particle that it acts on, where the place does not move with it", TEXT)
-    on: Tree | None = key("in place of it, the coordinate whose rate it is against", SCALAR)
+    constant: Tree | None = key("its constant, in kg/s at a place or for a length", SCALAR, required=True)
+    at: WrittenPlace | None = key("the place whose velocity it opposes", PLACE)
+    of: Word | None = key("the body or particle on which it acts, if the place does not move with it", TEXT)
+    on: Tree | None = key("in place of `at`, the coordinate whose rate it opposes", SCALAR)
 
     def part(self, places: Places, letters: InLetters, bodies: Collection[str] = ()) -> Part:
         if (self.at is None) == (self.on is None):
@@ -183,7 +183,7 @@ class ChargeKeys(Record):
     at: WrittenPlace | None = key("where it is", PLACE, required=True)
     electric: tuple[Tree, ...] = key("components of the uniform electric field", COMPONENTS)
     magnetic: Tree | None = key(
-        "components of the uniform magnetic field; in a plane the one across it", ONE_OR_MORE_COMPONENTS
+        "components of the uniform magnetic field; in a plane the perpendicular one", ONE_OR_MORE_COMPONENTS
     )
 
     def part(self, places: Places, letters: InLetters) -> Part:
@@ -207,9 +207,11 @@ class ChargeKeys(Record):
 class ConstraintKeys(Record):
     """The keys of one of `constraints:`, which a force keeps."""
 
-    condition: Tree | None = key("a formula of the coordinates, or linear in their rates", SCALAR, required=True)
-    equals: Tree | None = key("what it equals; by default zero", SCALAR)
-    force: Word | None = key("the letter of the force that keeps it, a multiplier; by default `lambda`", TEXT)
+    condition: Tree | None = key(
+        "a formula of the coordinates, or one that is linear in their rates", SCALAR, required=True
+    )
+    equals: Tree | None = key("its value; by default zero", SCALAR)
+    force: Word | None = key("the symbol of the constraint force, a multiplier; by default `lambda`", TEXT)
 
     def part(self, places: Places, letters: InLetters) -> Part:
         condition, dimension = letters.read(_there(self.condition), "condition")
@@ -223,26 +225,26 @@ class ConstraintKeys(Record):
 
 
 def force_letter(name: Word | None, letters: InLetters) -> str:
-    """The letter of a force of constraint, which is found: it is not declared."""
+    """Return the symbol of a constraint force, which is an unknown and not declared."""
     if name is None:
         return "lambda"
     if not is_letter(name):
-        rejected("symbol", f"`{name}` is no letter for a force", name.place, "write `force: F`")
-    return letters.unused(name, "leave it out of `symbols`, or give the force another letter")
+        rejected("symbol", f"`{name}` is not a valid symbol for a force", name.place, "write `force: F`")
+    return letters.unused(name, "leave it out of `symbols`, or give the force another symbol")
 
 
 def named_body(key_name: str, name: Word | None, bodies: Collection[str], otherwise: str) -> list[tuple[str, str]]:
-    """The body or particle that a key names, or the word that stands for none."""
+    """Return the body or particle that a key names, or the word for none."""
     if name is None:
         return []
     if name not in bodies and name != otherwise:
         help_line = did_you_mean(name, [*bodies, otherwise]) or f"or write `{key_name}: {otherwise}`"
-        rejected("no-such-body", f"there is no body and no particle `{name}`", name.place, help_line)
+        rejected("no-such-body", f"`{name}` is not a body or particle of this system", name.place, help_line)
     return [(key_name, str(name))]
 
 
 def massless(word: Word | None) -> tuple[tuple[str, bool], ...]:
-    """Whether a joint without mass is allowed."""
+    """Return whether a joint without mass is allowed."""
     if word is None:
         return ()
     if word not in ("true", "false"):
@@ -251,7 +253,7 @@ def massless(word: Word | None) -> tuple[tuple[str, bool], ...]:
 
 
 def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:
-    """A list of mappings, or one mapping alone."""
+    """Return a reader of a list of mappings, or of one mapping alone."""
     one = record_of(record, what, "a mapping")
     many = list_of(one, f"a list of mappings, {what} each")
 
@@ -276,6 +278,6 @@ def _ends(written: SpringKeys | CentralKeys, places: Places) -> list[Any]:
 
 
 def _there(value: Any) -> Any:
-    """What a required key has: without it the record was refused."""
+    """Return the value of a required key: a record without it was rejected before."""
     assert value is not None
     return value

@@ -1,4 +1,4 @@
-"""Bodies that move, as `given:` describes them: where they are, how they turn, what they roll on."""
+"""Bodies that move, as `given:` describes them: their position, their orientation, their contact in rolling."""
 
 from __future__ import annotations
 
@@ -30,23 +30,25 @@ class MovingBodyKeys(BodyKeys):
     """The keys of one of `bodies:`."""
 
     moments: Tree | None = key(
-        "in place of a shape its principal moments of inertia, or in a plane the one across it, about the centre of "
-        "mass, or about the point at which it is held",
+        "in place of a shape, its principal moments of inertia, or in a plane the one about the perpendicular axis; "
+        "they are about the centre of mass, or with `middle` about the point that is held",
         as_written(
             {"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]},
             "one moment or three",
         ),
     )
     middle: tuple[Tree, ...] = key(
-        "with `moments`, where its centre of mass is, along its own axes", list_of(SCALAR, "components", length=3)
+        "with `moments`, the position of its centre of mass along its own axes", list_of(SCALAR, "components", length=3)
     )
     turned: Tree | None = key(
-        "in a plane the angle by which it is turned from right to up, else the axes that turn with it", SCALAR
+        "in a plane, its angle of rotation from right towards up; in space, the axes that rotate with it", SCALAR
     )
     centre: WrittenPlace | None = key("where its centre of mass is", PLACE)
-    held: Tree | None = key("in place of it, the point of the body that is held, by name or components", POINT)
+    held: Tree | None = key("in place of `centre`, the point of the body that is held, by name or components", POINT)
     on: WrittenPlace | None = key("where that point is held; by default the origin", PLACE)
-    across: str | None = key("in a plane, which of its axes lies across it", one_of(("x", "y", "z")))
+    across: str | None = key(
+        "in a plane, the axis of the body that is perpendicular to the plane", one_of(("x", "y", "z"))
+    )
 
     def part(self, name: Word, alone: bool, places: Places, letters: InLetters) -> Part:
         called = "" if alone else str(name).replace("_", " ")
@@ -57,7 +59,7 @@ class MovingBodyKeys(BodyKeys):
             rejected("twice", message, self.places["held"], "leave one of them out")
         self._check_used()
         if self.turned is None:
-            rejected("missing-key", "a body needs `turned`, which says how it is turned", self.places[""])
+            rejected("missing-key", "a body needs `turned`, which specifies its orientation", self.places[""])
         body: DescribedBody | RigidBody = (
             self._by_moments(called, letters) if self.moments else Bodies(letters).body(self, called)
         )
@@ -71,7 +73,7 @@ class MovingBodyKeys(BodyKeys):
         return Part("body", (body, turned), tuple(named), self.places[""])
 
     def _check_used(self) -> None:
-        """Each key has an effect beside the others."""
+        """Check that each key has an effect together with the others."""
         own = {"moments", "middle", "mass", "turned", "centre", "held", "on", "across"}
         beside = {
             "moments": [name for name in self.values_at if name not in own],
@@ -96,7 +98,7 @@ class MovingBodyKeys(BodyKeys):
 
     def _by_moments(self, called: str, letters: InLetters) -> RigidBody:
         if self.mass is None:
-            rejected("missing-key", "a body that is told by its moments needs `mass`", self.places[""])
+            rejected("missing-key", "a body specified by its moments needs `mass`", self.places[""])
         nodes = self.moments.items if isinstance(self.moments, Sequence) else (self.moments,)
         kind = "moment of inertia"
         moments = tuple(each([partial(letters.value, node, "moments", kind) for node in nodes if node]))
@@ -123,23 +125,28 @@ class RollingKeys(Record):
     """The keys of one of `rolling:`, a body that rolls without slipping."""
 
     body: Word | None = key("the body, by its name", TEXT, required=True)
-    at: WrittenPlace | None = key("where it touches what it rolls on", PLACE, required=True)
+    at: WrittenPlace | None = key("the place where it touches the surface", PLACE, required=True)
     ground: WrittenPlace | None = key(
-        "a place of what it rolls on, where that moves; or the axes in which that is at rest, as for a turntable", PLACE
+        "a place of the surface, if that moves; or the axes in which the surface is at rest, as for a turntable", PLACE
     )
-    force: Word | None = key("the letter of the force that keeps it from slipping, where that is wanted", TEXT)
+    force: Word | None = key("the symbol of the force that prevents slipping, if you need that force", TEXT)
 
     def part(self, places: Places, letters: InLetters, names: Collection[str]) -> Part:
         assert self.body is not None
         assert self.at is not None
         if self.body not in names:
-            rejected("no-such-body", f"there is no body `{self.body}`", self.body.place, did_you_mean(self.body, names))
+            rejected(
+                "no-such-body",
+                f"`{self.body}` is not a body of this system",
+                self.body.place,
+                did_you_mean(self.body, names),
+            )
         ground = self._ground(places) if self.ground else None
         force = (("force", force_letter(self.force, letters)),) if self.force else ()
         return Part("rolling", (str(self.body), places.at(self.at, "at"), ground), force, self.places[""])
 
     def _ground(self, places: Places) -> Location | Axes:
-        """A place of the surface; one along axes that rotate is at rest in these, as on a turntable."""
+        """Return a place of the surface; a place along rotating axes is at rest in these, as on a turntable."""
         assert self.ground is not None
         way = self.ground.way
         if self.ground.name is not None and str(self.ground.name) in {str(name) for name in places.turns}:
@@ -155,7 +162,7 @@ ROLLING = list_of_parts(RollingKeys, "rolling")
 
 
 def put(body: DescribedBody | RigidBody, turned: Axes | Expr, **known: Any) -> Any:
-    """The body where it is, by its centre of mass or by the point that is held."""
+    """Return the body at its position, by its centre of mass or by the point that is held."""
     made: Any = body.body() if isinstance(body, DescribedBody) else body
     if known.get("centre") is not None:
         return made.placed(turned, known["centre"], across=known["across"])
@@ -163,7 +170,7 @@ def put(body: DescribedBody | RigidBody, turned: Axes | Expr, **known: Any) -> A
 
 
 def rolls(body: Any, at: Any, ground: Any, force: str = "") -> tuple[Any, ...]:
-    """The conditions of rolling: solved, or kept by forces."""
+    """Return the conditions of rolling: solved, or kept by forces."""
     if force:
         return rolling_constraint(body, at, force, ground)
     found = no_slip(body, at, ground)

@@ -1,4 +1,4 @@
-"""Coordinates, turning axes and places, as `given:` describes them."""
+"""Coordinates, rotating axes and places, as `given:` describes them."""
 
 from __future__ import annotations
 
@@ -42,22 +42,22 @@ def _sort(node: Tree, name: str, faults: Faults) -> SortOfLetter:
 
 COORDINATES = mapping_of(Reader(schema_of_sorts((ANGLE, LENGTH, CHARGE)), _sort))
 COMPONENTS = list_of(SCALAR, "a list of components, `[x, y]` in a vertical plane or `[x, y, z]`")
-TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of turns, such as `[{z: phi}, {x: theta}]`"))
+TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of rotations, such as `[{z: phi}, {x: theta}]`"))
 AXIS_OF = {"x": X, "y": Y, "z": Z}
 
 
 @dataclass(frozen=True)
 class WayKeys(Record):
-    """The keys of a place that is told by the way to it."""
+    """The keys of a place that is specified by a displacement from another."""
 
-    start: Word | None = key("the place from which the way goes; by default the origin", TEXT, called="from")
+    start: Word | None = key("the place where the displacement starts; by default the origin", TEXT, called="from")
     by: tuple[Tree, ...] = key("its components", COMPONENTS, required=True)
-    axes: Word | None = key("the turning axes along which they are, by their name under `axes`", TEXT, called="in")
+    axes: Word | None = key("the rotating axes of these components, by their name under `axes`", TEXT, called="in")
 
 
 @dataclass(frozen=True)
 class WrittenPlace:
-    """A place as it stands in the file: its components, the way to it, or its name."""
+    """A place as it is written in the file: its components, the displacement to it, or its name."""
 
     name: Word | None
     way: WayKeys | None
@@ -91,7 +91,7 @@ PLACES = mapping_of(PLACE)
 
 
 def is_letter(name: str) -> bool:
-    """Whether a description may bring it in as a letter of its own."""
+    """Return whether a description may introduce it as a symbol."""
     is_name = name.isascii() and name.replace("_", "").isalnum() and name[0].isalpha()
     return is_name and name not in RESERVED and name != TIME.name
 
@@ -99,15 +99,15 @@ def is_letter(name: str) -> bool:
 def coordinate_letters(
     written: Mapping[Word, SortOfLetter], symbols: Mapping[str, Declared], faults: Faults
 ) -> dict[str, Declared]:
-    """Each coordinate, its rate and its acceleration: theta, theta_dot, theta_ddot."""
+    """Return each coordinate, its rate and its acceleration: theta, theta_dot, theta_ddot."""
     found: dict[str, Declared] = {}
     for name, sort in written.items():
         kind = str(sort)
         if name in symbols:
-            message = f"`{name}` is declared under `symbols` and is a coordinate too"
-            faults.error("letter-clash", message, name.place, help="leave it out there")
+            message = f"`{name}` is declared under `symbols`, but is also a coordinate"
+            faults.error("letter-clash", message, name.place, help="remove it from `symbols`")
         elif not is_letter(name):
-            faults.error("symbol", f"`{name}` is no letter for a coordinate", name.place)
+            faults.error("symbol", f"`{name}` is not a valid symbol for a coordinate", name.place)
         else:
             lies = _range(str(name), sort, faults)
             positive = lies is not None and lies.is_above_zero and kind == LENGTH
@@ -120,7 +120,7 @@ def coordinate_letters(
 
 
 def _range(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Between which numbers a coordinate stays."""
+    """Return the range of a coordinate."""
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort, signed=not sort.positive)
@@ -128,7 +128,7 @@ def _range(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
 
 
 class Places:
-    """The named places and axes of a description, each worked out when it is first needed."""
+    """The named places and axes of a description, each computed when it is first needed."""
 
     def __init__(
         self,
@@ -137,13 +137,13 @@ class Places:
         letters: InLetters,
         carried: Mapping[Word, WrittenPlace | None] | None = None,
     ):
-        """`carried` are those of particles, which one may call by the names of these."""
+        """Set up the places; the name of a particle in `carried` also denotes its place."""
         self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns
         self.letters = letters
         self.on_the_way: list[str] = []
-        self.first: tuple[int, str] | None = None  # how many components the first place has, and its name
+        self.first: tuple[int, str] | None = None  # the number of components of the first place, and its name
 
     def all_named(self) -> dict[str, Location]:
         return dict(each([partial(self._with_name, Word.at(n, w.place)) for n, w in self.written.items()]))
@@ -157,9 +157,9 @@ class Places:
             help_line = (
                 did_you_mean(name, [*self.written, *self.carried]) or "give it under `places`, or write its components"
             )
-            rejected("no-such-place", f"there is no place `{name}`", name.place, help_line)
+            rejected("no-such-place", f"`{name}` is not a named place", name.place, help_line)
         if name in self.on_the_way:
-            rejected("circle", f"the way to `{name}` begins at `{name}` itself", written.place)
+            rejected("circle", f"the position of `{name}` depends on `{name}` itself", written.place)
         self.on_the_way.append(name)
         try:
             return self.at(written, name)
@@ -167,7 +167,7 @@ class Places:
             self.on_the_way.pop()
 
     def at(self, written: WrittenPlace, name: str) -> Location:
-        """Where that is."""
+        """Return the location."""
         if written.name is not None:
             return self.named(written.name)
         assert written.way is not None
@@ -179,15 +179,15 @@ class Places:
             return self.named(way.start) + found if way.start else found
 
     def axes(self, name: Word) -> Axes:
-        """The axes of that name, turn by turn from those of space."""
+        """Return the axes of that name, by successive rotations of the axes of space."""
         turns = next((turns for known, turns in self.turns.items() if known == name), None)
         if turns is None:
             help_line = did_you_mean(name, self.turns) or "give them under `axes`"
-            rejected("no-such-axes", f"there are no axes `{name}`", name.place, help_line)
+            rejected("no-such-axes", f"`{name}` is not the name of axes", name.place, help_line)
         axes = space
         for about, node in (pair for turn in turns for pair in turn.items()):
             if about not in AXIS_OF:
-                rejected("no-such-axis", f"axes are turned about x, y or z, not about `{about}`", about.place)
+                rejected("no-such-axis", f"axes rotate about x, y or z, not about `{about}`", about.place)
             angle = self.letters.of_kind(node, f"an angle of {name}", "angle")
             with told_at(about.place):
                 axes = axes.turned(AXIS_OF[about], angle)
@@ -197,7 +197,7 @@ class Places:
         return self.letters.of_kind(node, f"a component of {name}", "length")
 
     def _check_size(self, found: Location, name: str) -> None:
-        """All places of one description are in a plane, or all are in space."""
+        """Check that all places of a description are in a plane, or all are in space."""
         size = len(found.components)
         first, by = self.first = self.first or (size, name)
         if size != first:

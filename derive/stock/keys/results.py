@@ -1,7 +1,7 @@
 """`results:` of a description: quantities computed from answers, each under a name of its own.
 
-Every key is that of an argument of a verb, which says next to its function how a file calls it. So the keys, their
-schema and their errors follow from the verbs; here it is only said how each sort of key is read.
+Every key is that of an argument of a verb, which states next to its function how a file calls it. So the keys, their
+schema and their errors follow from the verbs; this module only defines how each sort of key is read.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ Answers = Callable[[Word], tuple[Quantity, ...]]
 
 @in_results(
     "answer",
-    "of a body the tensor, a moment or radius of gyration, or the centre of mass about another point or axis: "
+    "the tensor, a moment or radius of gyration, or the centre of mass of a body about another point or axis: "
     "`{answer: moment_of_inertia_z, about: tip}`",
     one_of=("about", "origin", "direction"),
     answer="answer: the name of an answer of a body",
@@ -57,22 +57,22 @@ def _of_a_body(
     direction: Axis = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """The answer of a body about another point or axis than the one given."""
+    """Return the answer of a body about another point or axis than the given one."""
     if elsewhere is None:
-        rejected("wrong-argument", "`answer` asks about another point of a body, which is for `solve: body`", None)
+        rejected("wrong-argument", "`answer` asks about another point of a body and needs `solve: body`", None)
     return elsewhere(answer, key, about, origin, direction, symbol)
 
 
-# --- what each sort of key holds -------------------------------------------------------------------------------------
+# --- the sorts of keys -----------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Sort:
-    """A sort of key: the shape of what is written, how it is read in letters, and what the verb gets in the end.
+    """A sort of key: its shape in the file, how it is read in symbols, and the value that the verb receives.
 
-    read   verb, key, what is written, the letters -> what is known before any answer is derived
-    made   result, key, that -> what the verb is called with
-    uses   that -> the names of answers in it
+    read   (verb, key, written value, letters) -> the value that is known before any answer is derived
+    made   (result, key, that value) -> the argument of the verb
+    uses   (that value) -> the names of answers in it
     """
 
     shape: Reader[Any]
@@ -83,22 +83,22 @@ class Sort:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What a result is computed in: the answers by name, the coordinates, what asks about another point of a body."""
+    """The context of a result: answers by name, coordinates, and the function for another point of a body."""
 
     answers: Answers
     coordinates: Mapping[str, Coordinate]
     elsewhere: Callable[..., Quantity] | None = None
 
     def one(self, name: Word) -> Quantity:
-        """The one answer of a name, or that whose key the name is."""
+        """Return the one answer of a name, or the one with this key."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
-            rejected("wrong-argument", f"`{name}` stands for {len(found)} answers", name.place)
+            rejected("wrong-argument", f"`{name}` denotes {len(found)} answers", name.place)
         return found[0]
 
     def momenta_named(self, names: Iterable[str]) -> None:
-        """From here on the momenta that are in a formula are known to move."""
+        """Mark the momenta in a formula as moving, from here on."""
         held = set(names)
         for q in self.coordinates.values():
             if letter_of_momentum(q).name in held:
@@ -110,17 +110,17 @@ def _nodes(node: Tree) -> tuple[Tree, ...]:
 
 
 def names(node: Tree | None) -> tuple[Word, ...]:
-    """The names that are written, one or several."""
+    """Return the names that are written, one or several."""
     found = []
     for item in _nodes(node) if node is not None else ():
         if not isinstance(item, Scalar) or item.empty:
-            rejected("wrong-type", "an answer is given by its name", item.place)
+            rejected("wrong-type", "an answer must be given by its name", item.place)
         found.append(item.word)
     return tuple(found)
 
 
 def value_or_infinity(node: Tree, letters: InLetters) -> Expr:
-    """An expression, or infinity."""
+    """Return an expression, or infinity."""
     if isinstance(node, Scalar) and node.text.strip() in INFINITE:
         return INFINITE[node.text.strip()]
     return letters.read(node, "a value")[0]
@@ -137,14 +137,14 @@ def _letters(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -
 def _letter(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> Expr:
     found = _letters(verb, key, node, letters)
     if len(found) != 1:
-        rejected("missing-key", f"`{verb.name}` needs one letter as its `{key.name}`", node.place)
+        rejected("missing-key", f"`{verb.name}` needs one symbol as its `{key.name}`", node.place)
     return found[0]
 
 
 def _values(verb: ResultVerb, key: ResultKey, written: Mapping[Word, Tree], letters: InLetters) -> dict[Word, Expr]:
     def one(letter: Word, value: Tree) -> tuple[Word, Expr]:
         if letter not in letters.letters:
-            help_line = did_you_mean(letter, letters.letters) or "it is a letter, a coordinate or a rate"
+            help_line = did_you_mean(letter, letters.letters) or "use a symbol, a coordinate or a rate"
             rejected("undeclared-symbol", f"`{letter}` is not declared", letter.place, help_line)
         return letter, value_or_infinity(value, letters)
 
@@ -160,12 +160,12 @@ def _order(verb: ResultVerb, key: ResultKey, word: Word, letters: InLetters) -> 
 def _symbol(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> Word:
     found = names(node)
     if len(found) > 1:
-        rejected("wrong-argument", f"`{verb.name}` finds one thing, with one letter", found[1].place)
+        rejected("wrong-argument", f"`{verb.name}` finds one quantity, with one symbol", found[1].place)
     return found[0]
 
 
 def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> tuple[Word | Expr, ...]:
-    """Each the name of an answer, or a formula in letters, coordinates and momenta."""
+    """Return each function: the name of an answer, or a formula in symbols, coordinates and momenta."""
 
     def one(item: Tree) -> Word | Expr:
         is_name = isinstance(item, Scalar) and not item.empty and [*names_in(item)] == [item.text.strip()]
@@ -174,17 +174,17 @@ def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters)
         return letters.read(item, "a function")[0]
 
     if len(_nodes(node)) != 2:
-        rejected("wrong-type", f"`{verb.name}` is of two functions, but these are {len(_nodes(node))}", node.place)
+        rejected("wrong-type", f"`{verb.name}` needs two functions, not {len(_nodes(node))}", node.place)
     return tuple(one(item) for item in _nodes(node))
 
 
 def _one_answer(result: Result, key: ResultKey, found: tuple[Word, ...], around: Surroundings) -> Quantity:
-    """The one answer; of several of one name that whose key this name is."""
+    """Return the one answer; if a name has several, the one with this key."""
     of = [quantity for name in found for quantity in around.answers(name)]
     if len(of) > 1 and len(found) == 1:
         of = [quantity for quantity in of if quantity.key == found[0]] or of
     if len(of) != 1:
-        rejected("wrong-argument", f"`{result.verb.name}` is about one answer, but these are {len(of)}", result.place)
+        rejected("wrong-argument", f"`{result.verb.name}` needs one answer, not {len(of)}", result.place)
     return of[0]
 
 
@@ -241,7 +241,7 @@ SORTS: Mapping[Holds, Sort] = {
 
 
 def _meaning(name: str) -> str:
-    """What a key is, by the verbs that have it."""
+    """Return the meaning of a key, by the verbs that have it."""
     if name in RESULT_VERBS:
         return f"{RESULT_VERBS[name].own.hint}; finds {RESULT_VERBS[name].yields}"
     hints = [
@@ -251,18 +251,18 @@ def _meaning(name: str) -> str:
     return "; ".join(f"{hint} ({', '.join(f'`{verb}`' for _, verb in verbs)})" for hint, verbs in together)
 
 
-ALIKE = {  # what a key is that means the same for each verb
-    "symbol": "the letter of what is found, or one for each of several",
+ALIKE = {  # meaning of a key that is the same for each verb
+    "symbol": "the symbol of the result, or one for each of several",
     "results": "answers that are substituted",
-    "order": "to which order",
+    "order": "the highest order",
     "start": "the value at the start",
-    "case": "`underdamped`, `critically_damped` or `overdamped`, where the letters leave it open",
-    "gained": "of which function the Lagrangian gains the rate; by default none",
+    "case": "`underdamped`, `critically_damped` or `overdamped`, if the symbols leave it open",
+    "gained": "the function whose rate the Lagrangian gains; by default none",
 }
 
 
 def _every_key() -> Iterator[ResultKey]:
-    """Each key once, those that name a verb first."""
+    """Yield each key once, those that name a verb first."""
     verbs = sorted(RESULT_VERBS.values(), key=lambda verb: verb.name)
     every = [*(verb.own for verb in verbs), *(each for verb in verbs for each in verb.keys.values())]
     yield from {each.name: each for each in reversed(every)}.values()
@@ -281,7 +281,7 @@ _RESULT: Reader[Any] = record_of(ResultKeys, "a result", "a mapping such as `{li
 
 
 def _result(node: Tree, name: str, faults: Faults) -> Record | None:
-    """One of `results:`, whose keys go together."""
+    """Read one of `results:`, and check that its keys fit together."""
     found: Record | None = _RESULT.read(node, name, faults)
     if found is not None:
         _check_verb(found, name, faults)
@@ -289,18 +289,18 @@ def _result(node: Tree, name: str, faults: Faults) -> Record | None:
 
 
 def written_in(written: Record) -> dict[str, Any]:
-    """What is written under the keys of a result."""
+    """Return the written values of the keys of a result."""
     held = {name: getattr(written, f"{name}_") for name in (each.name for each in _every_key())}
     return {name: value for name, value in held.items() if name in written.values_at and value not in ({}, ())}
 
 
 def verb_of(written: Record) -> ResultVerb:
-    """The one verb of a result that has been checked."""
+    """Return the one verb of a result that has been checked."""
     return next(verb for name, verb in RESULT_VERBS.items() if name in written_in(written))
 
 
 def _check_verb(written: Record, name: str, faults: Faults) -> None:
-    """A result has one verb; `faults` takes the keys that have no effect with it, and those that it lacks."""
+    """Check that a result has one verb; `faults` collects keys without effect and missing keys."""
     there = [*written_in(written)]
     found = [each for each in there if each in RESULT_VERBS]
     if len(found) != 1:
@@ -354,7 +354,7 @@ RESULTS = mapping_of(Reader({**_RESULT.schema, "oneOf": [_schema_of(verb) for ve
 class Result:
     """One quantity that is computed from answers.
 
-    values   argument of the verb -> what its key holds, in letters
+    values   argument of the verb -> the value of its key, in symbols
     places   argument, and `values:x`, -> where it is written
     """
 
@@ -370,7 +370,7 @@ class Result:
         coordinates: Mapping[str, Coordinate],
         elsewhere: Callable[..., Quantity] | None = None,
     ) -> Any:
-        """By the verb; an error is shown at the key of the argument that is wrong."""
+        """Compute the result by its verb; an error is shown at the key of the argument that is wrong."""
         around = Surroundings(answers, coordinates, elsewhere)
         keys = self.verb.arguments
         given = {
@@ -393,7 +393,7 @@ class Result:
 
     @property
     def uses(self) -> tuple[Word, ...]:
-        """The names of the answers that it is computed from."""
+        """Return the names of the answers from which it is computed."""
         keys = self.verb.arguments
         return tuple(
             name for argument, value in self.values.items() for name in SORTS[keys[argument].holds].uses(value)
@@ -401,11 +401,11 @@ class Result:
 
 
 def read_result(written: Record, name: Word, letters: InLetters, faults: Faults) -> Result | None:
-    """A result in letters; nothing after an error."""
+    """Return a result in symbols; None after an error."""
     with faults:
         known = letters.letters.get(name)
         if known is not None and not isinstance(known, FoundLetter):
-            message = f"`{name}` is a letter of this problem already, so no result can be called so"
+            message = f"`{name}` is already a symbol of this problem, so a result cannot have this name"
             rejected("letter-clash", message, name.place, "give the result another name")
         verb, held = verb_of(written), written_in(written)
         readings = [

@@ -39,7 +39,7 @@ def test_what_is_made_of_itself_or_of_nothing_is_refused(tmp_path: Path) -> None
         "  about: apex\n  results: {one: {value: 2*two}, two: {value: one/2}, three: {value: 2*four}}\n",
     )
     text = edited(CONE, made, ("answer: inertia_tensor", "answer: [one, three]"))
-    assert messages(tmp_path, text) == ["7: `one` is made of itself", "7: a body has no answer called `four`"]
+    assert messages(tmp_path, text) == ["7: `one` is computed from itself", "7: a body has no answer called `four`"]
 
 
 def word(name: str, line: int) -> Word:
@@ -60,5 +60,5 @@ def test_all_names_that_are_no_answers_are_told() -> None:
         ByName({"mass": mass}, "a body").answers([word("mas", 1), word("w", 2)])
     assert [(c.message, c.help, c.place and c.place.line) for c in refused.value.complaints] == [
         ("a body has no answer called `mas`", "did you mean `mass`?", 1),
-        ("a body has no answer called `w`", "one may ask for mass", 2),
+        ("a body has no answer called `w`", "you may ask for mass", 2),
     ]

@@ -126,12 +126,12 @@ def test_bodies_and_rotations_keep_to_the_same_rule(text: str, own: str, name: s
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("frequency", "`frequency` is the name of an answer already"),
-        ("frequencies", "`frequencies` is the name of an answer already, as `frequency`"),
-        ("theta_dot", "`theta_dot` is a letter of this problem already"),
-        ("p_theta", "`p_theta` is a letter of this problem already"),
-        ("l", "`l` is a letter of this problem already"),
-        ("squared_speed", "`squared_speed` is the key of a step already"),
+        ("frequency", "`frequency` is already the name of an answer"),
+        ("frequencies", "`frequencies` is already the name of an answer, as `frequency`"),
+        ("theta_dot", "`theta_dot` is already a symbol of this problem"),
+        ("p_theta", "`p_theta` is already a symbol of this problem"),
+        ("l", "`l` is already a symbol of this problem"),
+        ("squared_speed", "`squared_speed` is already the key of a step"),
     ],
 )
 def test_a_result_with_the_name_of_something_else_is_refused_at_its_name(name: str, said: str, tmp_path: Path) -> None:
@@ -146,13 +146,15 @@ def test_a_result_with_the_name_of_something_else_is_refused_at_its_name(name: s
 
 
 def test_a_number_beyond_the_last_is_no_name(tmp_path: Path) -> None:
-    assert messages(tmp_path, COUPLED.replace("ASKED", "frequency_3")) == ["13: there is no answer `frequency_3`"]
+    assert messages(tmp_path, COUPLED.replace("ASKED", "frequency_3")) == [
+        "13: `frequency_3` is not the name of an answer"
+    ]
 
 
 def test_what_several_answers_rest_on_is_refused_once(tmp_path: Path) -> None:
     text = edited(HOOP, ("  gravity: g\n", "  gravity: g\n  at: rest_7\n"))
     text = edited(text, ("answer: equations_of_motion", "answer: [linearised, frequency, stability]"))
-    assert messages(tmp_path, text) == ["9: there is no equilibrium `rest_7`"]
+    assert messages(tmp_path, text) == ["9: `rest_7` is not an equilibrium"]
 
 
 @pytest.mark.parametrize("state", ["rest_3", "equilibrium_3", "equilibria_3"])

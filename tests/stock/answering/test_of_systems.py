@@ -184,7 +184,7 @@ def test_a_coordinate_that_rolling_gives_has_no_equation_of_its_own(tmp_path: Pa
         ("multipliers", "`multipliers` needs constraints that forces keep"),
         ("conserved", "no coordinate of this system is cyclic"),
         ("no_slip", "nothing rolls in this system"),
-        ("lagrangan", "there is no answer `lagrangan`"),
+        ("lagrangan", "`lagrangan` is not the name of an answer"),
     ],
 )
 def test_an_ask_that_does_not_apply_is_told_where_it_is_asked(asked: str, said: str, tmp_path: Path) -> None:

@@ -39,11 +39,11 @@ ALONG = "collisions: {from: B, to: A, along: [1, 0]"
         ((HIT, f"{ALONG}}}"), "12: a collision along a normal needs its `restitution`"),
         (("[1, 0]", "[l, 0]"), "12: `a component` must be a number, but `l` is a length"),
         (("restitution: e", "restitution: e, impulse: v"), "12: `v` stands for something else already"),
-        ((HIT, "collisions: {from: B, to: A, impulse: '2'}"), "12: `2` is no letter for an impulse"),
+        ((HIT, "collisions: {from: B, to: A, impulse: '2'}"), "12: `2` is not a valid symbol for an impulse"),
         ((HIT, "impulses: {components: [J, 0]}"), "12: an impulse needs `components` and `at`, or `angular` and `on`"),
         ((HIT, "impulses: {components: [v, 0], at: A}"), "12: `a component` must be a momentum, but `v` is a speed"),
-        (("{x_dot: v}", "{x: v}"), "11: there is no rate `x`"),
-        (("{x: 0, theta: 0}", "{y: 0, theta: 0}"), "10: there is no coordinate `y`"),
+        (("{x_dot: v}", "{x: v}"), "11: `x` is not a rate of this system"),
+        (("{x: 0, theta: 0}", "{y: 0, theta: 0}"), "10: `y` is not a coordinate of this system"),
         (("{x_dot: v}", "{x_dot: b}"), "11: `x_dot` must be a speed, but `b` is a length"),
     ],
 )  # fmt: skip
@@ -61,9 +61,9 @@ def test_all_faults_of_a_blow_are_told_at_once(tmp_path: Path) -> None:
     collision = "collisions: {from: C, to: [b*sin(thta), 0], along: [1, 0], restitution: l}"
     text = edited(BULLET, ("{x: 0, theta: 0}", "{x: 0, phi: 0}"), ("{x_dot: v}", "{x_dot: b}"), (HIT, collision))
     assert messages(tmp_path, text) == [
-        "10: there is no coordinate `phi`",
+        "10: `phi` is not a coordinate of this system",
         "11: `x_dot` must be a speed, but `b` is a length",
-        "12: there is no place `C`",
+        "12: `C` is not a named place",
         "12: `thta` is not declared",
         "12: `restitution` must be a number, but `l` is a length",
     ]

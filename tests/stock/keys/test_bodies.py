@@ -115,7 +115,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("body", "said"),
     [
-        ("{shape: block, sides: [R, R, R], mass: M}", "5: there is no shape `block`"),
+        ("{shape: block, sides: [R, R, R], mass: M}", "5: `block` is not a known shape"),
         ("{shape: cone, radius: R, mass: M}", "5: a cone needs `height`"),
         ("{shape: disc, radius: R, height: h, mass: M}", "5: a disc has no `height`"),
         ("{shape: cone, radius: R, height: h}", "5: a cone needs `mass`"),
@@ -124,7 +124,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ("{shape: cone, radius: R, height: 3, mass: M}", "5: `height` must be a length, but `3` is a number"),
         (
             "{shape: disc, radius: R, mass: M, density: M/R**2}",
-            "5: a disc is uniform and of its own shape, so that it has no `density`",
+            "5: a disc is uniform and has a fixed shape, so it has no `density`",
         ),
         ("{shape: plate, sides: [R, R, R], mass: M}", "5: a plate needs 2 lengths as `sides`, not 3"),
         (
@@ -139,11 +139,11 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
             "{shape: tube, inner: R, outer: R, height: h, mass: M}",
             "5: a tube of the inner radius R and the outer radius R has nothing between them",
         ),
-        ("{mass: M}", "5: a body is told by `shape` or `position` or `parts`"),
-        ("{mass: M, parts: {}}", "5: a body is told by `shape` or `position` or `parts`"),
+        ("{mass: M}", "5: a body needs `shape` or `position` or `parts`"),
+        ("{mass: M, parts: {}}", "5: a body needs `shape` or `position` or `parts`"),
         (
             "{shape: disc, radius: R, mass: M, position: [R, 0]}",
-            "5: a body is told by `shape` or by `position`, not by both",
+            "5: a body needs either `shape` or `position`, not both",
         ),
         ("{position: [x, 0], limits: {x: [h, 0]}, mass: M}", "5: nothing lies between the limits of `x`, h and 0"),
         ("{position: [x, 0], limits: {x: [0, M]}, mass: M}", "5: `a limit of x` must be a length, but `M` is a mass"),
@@ -151,15 +151,15 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
             "{position: [R, 0], limits: {x: [0, h]}, mass: M}",
             "5: the position of this `Wire` does not depend on all of its variables",
         ),
-        ("{position: [x, 0], mass: M}", "5: a body has one, two or three letters with limits, not 0"),
+        ("{position: [x, 0], mass: M}", "5: a body needs one, two or three symbols with limits, not 0"),
         ("{position: [x, 0], limits: {x: [0, h]}}", "5: a body needs `mass` or `density`"),
         (
             "{position: [R, 0], limits: {R: [0, h]}, mass: M}",
-            "5: `R` is declared under `symbols` and is a letter of this body too",
+            "5: `R` is declared under `symbols`, but is also a variable of this body",
         ),
         (
             "{position: [x, 0], limits: {x: [0, h]}, mass: M, radius: R}",
-            "5: a body that is told by `position` has no `radius`",
+            "5: a body specified by `position` has no `radius`",
         ),
         (
             "{position: [x, 0], limits: {x: [0, h]}, density: M}",
@@ -168,12 +168,12 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ("{parts: {rod: {shape: rod, length: h, mass: M, at: [0, 0, 0], of: ned}}}", "5: a rod has no point `ned`"),
         (
             "{parts: {rod: {shape: rod, length: h, mass: M, of: end}}}",
-            "5: `rod` says which point of it is held, but not where",
+            "5: `rod` needs `at`, the position of its point `of`",
         ),
         ("{parts: {rod: {shape: rod, length: h, mass: M, turned: {w: pi}}}}", '5: a turn is about "x", "y" or "z"'),
         (
             "{mass: M, parts: {rod: {shape: rod, length: h, mass: M}}}",
-            "5: the mass of the whole is given, so that `rod` has its share of it",
+            "5: the mass of the whole is given and divided among its parts, so `rod` has no `mass`",
         ),
         ("{parts: {Rod: {shape: rod, length: h, mass: M}}}", "5: `Rod` is not a name for a body"),
         (
@@ -182,7 +182,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ),
         (
             "{shape: disc, radius: R, mass: M, points: {centre: [0, 0, 0]}}",
-            "5: every body has a point `centre` already",
+            "5: every body already has a point `centre`",
         ),
     ],
 )

@@ -27,11 +27,14 @@ def test_turns_follow_each_other(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("written", "said"),
     [
-        ("direction: w", "6: `direction` must be a direction, but `w` names none"),
-        ("direction: [R, M, 0]", "6: of the components of `direction` one is a length, another a mass"),
+        ("direction: w", "6: `direction` must be a direction, but `w` is not one"),
+        (
+            "direction: [R, M, 0]",
+            "6: the components of `direction` have different dimensions: one is a length, another a mass",
+        ),
         ("direction: [1, 0]", "6: `direction` must be a direction or three components"),
         ("direction: [1, q, 0]", "6: `q` is not declared"),
-        ("turned: {w: alpha}", "6: axes are turned about x, y or z, not about `w`"),
+        ("turned: {w: alpha}", "6: axes rotate about x, y or z, not about `w`"),
         ("turned: {z: R}", "6: `the angle about z` must be an angle, but `R` is a length"),
     ],
 )

@@ -91,10 +91,10 @@ def test_a_formula_may_hold_letters_and_powers_and_another_formula(made: str, va
     ("made", "said"),
     [
         ("turning + r_0", "they cannot be added"),
-        ("turnig/about", "there is no answer `turnig`"),
+        ("turnig/about", "`turnig` is not the name of an answer"),
         ("orbit/2", "`orbit` is no number"),
-        ("made/2", "`made` is made of itself"),
-        ("equations_of_motion/2", "`equations_of_motion` stands for 2 answers"),
+        ("made/2", "`made` is computed from itself"),
+        ("equations_of_motion/2", "`equations_of_motion` denotes 2 answers"),
         ("turning^2", "`^` is not part of an expression"),
         ("sin(turning)", "`sin` takes an angle or a number"),
     ],
@@ -154,9 +154,9 @@ def test_brackets_of_formulas_in_coordinates_and_momenta(tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("[x**2, p_x]", "[x**2]", "`bracket` is of two functions, but these are 1"),
-        ("[x**2, p_x]", "[x**2, equations_of_motion]", "`equations_of_motion` stands for 3 answers"),
-        ("[x**2, p_x]", "[x**2, p_w]", "there is no answer `p_w`"),
+        ("[x**2, p_x]", "[x**2]", "`bracket` needs two functions, not 1"),
+        ("[x**2, p_x]", "[x**2, equations_of_motion]", "`equations_of_motion` denotes 3 answers"),
+        ("[x**2, p_x]", "[x**2, p_w]", "`p_w` is not the name of an answer"),
         ("[x**2, p_x]", "[x_dot, p_x]", "but x_dot holds x_dot"),
         ("{x: -y, y: x}", "{x: -y, m: x}", "`noether` shifts coordinates, but `m` is not one"),
         ("{x: -y, y: x}", "{x: y, y: x}", "the shift is no symmetry"),

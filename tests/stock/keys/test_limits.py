@@ -85,14 +85,14 @@ def test_what_only_a_limit_rests_on_is_told_before_it(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "at", "said"),
     [
-        ("is: sqrt(g/l), ", "is: sqrt(g/(2*l)), ", (14, 50), r"`frequency` then is sqrt\(g\)/sqrt\(l\), not"),
-        ("is: sqrt(g/l), ", "is: g/l, ", (14, 50), "then is"),
-        ("is: sqrt(2*g/l)", "is: sqrt(g/l)", (16, 40), "then is"),
+        ("is: sqrt(g/l), ", "is: sqrt(g/(2*l)), ", (14, 50), r"`frequency` is sqrt\(g\)/sqrt\(l\) in this case, not"),
+        ("is: sqrt(g/l), ", "is: g/l, ", (14, 50), "in this case"),
+        ("is: sqrt(2*g/l)", "is: sqrt(g/l)", (16, 40), "in this case"),
         ("of: frequency, letter: M,", "of: frequence_2, letter: M,", None, "frequence_2"),
         ("is: sqrt(g/l), ", "known: kinetic_energy, ", (14, 53), "`frequency_limit` is"),
         ("is: sqrt(g/l), ", "known: frequency, ", (14, 53), "would say nothing"),
         ("letter: M,", "letter: Q,", (14, 29), "Q"),
-        ("where: {m: M}", "where: {q: M}", (16, 29), "there is no letter `q`"),
+        ("where: {m: M}", "where: {q: M}", (16, 29), "`q` is not a symbol of this problem"),
     ],
 )
 def test_what_is_not_so_is_refused_where_it_stands(

@@ -76,7 +76,7 @@ def test_a_constraint_is_kept_by_a_force(tmp_path: Path) -> None:
         ("constraints: {condition: l}", "`constraint` needs a formula of coordinates, but l has none"),
         ("constraints: {condition: x, equals: m}", "`condition` and `equals` have different dimensions"),
         ("springs: {konstant: k, from: A, to: A}", "a spring has no key `konstant`"),
-        ("charges: {charge: q, at: B}", "there is no place `B`"),
+        ("charges: {charge: q, at: B}", "`B` is not a named place"),
         ("springs: soft", "a spring must be a mapping, but it is `soft`"),
     ],
 )

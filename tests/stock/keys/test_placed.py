@@ -90,4 +90,4 @@ def test_a_body_that_cannot_be_meant_is_told(body: str, said: str, tmp_path: Pat
 
 
 def test_what_rolls_is_a_body_of_the_system(tmp_path: Path) -> None:
-    assert "7: there is no body `hop`" in messages(tmp_path, edited(ROLLING, ("{body: hoop", "{body: hop")))
+    assert "7: `hop` is not a body of this system" in messages(tmp_path, edited(ROLLING, ("{body: hoop", "{body: hop")))

@@ -34,10 +34,10 @@ def test_places_along_axes_that_turn(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("places", "said"),
     [
-        ("{A: {from: B, by: [l, 0]}, B: {from: A, by: [l, 0]}}", "the way to `A` begins at `A` itself"),
-        ("{A: {from: A, by: [l, 0]}}", "the way to `A` begins at `A` itself"),
+        ("{A: {from: B, by: [l, 0]}, B: {from: A, by: [l, 0]}}", "the position of `A` depends on `A` itself"),
+        ("{A: {from: A, by: [l, 0]}}", "the position of `A` depends on `A` itself"),
         ("{A: [l, theta*l], B: [l, 0, 0]}", "`B` has 3 components, but `A` has 2"),
-        ("{A: {in: hoop, by: [l, 0, 0]}}", "there are no axes `hoop`"),
+        ("{A: {in: hoop, by: [l, 0, 0]}}", "`hoop` is not the name of axes"),
         ("{A: {by: [l, 0], form: B}}", "a place has no key `form`"),
         ("{A: }", "`A` must be its components, `{from: A, by: [x, y]}`, or the name of a place, but it is empty"),
         ("{A: [l, m]}", "`a component of A` must be a length, but `m` is a mass"),
@@ -53,12 +53,12 @@ def test_axes_turn_about_one_of_three(tmp_path: Path) -> None:
     text = edited(
         PENDULUM, (f"  places: {PLACES}", "  axes: {arm: [{w: theta}]}"), ("at: A", "at: {in: arm, by: [l, 0, 0]}")
     )
-    assert messages(tmp_path, text) == ["6: axes are turned about x, y or z, not about `w`"]
+    assert messages(tmp_path, text) == ["6: axes rotate about x, y or z, not about `w`"]
 
 
 def test_a_coordinate_is_a_letter(tmp_path: Path) -> None:
     found = messages(tmp_path, edited(PENDULUM, ("{theta: angle}", "{theta: angle, x y: angle, t: length}")))
-    assert found == ["5: `x y` is no letter for a coordinate", "5: `t` is no letter for a coordinate"]
+    assert found == ["5: `x y` is not a valid symbol for a coordinate", "5: `t` is not a valid symbol for a coordinate"]
 
 
 def test_where_a_particle_is_may_be_called_by_its_name(tmp_path: Path) -> None:
@@ -84,6 +84,6 @@ reference:
     x, v, c = symbols("x x_dot x_ddot", real=True)
     left = explicit(solved(tmp_path, text)["motion_x"].value).residual
     assert equal(left, m * c + b * v + (k + K) * x - K * a)
-    assert any("there is no place `car`" in said for said in messages(tmp_path, text.replace("at: cart", "at: car")))
+    assert any("`car` is not a named place" in said for said in messages(tmp_path, text.replace("at: cart", "at: car")))
     own = text.replace("at: [x, 0]", "at: cart")
-    assert any("there is no place `cart`" in said for said in messages(tmp_path, own))
+    assert any("`cart` is not a named place" in said for said in messages(tmp_path, own))
