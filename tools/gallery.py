@@ -1,6 +1,6 @@
-"""Write docs/gallery.md; with `--pictures` take new pictures in Chromium of the pages that `make library` built.
+"""Write docs/gallery.md; with `--pictures` take its pictures again in Chromium, from the pages that `make library` has built.
 
-A picture shows the beginning of the page that a build writes for a browser; the lines of the problem are below it.
+A picture is the beginning of the page that a build has written for a browser; below it is the YAML of the problem.
 """
 
 from __future__ import annotations
@@ -15,28 +15,28 @@ WIDTH, HEIGHT = 860, 1060
 
 # What each problem shows.
 SHOWN = {
-    "turning_hoop": "A system on rotating axes: equilibria, and where each of them is stable",
-    "double_pendulum": "Two coordinates, each equation of motion by itself, then the normal modes",
-    "kepler": "A conserved momentum, an effective potential, a circular orbit and what happens near it",
+    "turning_hoop": "A system on rotating axes: equilibria, and the conditions of their stability",
+    "double_pendulum": "Two coordinates, their equations of motion and the normal modes",
+    "kepler": "A conserved momentum, an effective potential, a circular orbit and small oscillations about it",
     "tennis_racket": "A rigid body without torque: Euler's equations and the stability of each axis",
     "heavy_top": "A top in Euler's angles, its cyclic coordinates and its effective potential",
-    "loop": "A normal force by a multiplier, and the height from which the track holds",
-    "bullet": "A blow: what is conserved in it, and what is lost",
-    "torus": "A body by its integrals",
+    "loop": "A normal force by a multiplier, and the speed at which the car stays on the track",
+    "bullet": "A collision: the angular velocity after it and the energy that is lost",
+    "torus": "The density and the moments of inertia of a body, by integration",
 }
 
 _BEGINNING = """\
 # Gallery
 
 Made by `tools/gallery.py`; do not edit it. Each picture is the beginning of a page that a build has written for a
-browser; below it are the lines that made it. These problems are in YAML alone, as all of `problems/library` is:
-`make library` builds its 79 problems, `derive list` names them, and `derive new hw10/mine --like library/torus` begins
-one of yours with a copy.
+browser. The YAML below it is the whole problem. All problems of `problems/library` are in YAML alone. `make library`
+builds its 79 problems, `derive list` lists them, and `derive new hw10/mine --like library/torus` begins a problem of your
+own with a copy of one.
 """
 
 
 def document() -> str:
-    """Return the whole page."""
+    """The whole page."""
     return "\n".join([_BEGINNING, *(_entry(name, shows) for name, shows in SHOWN.items())])
 
 
@@ -50,7 +50,7 @@ def _entry(name: str, shows: str) -> str:
 
 
 def _told(text: str) -> str:
-    """Return the problem without the statements of a book about it."""
+    """Return the problem without the comparison with a book."""
     return re.sub(r"^# yaml-language-server.*\n", "", text.partition("\nreference:")[0], flags=re.MULTILINE).strip()
 
 

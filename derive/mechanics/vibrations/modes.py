@@ -410,7 +410,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
     cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2) cos((omega_1 + omega_2) t/2), whose size rises and
     falls with the difference.
     Check: the two swings added are that product, at any time.
-    Errors: the first is faster, or the two are the same; one is no frequency of an oscillation.
+    Errors: the first is faster, or the two are the same; one is not the frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
     """
     for role, each in (("slow", slow), ("fast", fast)):
