@@ -1,8 +1,8 @@
 """All errors, as one tree, and how an error is shown.
 
-    DeriveError                 nothing but these reaches the command line
-    ├── Rejected                faults in a file that somebody wrote, all of them at once
-    ├── Unverified              a step whose lines or whose second route disagree
+    DeriveError                 only these reach the command line
+    ├── Rejected                errors in a file of the author, all of them at once
+    ├── Unverified              a step whose lines or second route disagree
     ├── BuildFailed             TeX, the disk, a time limit: the outside world
     └── Misused                 the command line itself was wrong (exit code 2)
 
@@ -20,9 +20,9 @@ from typing import NoReturn
 
 @dataclass(frozen=True)
 class Place:
-    """Where in a file: 1-based line and column, the line itself, how many columns to underline.
+    """A place in a file: 1-based line and column, the line itself, and how many columns to underline.
 
-    Of a long line `text` is a piece, before which `cut` columns were left out.
+    `text` is only a piece of a long line; `cut` columns were left out before it.
     """
 
     path: str
@@ -34,7 +34,7 @@ class Place:
 
 
 class Spelled(str):
-    """A help line in the spelling of a script, with what it is in a file that calls the same verb by its keys."""
+    """A help line in the spelling of a script; `in_file` is its spelling in a file that calls the verb by its keys."""
 
     in_file: str | None
 
@@ -49,9 +49,9 @@ class Spelled(str):
 
 @dataclass(frozen=True)
 class Complaint:
-    """One error: a stable code, a message that can be read alone, where, why, and at most one help.
+    """One error: a stable code, a message that can be read alone, a place, notes, and at most one help line.
 
-    argument   of a verb, which is wrong: where a file calls the verb, the error is shown at the key of that argument
+    argument   the wrong argument of a verb: in a file that calls the verb, the error is shown at this argument's key
     """
 
     code: str
@@ -63,7 +63,7 @@ class Complaint:
     argument: str = ""
 
     def shown(self) -> str:
-        """The fault as rustc would print it: place and message, the line, a caret, notes, help."""
+        """Show the error as rustc prints it: place and message, the line, a caret, notes, help."""
         head = f"{self.severity}[{self.code}]: {self.message}"
         if self.place is None:
             return "\n".join([head, *self._footer("")])
@@ -71,7 +71,7 @@ class Complaint:
         lines = [f"{p.path}:{p.line}:{p.column}: {head}"]
         gutter = " " * len(str(p.line))
         if p.text.strip():
-            # A tab is one column wide here, so that the caret stands under what it marks.
+            # A tab is one column wide here, so that the caret is under what it marks.
             lines.append(f"  {p.line} | " + p.text.rstrip("\r\n").replace("\t", " "))
             lines.append(f"  {gutter} | " + " " * max(0, p.column - p.cut - 1) + "^" * max(1, p.width))
         return "\n".join([*lines, *self._footer(gutter)])
@@ -82,7 +82,7 @@ class Complaint:
 
 
 class DeriveError(Exception):
-    """Anything that stops the work and that the user can do something about."""
+    """An error that stops the work and that the user can do something about."""
 
     exit_code = 1
 
@@ -98,15 +98,15 @@ class DeriveError(Exception):
 
 
 class Rejected(DeriveError):
-    """A file that somebody wrote has faults."""
+    """A file of the author has errors."""
 
 
 class Unverified(DeriveError):
-    """`establish()` refused a step: neighbouring lines, or the second route, disagree."""
+    """`establish()` refused a step: neighbouring lines or the second route disagree."""
 
 
 class BuildFailed(DeriveError):
-    """TeX, the disk or the clock said no; earlier outputs are as they were."""
+    """TeX, the disk or a time limit stopped the build; earlier outputs are unchanged."""
 
 
 class Misused(DeriveError):
@@ -116,13 +116,13 @@ class Misused(DeriveError):
 
 
 class OutOfTime(BaseException):
-    """The limit of time, raised in the middle of the work, and what the work was doing when it came.
+    """The time limit, raised in the middle of the work, and what the work was doing then.
 
-    waited    it did nothing but wait
-    doing     what it was doing, from the inside out
-    answers   the names of the answers that it was deriving, from the inside out
+    waited    whether the work only waited
+    doing     what the work was doing, innermost first
+    answers   the names of the answers that it was deriving, innermost first
     finished  the keys of the steps that are established
-    kept      whether these are kept, so that the next attempt begins with them
+    kept      whether these steps are kept, so that the next attempt begins with them
     """
 
     def __init__(self, waited: bool = False):
@@ -136,7 +136,7 @@ class OutOfTime(BaseException):
 
 @contextmanager
 def during(what: Callable[[], str]) -> Iterator[None]:
-    """Work that may take long; its words are asked for only if the time ends in it."""
+    """Describe work that may take long; the description is asked for only if the time ends during the work."""
     try:
         yield
     except OutOfTime as late:
@@ -148,7 +148,7 @@ def during(what: Callable[[], str]) -> Iterator[None]:
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """The candidate that was probably meant, if any is close: of three letters one may be wrong."""
+    """Return the candidate that was probably meant, if one is close: one letter in three may be wrong."""
     import difflib  # only where something is wrong
 
     written, known = name.casefold(), {c.casefold(): c for c in reversed((*candidates,))}
@@ -161,7 +161,7 @@ def _most_slips(letters: int) -> int:
 
 
 def _slips(written: str, meant: str) -> int:
-    """How many letters are wrong, missing or too many; letters in another order are one slip."""
+    """Count the letters that are wrong, missing or too many; letters in another order count as one slip."""
     import difflib
 
     if sorted(written) == sorted(meant):
@@ -171,13 +171,13 @@ def _slips(written: str, meant: str) -> int:
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:
-    """A help line, or nothing."""
+    """Return a help line, or nothing."""
     close = nearest(name, tuple(candidates))
     return f"did you mean `{close}`?" if close else None
 
 
 class Faults:
-    """Collects complaints, so that one run of the command tells everything that is wrong with a file."""
+    """Collects errors, so that one run of the command reports everything that is wrong with a file."""
 
     def __init__(self, complaints: Iterable[Complaint] = ()) -> None:
         self._complaints = dict.fromkeys(complaints)
@@ -201,7 +201,7 @@ class Faults:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> bool:
-        """`with faults:` keeps what was rejected inside and goes on after it."""
+        """Keep what was rejected inside `with faults:`, and continue after it."""
         if isinstance(error, Rejected):
             for complaint in error.complaints:
                 self.add(complaint)
@@ -209,7 +209,7 @@ class Faults:
         return False
 
     def stop(self) -> None:
-        """Raise everything collected, in the order of the file; pass if there is nothing."""
+        """Raise everything collected, in the order of the file; do nothing if there is nothing."""
         if self._complaints:
             raise Rejected(sorted(self._complaints, key=_reading_order))
 
@@ -220,5 +220,5 @@ def _reading_order(complaint: Complaint) -> tuple[str, int, int]:
 
 
 def rejected(code: str, message: str, place: Place | None, help: str | None = None, *notes: str) -> NoReturn:
-    """Give up one reading with one complaint; `with faults:` takes it up."""
+    """Stop one reading with one error; `with faults:` collects it."""
     raise Rejected(Complaint(code, message, place, notes, help))

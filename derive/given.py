@@ -1,4 +1,4 @@
-"""What a script says of its givens: kinds that annotate `solve()`, and `require` for what must hold between them."""
+"""What a script declares about its givens: kinds that annotate `solve()`, and `require` for conditions between them."""
 
 from derive.algebra.direction import Direction as Direction
 from derive.algebra.kinds import *  # each kind is a name of its own there

@@ -1,4 +1,4 @@
-"""A problem in a notebook or at Python's prompt: derived anew, its answers and drawings shown as they are on its page.
+"""A problem in a notebook or at Python's prompt: derived again, with its answers and drawings as on its page.
 
 problem = open_problem("hw9/block")
 problem.answer("torque")       # shown as a formula; .value is the SymPy expression
@@ -31,22 +31,22 @@ __all__ = ["open_problem"]
 
 
 def open_problem(problem_id: str, root: str | Path | None = None) -> Opened:
-    """The problem of that id, as `hw9/block`, of the course in `root`: by default that which is here or above."""
+    """Open the problem of that id, as `hw9/block`, of the course in `root`; the default is the course here or above."""
     folder = found_root(None if root is None else str(root))
     if folder is None:
-        help_line = "run it in the course's folder, or name that: `open_problem(..., root=...)`"
-        raise Misused(Complaint("no-root", "there is no folder `problems` here or above", help=help_line))
+        help_line = "run it in the course's folder, or name the folder: `open_problem(..., root=...)`"
+        raise Misused(Complaint("no-root", "no folder `problems` was found here or above", help=help_line))
     return Opened(load_problem(folder, problem_id_of(problem_id)))
 
 
 @dataclass(frozen=True)
 class Answer:
-    """One result as it was derived now.
+    """One result, derived now.
 
-    value   what the page prints, a SymPy expression; of a relation, the whole
-    sympy   the same as plain SymPy text, which needs nothing of derive to be read; of two roots, each
-    number  the number that it has in a unit, if it has one
-    grade   how sure it is: proved, sampled, definition or approximation
+    value   the SymPy expression that the page prints; for a relation, the whole relation
+    sympy   the same as plain SymPy text, which can be read without derive; for two roots, a list of both
+    number  its number with a unit, if it has one
+    grade   its evidence: proved, sampled, definition or approximation
     """
 
     key: str
@@ -65,7 +65,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A drawing as it was drawn now."""
+    """A drawing, drawn now."""
 
     svg: str
 
@@ -74,7 +74,7 @@ class Drawn:
 
 
 class Opened:
-    """A problem, derived when the first of its answers is asked for, and once."""
+    """A problem that is derived once, when the first of its answers is asked for."""
 
     def __init__(self, problem: Problem):
         self._problem = problem
@@ -84,13 +84,13 @@ class Opened:
 
     @property
     def answers(self) -> tuple[str, ...]:
-        """The keys of what its parts ask for."""
+        """The keys of the answers that its parts ask for."""
         derivation = self._solved.derivation
         steps = [step for part in self._problem.parts for step in derivation.answering(part.answers)]
         return tuple(dict.fromkeys(step.key for step in steps))
 
     def answer(self, key: str) -> Answer:
-        """What a part asks for, or any other step of the page, by its key."""
+        """Return an answer of a part, or any other step of the page, by its key."""
         derivation, values = self._solved.derivation, self._solved.values
         steps = {step.key: step for step in derivation.steps}
         if key not in steps:
@@ -109,7 +109,7 @@ class Opened:
         )
 
     def drawing(self, key: str) -> Drawn:
-        """A drawing of the page, by its key."""
+        """Return a drawing of the page by its key."""
         name = f"{self._problem.id.rpartition('/')[2]}-{key}.svg"
         if name not in self._drawings:
             keys = [file.partition("-")[2].removesuffix(".svg") for file in self._drawings]

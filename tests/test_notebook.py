@@ -58,5 +58,5 @@ def test_what_it_does_not_have_is_told(block: Opened, tmp_path: Path) -> None:
     with pytest.raises(Misused, match="no drawing is called `vector`") as drawing:
         block.drawing("vector")
     assert "vectors" in drawing.value.complaints[0].help
-    with pytest.raises(Misused, match="there is no folder `problems`"):
+    with pytest.raises(Misused, match="no folder `problems` was found"):
         open_problem("hw9/block", tmp_path)

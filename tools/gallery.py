@@ -1,4 +1,4 @@
-"""Write docs/gallery.md; with `--pictures` take its pictures again in Chromium, from the pages that `make library` has built.
+"""Write docs/gallery.md; `--pictures` takes its pictures again in Chromium, from pages that `make library` has built.
 
 A picture is the beginning of the page that a build has written for a browser; below it is the YAML of the problem.
 """

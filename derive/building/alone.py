@@ -1,4 +1,4 @@
-"""Documents typeset apart from a build, which keeps nothing of them: one solution, the reports of what was checked."""
+"""Documents typeset apart from a build, which keeps nothing of them: one solution, or the reports of a check."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from derive.render.rendered import Files, Rendered
 
 
 def typeset_alone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
-    """The PDF of a document; the log of one that fails is kept beside the set's outputs."""
+    """Return the PDF of a document; if it fails, its log is kept next to the set's outputs."""
     with Scratch() as folder:
         target = Path(folder) / f"{name}.pdf"
         work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", beside=files)
@@ -25,7 +25,7 @@ def typeset_alone(outputs: Path, name: str, tex: str, files: Files, engine: str 
 
 
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
-    """The report of each set by its path; of a set of which one problem alone was checked, that of this problem."""
+    """Return the report of each set by its path; if only one problem of a set was checked, the report of that one."""
     from derive.building.set_document import report_document
 
     found: dict[str, bytes] = {}

@@ -1,4 +1,4 @@
-"""All that a problem's parts may ask for: its names, what each one is, and its value."""
+"""All names that a problem's parts may ask for, each with its meaning and its value."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ Rows = list[tuple[str, ...]]
 
 
 def answers_of(root: Path, problem_id: str) -> Rows:
-    """A line for each, the heading first: those that its description offers or its script returns, its results, and
-    then the steps that these rest on."""
+    """Return a line for each name, the heading first: the answers that its description offers or its script returns,
+    its results, and then the steps on which these depend."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     record = Run()
     with solving(problem, record):
@@ -54,7 +54,7 @@ def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
 
 
 def with_ancestors_of_each(found: dict[str, tuple[Quantity, ...]]) -> dict[str, tuple[Quantity, str]]:
-    """Every step that the answers rest on, with the first answer that leads to it."""
+    """Return every step on which the answers depend, with the first answer that leads to it."""
     steps: dict[str, tuple[Quantity, str]] = {}
     for name, quantities in found.items():
         for key, quantity in with_ancestors(quantities).items():
@@ -66,7 +66,7 @@ def _meaning(name: str, problem: Problem) -> str:
     made = problem.described.made if problem.described is not None else {}
     uses = next((uses for result, uses in made.items() if result == name), None)
     if uses is not None:
-        return f"a result, made of {', '.join(f'`{each}`' for each in uses)}" if uses else "a result"
+        return f"a result, computed from {', '.join(f'`{each}`' for each in uses)}" if uses else "a result"
     if not isinstance(problem.script, StockScript):
         return "an answer of the script"
     prefixes = [name.replace(" ", "_") for name in _bodies(problem)]
@@ -75,7 +75,7 @@ def _meaning(name: str, problem: Problem) -> str:
 
 
 def _bodies(problem: Problem) -> list[str]:
-    """The names of several bodies, which stand before the names of their answers."""
+    """Return the names of several bodies, which precede the names of their answers."""
     several: Any = getattr(problem.described, "bodies", ())
     return [one.described.called for one in several if one.described.called]
 
@@ -94,7 +94,7 @@ def _values(found: tuple[Quantity, ...] | DeriveError, notation: Notation) -> st
 
 
 def _value(step: Step, notation: Notation) -> str:
-    """In one line; of what takes several, as a tensor does, the symbol alone."""
+    """Show the value in one line; a value that takes several lines, as a tensor does, is shown by its symbol alone."""
     told = plain(named_result(step, notation))
     if "\n" in told:
         return plain(notation.layout(step.symbol)) if step.symbol is not None else ""

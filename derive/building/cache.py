@@ -1,7 +1,7 @@
-"""What builds keep of the work that they did: each value under a digest of everything that it depends on.
+"""The work that builds keep: each value under a digest of everything that it depends on.
 
-Steps, pages, drawings and PDFs are kept in one folder, sealed. What was kept under a digest holds for as long as the
-folder does, so nothing in it is ever out of date; what was used longest ago is let go when there is too much.
+Steps, pages, drawings and PDFs are kept in one folder, sealed. A value under its digest is valid for as long as the
+folder exists, so nothing in it is ever out of date; when there is too much, what was used longest ago is removed.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NOT_KEPT = "not-kept"
 
 
 def digest(*parts: str | bytes) -> str:
-    """Of the parts and of where each of them ends."""
+    """Return the digest of the parts and of where each of them ends."""
     sha = sha256()
     for part in parts:
         raw = part.encode() if isinstance(part, str) else part
@@ -36,7 +36,7 @@ def digest(*parts: str | bytes) -> str:
 
 
 def file_digest(path: Path) -> str:
-    """Of the file's content; empty if there is none, so that a file which appears counts as a change."""
+    """Return the digest of the file's content; empty for a missing file, so that a new file counts as a change."""
     try:
         return digest(sealed.regular_content(path))
     except OSError:
@@ -45,7 +45,7 @@ def file_digest(path: Path) -> str:
 
 @functools.cache
 def engine_digest(*packages: str) -> str:
-    """Of derive's own modules, and of the packages that decide a result with them."""
+    """Return the digest of derive's own modules, and of the packages that decide a result with them."""
     versions = [f"{name}=={package_version(name)}" for name in packages]
     return digest(_own_modules(), *versions)
 
@@ -56,7 +56,7 @@ def _own_modules() -> str:
 
 
 def folder_digest(folder: Path, pattern: str = "*") -> str:
-    """Of the files below the folder, with their names."""
+    """Return the digest of the files below the folder, with their names."""
     files = sorted(p for p in folder.rglob(pattern) if p.is_file() and "__pycache__" not in p.parts)
     return digest(*(part for p in files for part in (str(p.relative_to(folder)), p.read_bytes())))
 
@@ -69,7 +69,7 @@ def package_version(name: str) -> str | None:
 
 
 def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
-    """The warning that the next build will have to do some work again."""
+    """Return the warning that the next build will have to do some work again."""
     said = f"cannot write in `{shown_path(folder)}`{refused.message[refused.message.rindex(': ') :]}" if folder else ""
     message = f"nothing is kept for the next build: {said or refused.message}"
     return Complaint(NOT_KEPT, message, severity="warning")
@@ -77,38 +77,38 @@ def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
 
 @dataclass(frozen=True)
 class Cache:
-    """The values kept in a folder, if there is one; `fresh` finds none of them, and all is made anew and kept again."""
+    """The values kept in a folder, if there is one; with `fresh` none is recalled, and all are made and kept again."""
 
     folder: Path | None = None
     fresh: bool = False
     limit: int = LIMIT
     unkept: list[Complaint] = field(
         default_factory=list, compare=False, repr=False
-    )  # warnings of what the disk refused
+    )  # warnings about what the disk refused
 
     def recalled(self, key: str) -> bytes | None:
-        """What was kept under that digest; nothing if it is not there as it was kept."""
+        """Return what was kept under that digest; nothing if it is missing or was changed."""
         if self.folder is None or self.fresh:
             return None
         content = sealed.unsealed(self.folder / key, key)
         if content is not None:
-            with suppress(OSError):  # it may be a file of somebody else
+            with suppress(OSError):  # the file may belong to another user
                 os.utime(self.folder / key, follow_symlinks=False)
         return content
 
     def recalled_data(self, key: str) -> Any:
-        """Like `recalled`, for data of JSON."""
+        """Return data of JSON that was kept under that digest, like `recalled`."""
         return sealed.data_of(self.recalled(key))
 
     def keep(self, key: str, content: bytes) -> None:
         if self.folder is not None:
             try:
                 sealed.seal(self.folder / key, key, content)
-            except BuildFailed as refused:  # the next build has more to do, and this one its answer
+            except BuildFailed as refused:  # the next build has more to do, but this one succeeds
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def evict(self) -> None:
-        """Let go what was used longest ago, if there is too much; once for a build, for it lists all that is there."""
+        """Remove what was used longest ago, if there is too much; once for a build, as it lists the whole folder."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit
@@ -145,7 +145,7 @@ class Kept:
 
 
 def _facts(file: Path) -> tuple[int, int, Path]:
-    """When a file was used last, and its size; nothing of one that another build has just let go."""
+    """Return when a file was used last, and its size; zeros for a file that another build has just removed."""
     try:
         facts = file.lstat()
     except OSError:

@@ -1,7 +1,7 @@
-"""The calls of verbs that builds keep of a problem: many small texts, in one value that each build replaces.
+"""The calls of verbs that builds keep of a problem: many small texts in one value, which each build replaces.
 
-Only what a build derives opens it. What the last build used is kept, and of earlier ones as much as there is room for:
-an edit that is taken back finds what it had.
+Only a build that derives opens it. The calls of the last build are kept, and as many earlier ones as there is room for:
+if you undo an edit, the calls from before it are still there.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from functools import cached_property
 from derive.building.cache import Cache, digest, engine_digest
 from derive.steps.memory import Memory
 
-BETWEEN = "\n\n"  # calls, no line of which is empty
-ROOM = 2 * 1024 * 1024  # characters of what was not used last
+BETWEEN = "\n\n"  # between calls, which have no empty line
+ROOM = 2 * 1024 * 1024  # characters of calls that were not used last
 
 
 @dataclass
 class Calls:
-    """The texts of calls by their keys, as kept before, and those that are used now."""
+    """The texts of calls by their keys: those kept before, and those used now."""
 
     cache: Cache
     key: str
@@ -29,7 +29,7 @@ class Calls:
 
     @cached_property
     def earlier(self) -> dict[str, str]:
-        """What was used last comes first."""
+        """The calls kept before, the ones used last first."""
         blocks = (self.cache.recalled(self.key) or b"").decode().split(BETWEEN)
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 
@@ -57,7 +57,7 @@ class Calls:
 
 @contextmanager
 def calls_of(problem_id: str, cache: Cache) -> Iterator[Memory | None]:
-    """The memory of a problem's calls, kept again behind it, also where the script failed; none without a cache."""
+    """Provide the memory of a problem's calls; save it afterwards even if the script failed. None without a cache."""
     if cache.folder is None:
         yield None
         return

@@ -1,4 +1,4 @@
-"""In what two solutions of a problem differ, each as its JSON tells it (docs/json.md): data, without a word of ours."""
+"""The differences between two solutions of a problem, each given by its JSON (docs/json.md), as data without words."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 ADDED, REMOVED, CHANGED = "added", "removed", "changed"
 EQUAL = "equal"
-_ALIKE = 0.4  # how many words two sentences must share to be one that was edited
+_ALIKE = 0.4  # the share of words by which two sentences are one that was edited
 _NO_PART: Mapping[str, Any] = {"answers": [], "ask": "", "says": [], "points": None, "extra": False}
 
 Run = tuple[str, str]
@@ -22,13 +22,13 @@ Blocks = Sequence[Mapping[str, Any]]
 class Change:
     """One difference.
 
-    of       of what sort: problem (of a set), given, points, asked, part, answer, step, order, sentence, drawing,
+    of       the sort: problem (of a set), given, points, asked, part, answer, step, order, sentence, drawing,
              number, reference, warning
-    where    which of them: a key, the label of a part, a place of the page
-    before   what it was, as text; empty if it was not there
-    after    what it is; empty if it is no more
-    words    of a sentence its words in runs: equal, removed, added
-    facets   of a step in what it differs: which facet, what it was, what it is
+    where    which one: a key, the label of a part, a place on the page
+    before   the text before; empty if it was not there
+    after    the text now; empty if it is gone
+    words    for a sentence, its words in runs: equal, removed, added
+    facets   for a step, its differences: which facet, the text before, the text now
     """
 
     of: str
@@ -46,7 +46,7 @@ class Change:
 
 
 def changes(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Change]:
-    """Every difference, in the order in which a reader asks: what went in, what is asked, what comes out, the words."""
+    """Return every difference, in the order of a reader's questions: the input, the questions, results, words."""
     parts = list(_paired(before["parts"], after["parts"]))
     return [
         *_table("given", _given(before), _given(after)),
@@ -68,7 +68,7 @@ def _table(of: str, before: Mapping[str, str], after: Mapping[str, str], only_ch
     return [each for each in found if each.before != each.after and (not only_changed or each.how == CHANGED)]
 
 
-# --- what each sort is compared by ---
+# --- the texts by which each sort is compared ---
 
 
 def _given(page: Mapping[str, Any]) -> dict[str, str]:
@@ -83,7 +83,7 @@ def _given_text(value: Any) -> str:
 
 
 def _answers(page: Mapping[str, Any]) -> dict[str, str]:
-    """The formula and the numbers that stand for it."""
+    """Return the formula of each answer, with its numbers."""
     return {
         key: " = ".join([answer["text"], *(n["text"] for n in [answer["number"], *answer.get("also", [])] if n)])
         for key, answer in page["answers"].items()
@@ -113,7 +113,7 @@ def _reference(page: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[Change]:
-    """Those that are gone and those that are new, wherever they stand."""
+    """Return the warnings that are gone and those that are new, wherever they appear."""
     old, new = ({(w["code"], w["message"]): None for w in page["warnings"]} for page in (before, after))
     yield from (Change("warning", code, "", message) for code, message in new if (code, message) not in old)
     yield from (Change("warning", code, message, "") for code, message in old if (code, message) not in new)
@@ -123,7 +123,7 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
-    """Each part beside what it was: by what it asks for, for the letters of all that follow change with one more."""
+    """Pair each part with its earlier form, by what it asks for, because one more part changes all letters after it."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
     )
@@ -158,7 +158,7 @@ def _worth(page: Mapping[str, Any]) -> str:
 
 
 def _asked(parts: Iterable[tuple[Any, Any]]) -> Iterator[Change]:
-    """What parts ask for, which parts there are, and which have another letter."""
+    """Return changes in what parts ask for, in which parts there are, and in their letters."""
     for old, new in parts:
         name = _name(old, new)
         if old is _NO_PART or new is _NO_PART:
@@ -195,7 +195,7 @@ def _result(step: Mapping[str, Any]) -> str:
 
 
 def _facets(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
-    """In what a step is another, each facet with what it was and what it is."""
+    """Return the facets in which a step differs, each with its text before and now."""
     if _left_side(old) != _left_side(new):
         yield "name", _left_side(old), _left_side(new)
     if _result(old) != _result(new):
@@ -218,7 +218,7 @@ def _left_side(step: Mapping[str, Any]) -> str:
 
 
 def _grades(step: Mapping[str, Any]) -> str:
-    """How sure its claims are; how many there are goes by the lines."""
+    """Return the grades of its claims, without their number, which depends on the lines."""
     return ", ".join(Counter(each["grade"] for each in step["evidence"]))
 
 
@@ -226,7 +226,7 @@ def _grades(step: Mapping[str, Any]) -> str:
 
 
 def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Iterable[tuple[Any, Any]]) -> list[Change]:
-    """Of the page from its title on; a sentence whose equation has another number only is the same."""
+    """Compare the page from its title on; a sentence in which only an equation's number has changed is the same."""
     places: list[tuple[str, Blocks, Blocks]] = [
         *((name, _plain(before[name]), _plain(after[name])) for name in ("title", "statement", "strategy")),
         *(place for old, new in parts for place in _of_part(old, new)),
@@ -238,7 +238,7 @@ def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Itera
 
 
 def _of_part(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, Blocks, Blocks]]:
-    """Its question, unless the part itself is new or gone, and its solution."""
+    """Return the question of a part, unless the part itself is new or gone, and its solution."""
     if old is not _NO_PART and new is not _NO_PART:
         yield f"{_name(old, new)}, question", _plain(old["ask"]), _plain(new["ask"])
     yield f"{_name(old, new)}, solution", old["says"], new["says"]
@@ -257,7 +257,7 @@ def _plain(text: str) -> Blocks:
 
 @dataclass(frozen=True)
 class _Sentence:
-    """Its words, and what they are compared by: in place of the number of an equation its key."""
+    """Its words, and the keys that are compared: an equation's number is replaced by the key of the equation."""
 
     words: tuple[str, ...]
     keys: tuple[str, ...]
@@ -278,7 +278,7 @@ def _sentence_of(block: Mapping[str, Any]) -> _Sentence:
 
 
 def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> Iterator[Change]:
-    """Paragraphs that are not as they were, each beside the one that it was."""
+    """Return the paragraphs that have changed, each with the one that it was."""
     matcher = SequenceMatcher(None, [each.keys for each in old], [each.keys for each in new], autojunk=False)
     for how, a, b, c, d in matcher.get_opcodes():
         if how == EQUAL:
@@ -289,7 +289,7 @@ def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> I
             if known is None:
                 left.append(sentence)
                 continue
-            # Those before it have no sentence that comes after them.
+            # The old sentences before it, and the new ones, have no counterpart.
             yield from (_sentence(where, each, None) for each in was[:known])
             yield from (_sentence(where, None, each) for each in left)
             yield _sentence(where, was[known], sentence)

@@ -1,4 +1,4 @@
-"""What builds made, taken away again: the folders of sets, or only what is kept there from one build to the next."""
+"""Removal of what builds made: the folders of sets, or only what is kept there from one build to the next."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from derive.errors import Complaint, Misused, did_you_mean
 
 
 def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str], None]) -> list[tuple[Path, int]]:
-    """The folders that were removed, each with its size in bytes; a set that is being built is waited for.
+    """Remove folders and return them, each with its size in bytes; wait for a set that is being built.
 
-    sets    those whose folders are meant; every folder below `build` if none is named
-    cache   that documents stay, and only what is kept for the next build goes
+    sets    the sets whose folders are meant; every folder below `build` if none is named
+    cache   keep the documents, and remove only what is kept for the next build
     """
     build = root / "build"
     folders = [path for path in sorted(build.glob("*")) if path.is_dir() and not path.is_symlink()]
@@ -26,9 +26,7 @@ def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str
     for name in sets:
         if name not in known:
             help_line = did_you_mean(name, known)
-            raise Misused(
-                Complaint("no-such-set", f"there is no set `{name}`, and nothing built of one", help=help_line)
-            )
+            raise Misused(Complaint("no-such-set", f"no set is called `{name}`, and none was built", help=help_line))
     meant = [path for path in folders if not sets or path.name in sets]
     found = []
     for outputs in meant:

@@ -1,4 +1,4 @@
-"""A problem as it is now beside its last build, or beside a revision of git: only this problem is derived."""
+"""A problem now, compared with its last build or with a revision of git: only this problem is derived."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from derive.building.workers import Bug, Job, done, job_of
 from derive.course.problem_set import path_of, problem_paths
 from derive.errors import Complaint, DeriveError, Misused
 
-_SAYS = ("detail", "statement", "limits_say", "note", "warnings")  # what builds of an earlier derive did not keep
+_SAYS = ("detail", "statement", "limits_say", "note", "warnings")  # builds of an earlier derive did not keep these
 Page = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
 class Compared:
-    """The changes, with what they are counted from, and what a reader should know of the comparison itself."""
+    """The changes, the state since which they are listed, and warnings about the comparison itself."""
 
     since: str
     changes: tuple[Change, ...]
@@ -34,7 +34,7 @@ class Compared:
 
 
 def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -> Compared:
-    """What has changed since the last build, at the level of detail of that build."""
+    """Return what has changed since the last build, at the level of detail of that build."""
     path_of(root, problem_id)
     before = built_page(root, problem_id)
     if detail and detail != before["detail"]:
@@ -49,11 +49,11 @@ def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -
 
 
 def since_revision(root: Path, problem_id: str, revision: str, detail: str | None, limit: float) -> Compared:
-    """What has changed since a revision, which is derived with the derive of today."""
+    """Return what has changed since a revision, which is derived with the present derive."""
     path_of(root, problem_id)
     with course_at(root, revision, problem_id.partition("/")[0]) as old_root:
         if problem_id not in problem_paths(old_root):
-            raise Misused(Complaint("no-such-problem", f"there was no problem `{problem_id}` at `{revision}`"))
+            raise Misused(Complaint("no-such-problem", f"no problem was called `{problem_id}` at `{revision}`"))
         after = done(_job(root, root, problem_id, detail, limit))
         before, warnings = _derived_at(
             revision, root, old_root, lambda: _job(root, old_root, problem_id, detail, limit)
@@ -62,7 +62,7 @@ def since_revision(root: Path, problem_id: str, revision: str, detail: str | Non
 
 
 def built_page(root: Path, problem_id: str) -> Page:
-    """What the last build wrote."""
+    """Return the page that the last build wrote."""
     set_id, _, name = problem_id.partition("/")
     file = set_folder(root, set_id) / f"{name}.json"
     mend = f"`derive build {problem_id}` builds it; `--rev HEAD` compares with what git has"
@@ -72,16 +72,16 @@ def built_page(root: Path, problem_id: str) -> Page:
         message = f"`{problem_id}` has not been built: there is no `{shown_path(file)}` to compare with"
         raise Misused(Complaint("not-built", message, help=mend)) from None
     except (OSError, ValueError):
-        message = f"`{shown_path(file)}` is not as a build wrote it"
+        message = f"`{shown_path(file)}` is not a file that a build wrote"
         raise Misused(Complaint("not-built", message, help=mend)) from None
     if not isinstance(page, dict) or any(key not in page for key in _SAYS):
-        message = f"`{shown_path(file)}` is of an earlier derive, which kept no sentences"
+        message = f"`{shown_path(file)}` was written by an earlier derive, which kept no sentences"
         raise Misused(Complaint("not-built", message, help=mend))
     return page
 
 
 def _job(root: Path, of: Path, problem_id: str, detail: str | None, limit: float) -> Job:
-    """The page of a problem of the course `of`; what was derived before is kept with the builds of `root`."""
+    """Return the job for a page of the course `of`; earlier derivations are kept with the builds of `root`."""
     return job_of(of, problem_id, partial(_page, root, of, problem_id, detail), limit)
 
 
@@ -97,7 +97,7 @@ def _page(root: Path, of: Path, problem_id: str, detail: str | None) -> Page:
 def _derived_at(
     revision: str, root: Path, old_root: Path, job: Callable[[], Job]
 ) -> tuple[Page, tuple[Complaint, ...]]:
-    """The page at a revision. Templates of then may lack the words for steps of now: then it has those of today."""
+    """Return the page at a revision; if its templates lack the words for today's steps, use today's templates."""
     try:
         return done(job()), ()
     except (DeriveError, Bug) as error:
@@ -110,18 +110,18 @@ def _derived_at(
         page = done(job())
     except (DeriveError, Bug) as error:
         raise _at(revision, error) from None
-    message = f"the templates of `{revision}` do not fit this derive: it has the words of today's"
+    message = f"the templates of `{revision}` do not fit this derive, so today's templates were used"
     return page, (Complaint("other-templates", message, severity="warning"),)
 
 
 def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
-    """A fault of the files of then is told as one."""
+    """Return an error in the files of a revision, with a note that names the revision."""
     if isinstance(error, Bug):
         return error
-    note = f"so it stands at `{revision}`, derived with the derive of today"
+    note = f"this is the state at `{revision}`, derived with the present derive"
     return type(error)([replace(each, notes=(*each.notes, note)) for each in error.complaints])
 
 
 def _other_engine() -> Complaint:
-    message = "derive itself is another than at the last build: some of the changes may come from it"
+    message = "derive itself has changed since the last build: some of the changes may come from that"
     return Complaint("other-engine", message, severity="warning")

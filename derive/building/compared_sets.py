@@ -1,4 +1,4 @@
-"""A set as it is now beside its last build, or beside a revision of git: which problems, their points, and each."""
+"""A set now, compared with its last build or with a revision of git: its problems, their points, and each problem."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Points = Mapping[str, Fraction | None]  # of each problem of a set, in their ord
 
 @dataclass(frozen=True)
 class ComparedSet:
-    """What has changed of the set itself, and each problem that was there and still is."""
+    """The changes of the set itself, and of each problem that was there and still is."""
 
     own: Compared
     problems: Mapping[str, Compared]
@@ -34,11 +34,11 @@ class ComparedSet:
 
 
 def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -> ComparedSet:
-    """What has changed since the last build of the set."""
+    """Return what has changed since the last build of the set."""
     after, folder = _written(root, set_id), set_folder(root, set_id)
     built = [f"{set_id}/{name}" for name in Manifest.read(folder).problems]
     if not built:
-        message = f"`{set_id}` has not been built, so that there is nothing to compare with"
+        message = f"`{set_id}` has not been built, so there is nothing to compare with"
         help_line = f"`derive build {set_id}` builds it; `--rev HEAD` compares with what git has"
         raise Misused(Complaint("not-built", message, help=help_line))
     pages = {name: built_page(root, name)["points"] for name in built}
@@ -48,7 +48,7 @@ def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -
 
 
 def set_since_revision(root: Path, set_id: str, revision: str, detail: str | None, limit: float) -> ComparedSet:
-    """What has changed since a revision, which is derived with the derive of today."""
+    """Return what has changed since a revision, which is derived with the present derive."""
     after = _written(root, set_id)
     with course_at(root, revision, set_id) as old_root:
         before = _written(old_root, set_id)
@@ -58,7 +58,7 @@ def set_since_revision(root: Path, set_id: str, revision: str, detail: str | Non
 
 
 def _written(root: Path, set_id: str) -> Points:
-    """As its files say."""
+    """Return the points of a set's problems, as its files state them."""
     check_asked(root, set_id)
     faults = Faults()
     found = {name: written_problem(root, name, faults) for name in problem_set(root, set_id).problems}
@@ -77,6 +77,6 @@ def _changes(before: Points, after: Points) -> list[Change]:
 
 
 def _worth(points: Points) -> str:
-    """The sum, as the cover of the set has it; of problems one of which has no points there is none."""
+    """Return the sum, as the cover of the set has it; "no points" if one of the problems has no points."""
     known = [each for each in points.values() if each is not None]
     return points_text(sum(known, Fraction(0))) if len(known) == len(points) else "no points"

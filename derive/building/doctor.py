@@ -1,4 +1,4 @@
-"""`derive doctor`: what a build needs, what is there of it, and what to do about the rest."""
+"""`derive doctor`: what a build needs, which of it is there, and how to fix the rest."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ $E = \frac{1}{2} \omega^T I \omega$
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that a build needs: whether it is there, what was found, and the mend if it is not."""
+    """One thing that a build needs: whether it is there, what was found, and the fix if it is not there."""
 
     what: str
     good: bool
@@ -69,7 +69,7 @@ def _tex(name: str | None) -> list[Finding]:
 
 
 def _test_page(name: str | None) -> Finding:
-    """Whether the engine really makes a PDF here: a program that is there need not run."""
+    """Check that the engine really makes a PDF here: an installed program need not run."""
     started = time.monotonic()
     try:
         with tempfile.TemporaryDirectory() as folder:

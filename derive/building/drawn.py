@@ -1,6 +1,6 @@
-"""The drawings of a page as files, drawn anew only when what they show has changed.
+"""The drawings of a page as files, drawn again only when their contents have changed.
 
-What decides the bytes of a drawing: its description, what is known of the letters in it, its size and its words,
+The bytes of a drawing depend on its description, what is known about the letters in it, its size, its words,
 derive's modules and matplotlib.
 """
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
-WIDE, LOW = 7.0, 0.35  # what is lower than this share of its width may be wider
+WIDE, LOW = 7.0, 0.35  # a drawing lower than this share of its width may be wider
 
 
 def drawing_files(
@@ -47,7 +47,7 @@ def drawing_files(
     notation: Notation,
     cache: Cache,
 ) -> Files:
-    """A PDF and an SVG of each drawing on the page, by file name."""
+    """Return a PDF and an SVG of each drawing on the page, by file name."""
     by_key = {drawing.key: drawing for drawing in drawings}
     return tuple(
         (f"{shown.stem}.{suffix}", content)
@@ -61,7 +61,7 @@ def drawing_files(
 def _files(
     problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, cache: Cache
 ) -> tuple[bytes, bytes]:
-    """As they were kept, or drawn now. An SVG has no zero byte, so that both are kept as one."""
+    """Return the files as they were kept, or draw them now. An SVG has no zero byte, so both are kept as one value."""
     placement = placement_of(problem, drawing.key)
     width = placement.width if placement else None
     alt = inline_text(shown.alt, notation)
@@ -80,7 +80,7 @@ def _files(
     if not zero:
         try:
             sheet = _drawn(drawing, known, notation, words, width, alt, partial(_letters, cache))
-        except Rejected as error:  # a mark knows no file
+        except Rejected as error:  # a mark does not know the file
             place = placement.place if placement else problem.place_of("solve")
             raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
         pdf, svg = sheet.pdf, sheet.svg
@@ -89,7 +89,7 @@ def _files(
 
 
 def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
-    """What is known of the letters that occur in a drawing, so that those of others change nothing in it."""
+    """Return what is known about the letters that occur in a drawing; other letters then change nothing in it."""
     return [
         (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
     ]
@@ -121,7 +121,7 @@ def _drawn(
 
 
 def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
-    """Letters as they were kept for this drawing with other numbers or for another drawing; the others are set now."""
+    """Return letters as they were kept for this drawing or for another one; the others are typeset now."""
     keys = {text: digest("letters", engine_digest("matplotlib"), text) for text in texts}
     known = {text: kept for text, key in keys.items() if (kept := cache.recalled_data(key)) is not None}
     if new := keys.keys() - known:
@@ -134,7 +134,7 @@ def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
-    """What each letter is while it is drawn: as the problem says of this drawing, its own number, or a stand-in."""
+    """Return the number of each letter in a drawing: that of the problem for this drawing, its own, or a stand-in."""
     said = dict(placement.values) if placement else {}
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}

@@ -1,4 +1,4 @@
-"""One step of a problem explained, or all of them in a line each, as text or as JSON."""
+"""The explanation of one step of a problem, or of all its steps in a line each, as text or as JSON."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Rows = list[tuple[str, ...]]
 
 
 def explained(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
-    """What is told of the step of that key; without one a row for each step, the heading first, unless it is JSON."""
+    """Return the explanation of the step of that key; without a key, a row for each step after the heading, or JSON."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
@@ -45,7 +45,7 @@ def explained(root: Path, problem_id: str, key: str | None, as_json: bool) -> st
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Every step, or the one of that key, or which stands for it, or the first that a verb of that name has made."""
+    """Return every step; or the step of that key or for which it stands, or the first that a verb of that name made."""
     if key is None:
         return steps
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}
@@ -57,7 +57,7 @@ def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
 
 
 def _row(explanation: Explanation, words: Phrases, notation: Notation) -> tuple[str, ...]:
-    """A step in one line; of what takes several lines, as a tensor does, the name alone."""
+    """Show a step in one line; a step that takes several lines, as a tensor does, is shown by its name alone."""
     step, value = explanation.step, _value(explanation.step, notation)
     shown = plain(notation.layout(step.symbol)) if "\n" in value and step.symbol is not None else abridged(value, 60)
     return step.key, explanation.part, words.grades[step.grade], shown
@@ -68,7 +68,7 @@ def _value(step: Step, notation: Notation) -> str:
 
 
 def _text(sections: list[Section], notation: Notation) -> str:
-    """Each heading, beside it what is told under it."""
+    """Return the text of the sections: each heading with its lines next to it."""
     lines = []
     for heading, told in sections:
         texts = [line for each in told for line in _wrapped(inline_text(each, notation))]

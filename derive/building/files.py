@@ -1,7 +1,7 @@
-"""Files that derive writes: whole or not at all, and only when their content changed.
+"""Files that derive writes: whole or not at all, and only when their content has changed.
 
-A file appears under its name by one rename, so a reader, a second build and a kill at any moment see the old content or
-the new. What the disk refuses becomes one complaint.
+A file appears under its name by one rename, so a reader, a second build and a kill at any instant see the old content
+or the new. A refusal of the disk becomes one error.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from pathlib import Path
 
 from derive.errors import BuildFailed, Complaint
 
-UNFINISHED = ".part"  # of the name of a file that is being written
+UNFINISHED = ".part"  # the suffix of a file that is being written
 
 _REASONS = {
     errno.ENOSPC: "the disk is full",
@@ -24,11 +24,11 @@ _REASONS = {
     errno.EACCES: "permission denied",
     errno.EPERM: "permission denied",
     errno.EROFS: "the disk is read-only",
-    errno.ENOTDIR: "a file stands where a folder should be",
-    errno.EEXIST: "a file stands where a folder should be",
-    errno.EISDIR: "a folder stands where a file should be",
+    errno.ENOTDIR: "a file is where a folder should be",
+    errno.EEXIST: "a file is where a folder should be",
+    errno.EISDIR: "a folder is where a file should be",
     errno.ENAMETOOLONG: "the name is too long",
-    errno.ELOOP: "a link stands where a file should be",
+    errno.ELOOP: "a link is where a file should be",
     errno.EBADF: "it is closed",
 }
 _SHORT = {
@@ -43,10 +43,10 @@ _SHORT = {
 
 
 def shown_path(path: Path) -> str:
-    """Relative to the folder the user is in, where that is shorter than absolute."""
+    """Return a path relative to the user's folder if it is below that folder, else the path unchanged."""
     try:
         relative = os.path.relpath(path)
-    except FileNotFoundError:  # the folder the user is in is gone
+    except FileNotFoundError:  # the user's folder is gone
         return str(path)
     return str(path) if relative.startswith("..") else relative
 
@@ -57,14 +57,14 @@ def cannot_write(path: Path, error: OSError) -> BuildFailed:
 
 
 def of_system(error: OSError, what: str = "the system refuses") -> BuildFailed | None:
-    """The complaint that the system is short of something; nothing if that is not what the error says."""
+    """Return the error that the system is short of something; nothing if the error says something else."""
     reason = _SHORT.get(error.errno or 0)
     return BuildFailed(Complaint("system", f"{what}: {reason}")) if reason else None
 
 
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
-    """What the system says against writing `path`, as a complaint."""
+    """Turn a refusal of the system to write `path` into an error."""
     try:
         yield
     except OSError as error:
@@ -78,7 +78,7 @@ def folder(path: Path) -> Path:
 
 
 def write(path: Path, content: str | bytes) -> bool:
-    """Put `content` at `path`, and say whether that changed anything."""
+    """Put `content` at `path`, and return whether that changed anything."""
     raw = content.encode() if isinstance(content, str) else content
     folder(path.parent)
     with writing(path):
@@ -99,16 +99,16 @@ def write(path: Path, content: str | bytes) -> bool:
 
 
 def _unfinished(path: Path) -> tuple[int, str]:
-    """A file beside `path` that this process holds."""
+    """Return a file next to `path` that this process holds."""
     while True:
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=UNFINISHED, dir=path.parent)
         if is_held(handle, Path(name)):
             return handle, name
-        os.close(handle)  # in this moment a build took it for one that nobody holds
+        os.close(handle)  # just now a build took it for a file that no process holds
 
 
 def is_held(handle: int, path: Path) -> bool:
-    """Lock an open file until it is closed or the process ends; whether it is still the file of that path."""
+    """Lock an open file until it is closed or the process ends; return whether it is still the file of that path."""
     with suppress(OSError):  # where the disk has no locks
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     try:

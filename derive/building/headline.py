@@ -1,4 +1,4 @@
-"""What a list of problems tells of one, without deriving it: its points and its title."""
+"""The points and the title of a problem for a list of problems, without deriving it."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ _OF_POINTS = ("points", "extra", "rubric")
 
 
 def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
-    """A problem's points and title; a step that the title mentions is named by its key.
+    """Return a problem's points and title; a step that the title mentions is named by its key.
 
-    Of a file that is at that path and has all its keys no more is read than these. The rest is read, and mathematics
-    loaded, only for a title that mentions something, and to tell of a file what is wrong with it first.
+    If the file is at that path and has all its keys, only these are read. The rest is read, and mathematics loaded,
+    only for a title that mentions something, and to report what is wrong with a file before that.
     """
     return _at_a_glance(root, path or path_of(root, problem_id)) or _in_full(root, problem_id)
 
 
 def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
-    """What a plain title and the points say; nothing if there is more to read, or anything is wrong."""
+    """Return a plain title and the points; nothing if there is more to read, or anything is wrong."""
     faults = Faults()
     try:
         node = mapping_in(root, path, "a problem", quickly=True)
@@ -45,7 +45,7 @@ def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
 
 
 def _glanced(node: Tree, faults: Faults) -> Question:
-    """A part, of which only the points are read."""
+    """Read a part, but only its points."""
     if not isinstance(node, Mapping):
         return Question({}, {})
     keys = keys_of(Question)

@@ -1,4 +1,4 @@
-"""What the workers of a build need, loaded before they are forked: once, and not in each of them."""
+"""What the workers of a build need, loaded once before they are forked, and not in each of them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 
 
 def load(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
-    """The modules that print a problem, its phrases and templates; those that derive it; and those that draw.
+    """Load the modules that print a problem, its phrases and templates; those that derive it; and those that draw.
 
     The reference of a set is read once for all of its problems.
     """
@@ -38,12 +38,12 @@ def load(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
     if derives and set_id:
         from derive.course.reference.statements import reference_of_set
 
-        with suppress(DeriveError):  # each problem shows the complaint itself
+        with suppress(DeriveError):  # each problem shows the error itself
             reference_of_set(root, set_id)
-    with suppress(DeriveError):  # each problem has its complaint of them
+    with suppress(DeriveError):  # each problem shows errors in them itself
         phrases(template_folder(root))
         compile_templates(template_folder(root))
     if draws:
         from derive.render.drawing.lettering import letters_of
 
-        letters_of(["$x$"])  # by the first letter all that sets letters is loaded
+        letters_of(["$x$"])  # the first letter loads everything that typesets letters

@@ -15,9 +15,9 @@ from derive.errors import BuildFailed, Complaint
 
 @contextmanager
 def alone(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
-    """Hold the folder of a set. A lock of this kind is not inherited by workers, and dies with its process."""
+    """Hold the folder of a set. A lock of this kind is not inherited by workers, and ends with its process."""
     path = outputs / ".lock"
-    with writing(path):  # neither through a link, nor waiting for the other end of a pipe
+    with writing(path):  # do not follow a link, and do not wait for a pipe
         lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
     try:
         if not stat.S_ISREG(os.fstat(lock).st_mode):

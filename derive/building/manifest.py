@@ -1,7 +1,7 @@
-"""What a set's outputs were made from: the record that tells which of them must be made again.
+"""The record of what a set's outputs were made from; it shows which of them must be made again.
 
-A problem is current while the content of every file it was derived from, the engine and the options are what they
-were; an output, while its own content is. Only content is compared, never times.
+A problem is current while the content of every file it was derived from, the engine and the options are unchanged; an
+output is current while its own content is unchanged. Only content is compared, never times.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
 from derive.course.names import INDEX, ON_A_PAGE
 from derive.render.formats import built_formats
 
-Papers = Sequence[Sequence[str]]  # each with the name of its files
+Papers = Sequence[Sequence[str]]  # each document with the name of its files
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
 
@@ -30,16 +30,16 @@ class Manifest:
 
     folder: Path
     problems: list[str] = field(default_factory=list)
-    complete: bool = False  # whether the last build came to its end without a fault
+    complete: bool = False  # whether the last build ended without an error
     engine: str = ""  # digest of the modules that derived its problems
     set_inputs: dict[str, str] = field(default_factory=dict)
     inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> digests of what it was derived from
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all that its page was made from
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
-    papers: list[list[str]] = field(default_factory=list)  # each with the name of its files
-    asked: list[str] = field(default_factory=list)  # papers that the set does not name, but `--only` did
-    evidence: str = ""  # how much the set says that its solutions tell of how they were checked
+    papers: list[list[str]] = field(default_factory=list)  # each document with the name of its files
+    asked: list[str] = field(default_factory=list)  # documents that the set does not name, but `--only` did
+    evidence: str = ""  # how much, by the set's file, solutions show of their checks
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
     typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its files
     typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe
@@ -47,7 +47,7 @@ class Manifest:
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
-        """What was recorded here; an empty record if there is none, or it is not as it was written."""
+        """Return what was recorded here; an empty record if nothing was, or if it is not as it was written."""
         recorded = sealed.data_of(sealed.unsealed(folder / ".manifest.json", _record_of(folder)))
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 
@@ -58,21 +58,21 @@ class Manifest:
         sealed.seal(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
 
     def remove(self, output: str) -> None:
-        """Take an output away if it is a file of this folder and still as it was written."""
+        """Remove an output if it is a file of this folder and still as it was written."""
         file = self.folder / output
         if _is_plain(output) and not file.is_symlink() and self.holds(output):
             file.unlink(missing_ok=True)
         self.outputs.pop(output, None)
 
     def forget(self, name: str) -> None:
-        """Take away what was made of a problem, or the document, that the set no longer has."""
+        """Remove what was made of a problem, or the document, that the set no longer has."""
         for output in self.outputs_of(name):
             self.remove(output)
         for table in (self.pages, self.inputs, self.drawings, self.made_by, self.typeset_from, self.typeset_by):
             table.pop(name, None)
 
     def replace_papers(self, papers: list[list[str]]) -> None:
-        """Take away the documents that are not among these papers, which the set has from now on."""
+        """Remove the documents that are not among these, which the set has from now on."""
         files = {file for _, file in papers}
         for paper, file in self.papers:
             if [paper, file] not in papers and file not in files:
@@ -80,12 +80,12 @@ class Manifest:
         self.papers = papers
 
     def page_key(self, problem: str, recipe: str, read: Callable[[str], str]) -> str:
-        """What its page is kept under: a digest of how it was made, and of what `read` tells of each of its inputs."""
+        """Return the key of its page: a digest of how it was made, and of what `read` gives for each of its inputs."""
         inputs = self.inputs.get(problem, {})
         return digest("page", problem, recipe, *(part for path in inputs for part in (path, read(path))))
 
     def made(self, problem: str, recipe: Recipe, read: Callable[[str], str]) -> str:
-        """Note what a page was made from; the key that it is kept under."""
+        """Record what a page was made from, and return the key under which the page is kept."""
         made_by = recipe_digest(recipe)
         self.recipes[made_by] = {**recipe}
         self.made_by[problem] = made_by
@@ -94,7 +94,7 @@ class Manifest:
         return self.pages[problem]
 
     def was_typeset(self, name: str, recipe: Recipe, engine: str) -> None:
-        """Note what the document of a problem, or of the whole set, was made from, besides what the set says."""
+        """Record what the document of a problem, or of the whole set, was made from: its recipe and its files."""
         recipe = of_documents(recipe, engine)
         self.typeset_by[name] = recipe_digest(recipe)
         self.recipes[self.typeset_by[name]] = recipe
@@ -103,7 +103,7 @@ class Manifest:
             self.typeset_from[name] |= self.inputs[problem]
 
     def is_current(self, recipe: Recipe, engine: str, read: Callable[[str], str], papers: Papers) -> bool:
-        """Whether nothing at all need be done for the problems of the set, and for these papers."""
+        """Return whether nothing need be done for the problems of the set and for these documents."""
         page, document = recipe_digest(recipe), recipe_digest(of_documents(recipe, engine))
         documents = [*self.problems, *(file for _, file in papers), INDEX]
         of_papers = [output for paper, file in papers for output in outputs_of_paper(paper, file)]
@@ -116,23 +116,23 @@ class Manifest:
         )
 
     def _reads_so(self, document: str, read: Callable[[str], str]) -> bool:
-        """Whether every file that a document was made from is as it was then."""
+        """Return whether every file that a document was made from is as it was then."""
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Whether a document is there that was made from other files, words or modules than there are now; with which
-        options is another question."""
+        """Return whether a document exists that was made from other files, words or modules than those of now; its
+        options are not compared."""
         before = self.recipes.get(self.typeset_by.get(document, ""), {})
         was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
         return (self.folder / f"{document}.pdf").is_file() and not (was == is_now and self._reads_so(document, read))
 
     @property
     def documents(self) -> list[str]:
-        """The names of the files of what is made of the whole set."""
+        """The names of the files of the documents of the whole set."""
         return [*(file for _, file in self.papers), INDEX]
 
     def all_outputs(self) -> list[str]:
-        """Those of every problem, of every paper, and of the set for a browser."""
+        """Return the outputs of every problem, of every document, and of the set for a browser."""
         of_papers = [output for paper, file in self.papers for output in outputs_of_paper(paper, file)]
         return [*self._outputs_of_problems(), *of_papers, f"{INDEX}.html"]
 
@@ -140,7 +140,7 @@ class Manifest:
         return [output for name in self.problems for output in self.outputs_of(name)]
 
     def outputs_of(self, name: str) -> list[str]:
-        """All outputs of a problem, with its drawings; or of a paper of the set, by the name of its files."""
+        """Return all outputs of a problem, with its drawings; or of a document of the set, by the name of its files."""
         if name == INDEX:
             return [f"{INDEX}.html"]
         if of_paper := next((paper for paper, file in self.papers if file == name), None):
@@ -148,7 +148,7 @@ class Manifest:
         return [*outputs_of(name), *self.drawings.get(name, [])]
 
     def holds(self, output: str) -> bool:
-        """Whether that output is there and as it was written."""
+        """Return whether that output is there and as it was written."""
         return self.outputs.get(output, "") != "" and file_digest(self.folder / output) == self.outputs[output]
 
 
@@ -157,7 +157,7 @@ def _record_of(folder: Path) -> str:
 
 
 def _is_record(recorded: Any) -> bool:
-    """Whether data are a record: the fields of a manifest and no others, each of its type, with plain file names."""
+    """Return whether data are a record: the fields of a manifest and no others, of its types, with plain file names."""
     empty = Manifest(Path())
     names = {field.name for field in fields(Manifest)} - {"folder"}
     if not isinstance(recorded, dict) or set(recorded) != names:
@@ -179,7 +179,7 @@ def _is_record(recorded: Any) -> bool:
 
 
 def _is_plain(output: str) -> bool:
-    """Whether it is the name of a file that a build may have written."""
+    """Return whether this is the name of a file that a build may have written."""
     parts = _PLAIN_NAME.fullmatch(output)
     return parts is not None and parts[1] in {
         "html",
@@ -191,10 +191,10 @@ def _is_plain(output: str) -> bool:
 
 
 def outputs_of(name: str) -> list[str]:
-    """The outputs of a problem."""
+    """Return the outputs of a problem."""
     return [f"{name}.{suffix}" for suffix in ("pdf", "tex", "html", *(f.suffix for f in built_formats().values()))]
 
 
 def outputs_of_paper(paper: str, file: str) -> list[str]:
-    """The outputs of a paper of the whole set."""
+    """Return the outputs of a document of the whole set."""
     return [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if paper in ON_A_PAGE else ()))]

@@ -1,4 +1,4 @@
-"""Which sets there are, and which of them a build may be asked for."""
+"""The sets that exist, and those that can be built."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from derive.course.names import NAME
 from derive.errors import Complaint, Misused
 
-# What the Makefile has other rules for, as targets or as folders.
+# The names for which the Makefile has other rules, as targets or as folders.
 TARGETS = frozenset(
     [
         "all",
@@ -35,20 +35,20 @@ def set_folder(root: Path, set_id: str) -> Path:
 
 
 def set_names(root: Path) -> list[str]:
-    """The sets below the root, without reading them; not those whose folders have a name that no set can have."""
+    """Return the sets below the root, without reading them; folders whose name no set can have are left out."""
     folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
     return [name for name in folders if not wrong_set_name(name)]
 
 
 def wrong_set_name(name: str) -> str:
-    """Why a set cannot be called so; empty if it can."""
+    """Return why a set cannot have that name; empty if it can."""
     if not NAME.fullmatch(name):
         return "the name of a set has letters, digits, `-` and `_` only"
     return "`make` has a target of that name" if name in TARGETS else ""
 
 
 def misnamed_sets(root: Path) -> list[Complaint]:
-    """A warning about each folder that has a set.yaml, but a name that no set can have."""
+    """Return a warning about each folder that has a set.yaml, but a name that no set can have."""
     folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
     return [
         Complaint("set-name", f"the set {name!r} is left out: {why}", help="rename its folder", severity="warning")
@@ -58,13 +58,13 @@ def misnamed_sets(root: Path) -> list[Complaint]:
 
 
 def check_asked(root: Path, set_id: str, problems: Collection[str] = ()) -> None:
-    """A build can be asked for of a set, and of problems of it, that there are."""
+    """Check that a set and the problems that are asked for exist and can be built."""
     if set_id not in set_names(root):
         from derive.course.problem_set import problem_set
 
         if (root / "problems" / set_id / "set.yaml").is_file() and (why := wrong_set_name(set_id)):
             raise Misused(Complaint("set-name", f"a set cannot be called {set_id!r}: {why}", help="rename its folder"))
-        problem_set(root, set_id)  # which says so, with the nearest name
+        problem_set(root, set_id)  # this raises the error, with the nearest name
     for name in problems:
         from derive.course.problem_set import path_of
 

@@ -1,4 +1,4 @@
-"""What the numbers of a problem leave open: answers that get none, and numbers that no text of the sheet tells."""
+"""Gaps in the numbers of a problem: answers without a number, and numbers that no text of the sheet states."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class _Answer:
-    """An answer as a part asks for it, what of it takes a number, the numbers there are, and whether it has one."""
+    """An answer as a part asks for it, the value that takes a number, the known numbers, whether it has a number."""
 
     key: str
     asked: Word
@@ -39,12 +39,12 @@ class _Answer:
 
     @property
     def is_halfway(self) -> bool:
-        """Whether some of its letters have numbers, and it has none all the same."""
+        """Whether some of its letters have numbers, although it has no number itself."""
         return not self.has_number and not self.letters.isdisjoint(self.numbers)
 
     @property
     def why(self) -> str:
-        """Why it has no number."""
+        """The reason why it has no number."""
         if self.missing:
             return f"{_listed(self.missing)} {'has' if len(self.missing) == 1 else 'have'} no value"
         at = {letter: explicit(self.numbers[letter]) for letter in self.letters}
@@ -53,7 +53,7 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """Where a form asks for a number of it; one that does not depend on what has a number keeps its figures."""
+        """The place where a form asks for its number; figures alone do not ask if none of its letters has a number."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place
@@ -63,16 +63,16 @@ class _Answer:
 def faults_of_numbers(
     problem: Problem, derivation: Derivation, values: Mapping[str, Step], drawings: Iterable[Recorded]
 ) -> list[Complaint]:
-    """A complaint about each form that asks for a number where there is none; a warning where numbers that nothing
-    else needs do not suffice for an answer, and for each number that the sheet does not tell.
+    """Return an error for each form that asks for a number that does not exist; a warning where numbers that nothing
+    else needs do not suffice for an answer, and for each number that the sheet does not state.
 
     values     the numbers of answers, by key
-    drawings   those of the problem: a plot needs numbers too
+    drawings   the drawings of the problem: a plot needs numbers too
     """
     if not problem.every_amount:
         return []
     answers = list(_answers(problem, derivation, values))
-    served = [answer.part for answer in answers if answer.has_number]  # a form of several may be meant for these
+    served = [answer.part for answer in answers if answer.has_number]  # a form for several may be meant for these
     wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
     said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}
     return [
@@ -97,7 +97,7 @@ def _answers(problem: Problem, derivation: Derivation, values: Mapping[str, Step
 
 
 def _taking_a_number(result: Any) -> Any | None:
-    """What of a result takes a number: of R > a/2 the right side, of a condition on several letters nothing."""
+    """Return the part of a result that takes a number: of R > a/2 the right side, of other conditions nothing."""
     if isinstance(result, Relation):
         solved = isinstance(result.left, Symbol) and not result.right.has(result.left)
         result = result.right if solved else None
@@ -109,7 +109,7 @@ def _plotted(drawings: Iterable[Recorded]) -> set[Symbol]:
 
 
 def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[Symbol]) -> Iterator[Complaint]:
-    """What varies, or is only named, has no number; a letter of the problem's own may have been forgotten."""
+    """Warn of answers without a number; coordinates and named values need none, but a letter may be forgotten."""
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
     used = plotted.union(*(answer.letters for answer in answers if answer.has_number))
     found: dict[str, list[_Answer]] = {}
@@ -126,14 +126,14 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
 
 
 def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
-    """Numbers that answers need, of letters that neither the statement nor a question mentions."""
+    """Warn of numbers that answers need, of letters that neither the statement nor a question mentions."""
     texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
     mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
     told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}
     for measured in problem.measured:
         if measured.symbol in needed - told:
             name = next((given.name for given in problem.givens if measured.symbol in given.letters), measured.symbol)
-            message = f"`{measured.symbol}` has a number that the sheet does not tell"
+            message = f"`{measured.symbol}` has a number that the sheet does not state"
             help_line = f"mention `<<{name}>>` in the statement"
             yield Complaint("untold-number", message, measured.place, help=help_line, severity="warning")
 

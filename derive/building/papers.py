@@ -1,7 +1,7 @@
-"""Which papers a set has: those that its file names, and those that `--only` has asked for.
+"""The documents of a set: those that its file names, and those that `--only` has asked for.
 
-A paper that was asked for once is made again by each later build of the whole set, so that it is never older than the
-problems. Removing its PDF ends this.
+A document that was asked for once is made again by each later build of the whole set, so that it is never older than
+the problems. To stop this, remove its PDF.
 """
 
 from __future__ import annotations
@@ -17,25 +17,25 @@ if TYPE_CHECKING:
 
 
 def with_asked(papers: Papers, asked: Collection[str]) -> list[list[str]]:
-    """These papers, and those that are asked for besides."""
+    """Return these documents, and also those that are asked for."""
     named = [paper for paper, _ in papers]
     return [*map(list, papers), *([paper, paper] for paper in asked if paper not in named)]
 
 
 def still_there(papers: Papers, record: Manifest, asked: Collection[str]) -> list[list[str]]:
-    """Without those that an earlier `--only` asked for, and whose PDF was removed since."""
+    """Return the documents without those that an earlier `--only` asked for and whose PDF was removed since."""
     earlier = {*record.asked} - {*asked}
     return [list(pair) for pair in papers if pair[0] not in earlier or (record.folder / f"{pair[1]}.pdf").exists()]
 
 
 def named_papers(heading: ProblemSet, record: Manifest, asked: Collection[str]) -> list[list[str]]:
-    """The papers of the set from now on; the files of those that it no longer has are taken away."""
+    """Return the documents of the set from now on; remove the files of those that it no longer has."""
     own = [paper for paper, _ in heading.papers]
     besides = [paper for paper in dict.fromkeys([*record.asked, *asked]) if paper not in own]
     named = with_asked(heading.papers, besides)
     files = [file for _, file in named]
     if twice := [file for file in files if files.count(file) > 1]:
-        message = f"two papers of `{heading.id}` would be called `{twice[0]}`"
+        message = f"two documents of `{heading.id}` would be called `{twice[0]}`"
         help_line = f"choose another name in `papers:` of `{heading.inputs[0]}`"
         raise Misused(Complaint("paper-name", message, help=help_line))
     papers = [*map(list, heading.papers), *still_there(named[len(own) :], record, asked)]

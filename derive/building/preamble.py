@@ -1,9 +1,9 @@
-"""What all documents of a set begin with, taken in by TeX once: its classes, packages and commands as a format.
+"""The common beginning of all documents of a set, read by TeX once: its classes, packages and commands as a format.
 
-A template says by a line of its own where the documents begin to differ; what stands above it depends on nothing but
-how much the pages show, `detail`. It is loaded and dumped, and the format is kept with all else that a build keeps,
-unpacked, for so TeX reads it in half the time; a source then has these lines as comments, so that its lines have the
-same numbers as before. Where there is no such line, or TeX cannot do it, a document is typeset as it stands.
+A line of the template marks where documents begin to differ; the lines above it depend on nothing but the level of
+`detail`. TeX loads them and dumps a format, which is kept with everything else that a build keeps. It is kept unpacked,
+because TeX then reads it in half the time. A source then has these lines as comments, so that its line numbers do not
+change. Without such a line, or if TeX cannot dump a format, a document is typeset unchanged.
 
 Source: *The TeXbook*, ch. 27 (formats), and the package mylatexformat.
 """
@@ -26,16 +26,16 @@ from derive.building.scratch import Scratch
 __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 
 DIFFERS = "%% derive: from here on documents differ\n"
-NAME = "preamble"  # of the format in the folder where TeX runs
+NAME = "preamble"  # the format's name in the folder where TeX runs
 PACKED = b"\x1f\x8b"
 ROOM = 64 * 1024 * 1024  # a format takes a third of it
-CANNOT = b""  # instead of a format: this engine cannot dump this preamble, and need not be asked again
+CANNOT = b""  # instead of a format: this engine cannot dump this preamble, and is not asked again
 
 Environment = Mapping[str, str]
 
 
 def beginning(templates: Path, detail: str | None) -> str:
-    """What all documents of that level begin with, before there is any; nothing if the template asks for more."""
+    """Return the beginning of all documents of that level, before any exists; nothing if the template needs more."""
     from derive.render.printing.templates import filled_above
     from derive.steps.level import Level
 
@@ -45,16 +45,16 @@ def beginning(templates: Path, detail: str | None) -> str:
 
 @functools.cache
 def at_hand() -> Scratch:
-    """The formats that this process and its workers have used, as files for TeX; gone when this process ends."""
+    """Return the folder of the formats that this process and its workers used, removed when this process ends."""
     return Scratch()
 
 
 def without_preamble(
     tex: str, engine: str, identity: str, options: Sequence[str], cache: Cache, place: Path, environment: Environment
 ) -> str | None:
-    """A source that goes without its preamble, the format of which then stands in that folder; else nothing.
+    """Return a source without its preamble, whose format is then in that folder; otherwise nothing.
 
-    It is made there by that engine, unless it is at hand or in the cache.
+    The engine makes the format there, unless it is at hand or in the cache.
     """
     above, differs, below = tex.partition(DIFFERS)
     if not differs or cache.folder is None:
@@ -65,7 +65,7 @@ def without_preamble(
         made = cache.recalled(key)
         if made is None:
             made = _dumped(above, [engine, "-ini", *options], environment, place)
-            if made != CANNOT or shutil.disk_usage(place).free > ROOM:  # else the disk may have been the reason
+            if made != CANNOT or shutil.disk_usage(place).free > ROOM:  # otherwise the disk may have been full
                 cache.keep(key, made)
         if made == CANNOT:
             return None
@@ -73,7 +73,7 @@ def without_preamble(
         os.replace(own, file)
     try:
         os.link(file, own)
-    except OSError:  # not all disks can
+    except OSError:  # not all disks have links
         shutil.copyfile(file, own)
     return "".join(f"%{line}" for line in above.splitlines(keepends=True)) + differs + below
 

@@ -1,6 +1,6 @@
-"""How pages are made, besides from their own files: by which modules, packages, words and templates, and how detailed.
+"""How pages are made, apart from their own files: by which modules, packages, words and templates, and how detailed.
 
-Each ingredient has a name that somebody who is told of it knows, and a digest or a value.
+Each ingredient has a name that the author recognizes, and a digest or a value.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ Recipe = Mapping[str, str]
 
 
 def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
-    """Every ingredient by its name."""
+    """Return every ingredient by its name."""
     packages = {name: package_version(name) or "" for name in PACKAGES}
     return {MODULES: engine_digest(), **packages, **_templates(root), DETAIL: detail or "", EVIDENCE: evidence}
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
-    """The recipe of a document of the set: typeset by this engine, whatever else is made of the problems."""
+    """Return the recipe of a document of the set: typeset by this engine, whatever else is made of the problems."""
     return {**recipe, PAPERS: "", ENGINE: engine}
 
 
@@ -36,14 +36,14 @@ def recipe_digest(recipe: Recipe) -> str:
 
 
 def edited_since(root: Path, time: int) -> bool:
-    """Whether a module of derive, a template or a phrase was written since that time in nanoseconds, if only to what it
-    was before."""
+    """Return whether a module of derive, a template or a phrase was written since that time in nanoseconds, even if its
+    content is the same."""
     below = [str(folder / "templates") for folder in _folders(root)]
     return any(_has_changed(top, time) for top in (FOLDER, *below) if os.path.isdir(top))
 
 
 def _has_changed(folder: str, time: int) -> bool:
-    """Whether that is so of a file in the folder, or in one within it."""
+    """Return whether a file in the folder, or in one within it, was written since that time."""
     try:
         with os.scandir(folder) as entries:
             return any(
@@ -51,17 +51,17 @@ def _has_changed(folder: str, time: int) -> bool:
                 for entry in entries
                 if entry.name != "__pycache__"
             )
-    except FileNotFoundError:  # a file that an editor has just put another one in the place of
+    except FileNotFoundError:  # an editor has just replaced a file by another
         return True
 
 
 def _folders(root: Path) -> list[Path]:
-    """Those that may have templates: the course, the package, and the checkout that it is in."""
+    """Return the folders that may have templates: the course, the package, and the checkout that it is in."""
     return list(dict.fromkeys(each.resolve() for each in (root, Path(FOLDER), Path(FOLDER).parent)))
 
 
 def _templates(root: Path) -> dict[str, str]:
-    """Of each template and file of phrases, of the course and of derive itself."""
+    """Return the digest of each template and file of phrases, of the course and of derive itself."""
     found: dict[str, str] = {}
     for folder in _folders(root):
         for file in sorted((folder / "templates").rglob("*")):

@@ -1,6 +1,6 @@
-"""A course as a revision of git has it: the files of one set and the templates, put into a folder of their own.
+"""A course at a revision of git: the files of one set and the templates, in a folder of their own.
 
-Files are read as git keeps them, not as it would put them into a working tree: a repository may name programs for that.
+Files are read as git stores them, not as it would check them out: a repository may name programs that do that.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ _TIME_LIMIT = 60
 
 @contextmanager
 def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
-    """The root of that course, for as long as it is looked at; nothing is asked of any other machine."""
+    """Provide the root of that course while it is in use; no other machine is contacted."""
     commit = _commit(root, revision)
     wanted = (f"problems/{set_id}", TEMPLATES)
     there = _git(root, "ls-tree", "--name-only", commit, "--", *wanted).stdout.decode().splitlines()
     if wanted[0] not in there:
-        message = f"there was no set `{set_id}` at `{revision}`"
+        message = f"no set was called `{set_id}` at `{revision}`"
         raise Misused(
             Complaint("no-such-set", message, help=f"`git log -- {wanted[0]}` lists the revisions that have it")
         )
@@ -45,7 +45,7 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
 
 
 def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> list[tuple[bytes, bytes]]:
-    """The name of each object that is a plain file, and its path: a link would lead out of the revision."""
+    """Return the name and the path of each object that is a plain file: a link would lead out of the revision."""
     found = _git(root, "ls-tree", "-r", "-z", commit, "--", *folders)
     if found.returncode:
         raise Misused(_unreadable(revision, found.stderr))
@@ -55,7 +55,7 @@ def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> li
 
 
 def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[bytes]:
-    """What each object has, in their order: behind a line that ends with its size."""
+    """Yield the content of each object, in their order; it follows a line that ends with its size."""
     found = _git(root, "cat-file", "--batch", told=b"".join(name + b"\n" for name in names))
     said = BytesIO(found.stdout)
     for name in names:
@@ -68,21 +68,21 @@ def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[byt
 
 
 def _commit(root: Path, revision: str) -> str:
-    """The full name of a revision; what is wrong if there is none."""
+    """Return the full name of a revision, or raise what is wrong."""
     if not shutil.which("git"):
         message = "`--rev` compares with a revision of git, but git is not installed"
         raise Misused(
             Complaint("no-git", message, help="install git, or compare with the last build: leave `--rev` out")
         )
     if _git(root, "rev-parse", "--git-dir").returncode:
-        message = "`--rev` compares with a revision of git, but the course is in no repository of git"
+        message = "`--rev` compares with a revision of git, but the course is not in a repository of git"
         help_line = "leave `--rev` out to compare with the last build; `git init` begins a repository"
         raise Misused(Complaint("no-repository", message, help=help_line))
     named = not revision.startswith("-") and revision.isprintable()
     found = _git(root, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}") if named else None
     if found is None or found.returncode:
         help_line = "name a commit, a branch or a tag: `HEAD`, `HEAD~1`, `main`; `git log` lists them"
-        raise Misused(Complaint("no-such-revision", f"git knows no revision `{revision}` here", help=help_line))
+        raise Misused(Complaint("no-such-revision", f"git finds no revision `{revision}` here", help=help_line))
     return found.stdout.decode().strip()
 
 
@@ -103,4 +103,4 @@ def _git(root: Path, *arguments: str, told: bytes = b"") -> subprocess.Completed
             timeout=_TIME_LIMIT,
         )
     except (OSError, subprocess.TimeoutExpired) as error:
-        raise Misused(Complaint("no-git", f"git gives no answer: {error}")) from None
+        raise Misused(Complaint("no-git", f"git does not answer: {error}")) from None

@@ -1,6 +1,6 @@
-"""Folders for work that leaves nothing behind, and what a killed process left removed by the next build.
+"""Folders for work that leaves nothing behind; the next build removes what a killed process left.
 
-A lock dies with its process: what is locked is in use, and what is not was left.
+A lock ends with its process: a locked folder is in use, one without a lock was left behind.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _NAME = re.compile(rf"{PREFIX}\w{{8}}")
 
 
 class Scratch:
-    """A folder of its own, with its `name`; it is gone behind a `with` block, and when its process ends."""
+    """A folder of its own, with its `name`; it is removed after a `with` block, and when its process ends."""
 
     def __init__(self) -> None:
         with writing(Path(tempfile.gettempdir())):
@@ -29,7 +29,7 @@ class Scratch:
             whole = Path(self._folder.name)
             self._lock = os.open(whole / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
             is_held(self._lock, whole / "lock")
-            os.rename(whole / "lock", whole / HELD)  # whoever finds it finds it locked
+            os.rename(whole / "lock", whole / HELD)  # under this name it is always locked
             self.name = str(whole / "work")
             os.mkdir(self.name)
 
@@ -47,7 +47,7 @@ class Scratch:
 
 @cache  # once in a process, however often it builds
 def sweep(*folders: Path) -> None:
-    """Remove the files that were being written in these folders, and the scratch of this user, if nobody holds them."""
+    """Remove unfinished files in these folders, and the scratch folders of this user, if no process holds them."""
     for folder in folders:
         with suppress(OSError), os.scandir(folder) as entries:
             for entry in entries:
@@ -61,7 +61,7 @@ def sweep(*folders: Path) -> None:
 
 
 def _is_left(file: Path) -> bool:
-    """Whether there is such a file, and no process holds it."""
+    """Return whether there is such a file, and no process holds it."""
     try:
         handle = os.open(file, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError:

@@ -1,8 +1,8 @@
-"""What is kept between builds, sealed with a key of this machine's own: only what derive itself wrote is believed.
+"""Data kept between builds, sealed with a key of this machine's own: only what derive itself wrote is trusted.
 
-Everything kept is read as data. The key lies in the user's state folder, outside every course: who can
-write a course's `build` cannot seal. Where no key can be kept there is one for this process alone, so that nothing
-that another process kept is believed and everything is derived.
+Everything kept is read as data. The key is in the user's state folder, outside every course: a person who can only
+write a course's `build` cannot seal. If no key can be kept, this process has a key of its own, so that nothing that
+another process kept is trusted and everything is derived.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ MAX_BYTES = 64 * 1024 * 1024
 
 
 def seal(file: Path, what: str, content: bytes) -> None:
-    """Write content with the seal that it is derive's, and `what` it is."""
+    """Write content with a seal that derive wrote it, and that it is `what`."""
     write(file, _seal(what, content) + content)
 
 
 def unsealed(file: Path, what: str) -> bytes | None:
-    """The content that was sealed as this; nothing if it is something else, was altered, or cannot be read."""
+    """Return the content that was sealed as this; nothing if it is something else, was altered, or cannot be read."""
     try:
         raw = regular_content(file)
     except OSError:
@@ -40,7 +40,7 @@ def unsealed(file: Path, what: str) -> bytes | None:
 
 
 def data_of(content: bytes | None) -> Any:
-    """The data of JSON that were sealed; nothing if there are none."""
+    """Return the data of JSON that were sealed; nothing if the content is missing or not JSON."""
     try:
         return json.loads(content or b"null")
     except (ValueError, RecursionError):
@@ -48,7 +48,7 @@ def data_of(content: bytes | None) -> Any:
 
 
 def regular_content(file: Path, limit: int = MAX_BYTES) -> bytes:
-    """The content of a file of a bearable size; what is no file, such as a pipe, is never waited for."""
+    """Return the content of a file within a size limit; a node that is not a file, such as a pipe, never blocks."""
     with open(os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as opened:
         facts = os.fstat(opened.fileno())
         if not stat.S_ISREG(facts.st_mode) or facts.st_size > limit:
@@ -61,7 +61,7 @@ def _seal(what: str, content: bytes) -> bytes:
 
 
 def key_file() -> Path | None:
-    """Where the key of this machine lies; nowhere if the user has no folder of their own."""
+    """Return the path of this machine's key; nothing if the user has no folder of their own."""
     state = os.environ.get("XDG_STATE_HOME", "")
     try:
         folder = Path(state) if os.path.isabs(state) else Path.home() / ".local" / "state"
@@ -72,7 +72,7 @@ def key_file() -> Path | None:
 
 @cache
 def _key() -> bytes:
-    """The key, made at its first use."""
+    """Return the key, which is made at its first use."""
     file = key_file()
     key = _read_key(file) if file else None
     if file and key is None:
@@ -82,7 +82,7 @@ def _key() -> bytes:
 
 
 def _read_key(file: Path) -> bytes | None:
-    """The key, if it is whole and nobody else could have read or written it."""
+    """Return the key, if it is whole and no other user could have read or written it."""
     try:
         facts = os.lstat(file)
         private = stat.S_ISREG(facts.st_mode) and facts.st_uid == os.getuid() and not facts.st_mode & 0o077
@@ -96,9 +96,9 @@ def _make_key(file: Path) -> None:
     """Put a new key there, whole or not at all; if another process was first, its key stays."""
     with suppress(OSError):  # no key is kept, or another process was first
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if os.path.lexists(file):  # damaged, or open to others: whatever it sealed is derived anew
+        if os.path.lexists(file):  # damaged, or open to others: whatever it sealed is derived again
             file.unlink()
-        with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # its owner's alone
+        with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # for its owner alone
             temporary.write(secrets.token_bytes(KEY_BYTES))
             temporary.flush()
             os.fsync(temporary.fileno())

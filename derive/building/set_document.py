@@ -31,7 +31,7 @@ COUNTED = (
 
 @dataclass(frozen=True)
 class Listed:
-    """A problem as a paper of its set shows it."""
+    """A problem as a document of its set shows it."""
 
     number: str
     problem: Rendered
@@ -59,27 +59,27 @@ class Listed:
 
 
 def problem_document(root: Path, problem: Rendered, heading: ProblemSet) -> str:
-    """A complete .tex of one problem, numbered as in its set."""
+    """Return a complete .tex of one problem, numbered as in its set."""
     return _document(root, "document.tex.j2", heading, [_alone(problem, heading)])
 
 
 def set_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """A complete .tex of the set: cover block and its problems in order."""
+    """Return a complete .tex of the set: cover block and its problems in order."""
     return _document(root, "set.tex.j2", heading, _listed(problems))
 
 
 def sheet_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """A complete .tex of the questions alone, for students."""
+    """Return a complete .tex of the questions alone, for students."""
     return _document(root, "sheet.tex.j2", heading, _listed(problems))
 
 
 def paper_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered], paper: str) -> str:
-    """A complete .tex of one of the papers that are made where they are asked for."""
+    """Return a complete .tex of one of the documents that are made only on request."""
     return _document(root, "set.tex.j2", heading, _listed(problems, paper), paper)
 
 
 def paper_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], paper: str) -> str:
-    """The same for a browser, on one page, which the sheet has too."""
+    """Return the same for a browser, on one page; the sheet has such a page too."""
     kind = phrases(template_folder(root)).labels["documents"][paper]
     listed = _listed(problems, paper)
     bodies = told_once([(each.name, each.number, each.problem.papers.get(f"{paper}.html", "")) for each in listed])
@@ -87,35 +87,35 @@ def paper_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], pa
 
 
 def the_document(paper: str) -> Callable[[Path, ProblemSet, Sequence[Rendered]], str]:
-    """What makes the .tex of a paper."""
+    """Return the function that makes the .tex of a document."""
     known = {SOLUTIONS: set_document, SHEET: sheet_document, REPORT: report_document}
     return known.get(paper) or partial(paper_document, paper=paper)
 
 
 def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """A complete .tex of how the set was checked and where its source is wrong, for whoever must trust it."""
+    """Return a complete .tex of how the set was checked and where its source is wrong, for those who must trust it."""
     numbers = heading.numbers
     listed = [Listed(str(numbers.get(each.id.rpartition("/")[2], "")), each) for each in problems]
     return _document(root, "report.tex.j2", heading, listed)
 
 
 def problem_page(root: Path, problem: Rendered, heading: ProblemSet) -> str:
-    """The page of one problem for a browser: one file, with all that it shows."""
+    """Return the page of one problem for a browser: one file with everything that it shows."""
     return _page(root, "solution.html.j2", heading, [_alone(problem, heading)])
 
 
 def problem_main(root: Path, problem: Rendered, heading: ProblemSet) -> str:
-    """What the page of a problem has in its main part."""
+    """Return the main part of the page of a problem."""
     return _page(root, "main.html.j2", heading, [_alone(problem, heading)])
 
 
 def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
-    """The page of a problem that is being written, around a main part as `problem_main` gives it."""
+    """Return the page of a problem that is being written, around a main part that `problem_main` made."""
     return _page(root, "live.html.j2", heading, [], name=name, main=Html(main))
 
 
 def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """The page of a set: its problems, and its documents to print."""
+    """Return the page of a set: its problems, and its documents to print."""
     return _page(root, "index.html.j2", heading, _listed(problems))
 
 
@@ -127,7 +127,7 @@ def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Lis
 
 
 def _alone(problem: Rendered, heading: ProblemSet) -> Listed:
-    """A problem with its number in the set, if that lists it."""
+    """Return a problem with its number in the set, if the set lists it."""
     return Listed(str(heading.numbers.get(problem.id.rpartition("/")[2], "")), problem)
 
 
@@ -145,7 +145,7 @@ def _document(
 
 
 def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[str, Any]:
-    """What a template of a whole document may ask for."""
+    """Return what a template of a whole document may use."""
     words: Phrases = phrases(template_folder(root))
     return {
         "set_id": Tex(heading.id),
@@ -162,14 +162,14 @@ def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[
 
 
 def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[str, int]]]:
-    """The table of how the set was checked: a line for each problem, and their sums."""
+    """Return the table of how the set was checked: a line for each problem, and their sums."""
     rows = [(f"{words.labels['problem']} {listed.number}", listed.problem.counts) for listed in problems]
     sums = {name: sum(counts[name] for _, counts in rows) for name in COUNTED}
     return [*rows, (words.labels["report_page"]["all"], sums)] if len(rows) > 1 else rows
 
 
 def _total(problems: Sequence[Listed]) -> str:
-    """The points of all problems; nothing if any has none."""
+    """Return the points of all problems; nothing if one of them has none."""
     if not all(listed.problem.points for listed in problems):
         return ""
     total = sum((Fraction(listed.problem.points) for listed in problems), Fraction(0))

@@ -1,7 +1,7 @@
-"""A set of problems built: derive what changed, typeset what reads differently, leave the rest alone.
+"""The build of a set of problems: derive what changed, typeset what reads differently, leave the rest unchanged.
 
 Problems are derived and documents typeset by one crew of workers, so that one is typeset while another is derived. A
-problem that fails keeps its earlier outputs and stops no other; the document of the whole set then stays as it was.
+problem that fails keeps its earlier outputs and stops no other; the document of the whole set is then unchanged.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ from derive.render.rendered import Files, Rendered
 if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
 
-CACHE = ".derived"  # where a set keeps what its builds did
-FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs, before and behind the derivations
+CACHE = ".derived"  # where a set keeps the work of its builds
+FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs, before and after the derivations
 
 
 @dataclass(frozen=True)
@@ -51,25 +51,25 @@ class Options:
     jobs: int = 0  # 0: as many as there are processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems of the set, if not all of them
-    papers: tuple[str, ...] = ()  # these alone, if not those that the set itself names
-    evidence: str | None = None  # as much as the set itself says, if nothing else is
+    papers: tuple[str, ...] = ()  # these documents alone, if not those that the set itself names
+    evidence: str | None = None  # how much solutions show of their checks, if not what the set says
 
 
 class Superseded(Exception):
-    """What is being built has been edited since, and what is unfinished is not worth finishing."""
+    """The files have been edited during their build, and unfinished work is not worth finishing."""
 
 
 @dataclass(frozen=True)
 class Edits:
-    """Somebody who edits the set while it is built again and again, and waits for what was edited before all else."""
+    """An author who edits the set while it is built again and again, and waits for edited problems before all else."""
 
-    edited: Callable[[], bool]  # since this build began
-    wrote: Callable[[Path], None]  # is told of the PDF of a problem as soon as it has changed
+    edited: Callable[[], bool]  # whether there were edits since this build began
+    wrote: Callable[[Path], None]  # is called with the PDF of a problem as soon as it has changed
 
 
 @dataclass(frozen=True)
 class Ended:
-    """A piece of work that has come to its end: `derived`, `kept`, `typeset` or `failed`, of what, after how long."""
+    """A piece of work that has ended: how (`derived`, `kept`, `typeset` or `failed`), which, and after how long."""
 
     how: str
     of: str
@@ -102,8 +102,8 @@ def built_set(
     edits: Edits | None = None,
     ended: Callable[[Ended], None] = lambda _: None,
 ) -> Report:
-    """Build one set. `tell` shows what is under way to someone who waits, and `ended` is told of each piece that is
-    done; with `edits` it may raise `Superseded`."""
+    """Build one set. `tell` shows the user what is under way, and `ended` is called for each piece that is done;
+    with `edits` it may raise `Superseded`."""
     engine = chosen_engine(options.engine)
     check_asked(root, set_id, options.only)
     outputs = folder(set_folder(root, set_id))
@@ -161,7 +161,7 @@ class _Build:
         return result
 
     def _keep(self, saved: Callable[[], None]) -> None:
-        """Save what only spares the next build some work; if that cannot be, this one is no worse for it."""
+        """Save what only spares the next build some work; if that fails, this build is still good."""
         try:
             saved()
         except DeriveError as error:
@@ -175,9 +175,9 @@ class _Build:
         from derive.course.problem_set import problem_set
 
         self.manifest.complete = False
-        with writing(self.outputs):  # until all is as it should be, `make` has something to do
+        with writing(self.outputs):  # until all outputs are right, `make` has work to do
             (self.outputs / ".built").unlink(missing_ok=True)
-        self.prepares = not os.listdir(at_hand().name)  # which all workers have from here
+        self.prepares = not os.listdir(at_hand().name)  # all workers have these from here
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.manifest.evidence = heading.evidence
@@ -207,7 +207,7 @@ class _Build:
                 self._pages({name: key for name, key in keys.items() if name not in edited})
                 self._whole()
                 self._finish()
-                if self.whole_failed and not self.result.failed:  # else a problem's own document said the same
+                if self.whole_failed and not self.result.failed:  # otherwise a problem's own document reported the same
                     self._took(self.whole_failed)
                 if not self.result.failed:
                     self.manifest.engine = engine_digest(*PACKAGES)
@@ -218,15 +218,15 @@ class _Build:
                 self.cache.evict()
 
     def _papers_told(self) -> str:
-        """What is made of each problem besides its solution."""
+        """Return the documents that are made of each problem in addition to its solution."""
         return ",".join(sorted(paper for paper, _ in self.papers if paper in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:
-        """The papers that are made now: all that the set has, or those that are asked for."""
+        """Return the documents that are made now: all that the set has, or those that are asked for."""
         return [pair for pair in self.papers if not self.options.papers or pair[0] in self.options.papers]
 
     def _finish(self) -> None:
-        """All that is under way, and what follows from it."""
+        """Finish everything that is under way, and what follows from it."""
         for outcome in self.crew.outcomes():
             self.then.pop(outcome.job)(outcome)
 
@@ -241,7 +241,7 @@ class _Build:
         self.crew.put(job)
 
     def _took(self, outcome: Outcome) -> bool:
-        """Whether it went well; if not, its complaints are kept."""
+        """Return whether it went well; if not, keep its errors."""
         if isinstance(outcome.error, DeriveError):
             self.result.complaints += outcome.error.complaints
         elif outcome.error:
@@ -249,7 +249,7 @@ class _Build:
         return outcome.error is None
 
     def _pages(self, keys: Mapping[str, str]) -> None:
-        """The pages of problems by name and key: those that an earlier build kept, and meanwhile the others derived."""
+        """Take pages of problems by name and key: those that an earlier build kept, while the others are derived."""
         kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.recalled_data(key)))}
         self._derive([name for name in keys if name not in kept])
         for name, page in kept.items():
@@ -280,13 +280,13 @@ class _Build:
         self.crew.start()
 
     def _prepare(self) -> None:
-        """A worker has TeX take in what all documents begin with, if none has before."""
+        """Let a worker have TeX read the common beginning of all documents, if none has before."""
         from derive.page.template import template_folder
 
         if self.prepares:
             begins = partial(beginning, template_folder(self.root), self.options.detail)
             work = lambda: prepare(begins(), self.engine, self.cache)  # noqa: E731
-            self._put(Job("what documents begin with", work, self.options.limit, rank=FIRST), lambda _: None)
+            self._put(Job("the beginning of all documents", work, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()
         self.prepares = False
 
@@ -304,14 +304,14 @@ class _Build:
         self._whole()
 
     def _take(self, name: str, page: Rendered, warnings: Sequence[Complaint]) -> None:
-        """A page of the set, derived now or before, and all that stands beside it."""
+        """Take a page of the set, derived now or before, and everything that belongs to it."""
         self.result.warnings += warnings
         self.derived[name] = page
         self._check_files(name, page)
         self._document(name)
 
     def _check_files(self, name: str, derived: Rendered) -> None:
-        """Drawings that the problem no longer has are removed; a name is not given to two outputs."""
+        """Remove drawings that the problem no longer has; report a name that two outputs would have."""
         files = [file for file, _ in derived.files]
         of_papers = [output for paper, file in self.papers for output in outputs_of_paper(paper, file)]
         others = {*(output for other in self.names for output in outputs_of(other)), *of_papers, f"{INDEX}.html"}
@@ -324,7 +324,7 @@ class _Build:
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _recipe(self) -> Recipe:
-        """How pages are made; if templates or modules have been edited since the build began, by none that is known."""
+        """Return how pages are made; if templates or modules were edited since the build began, that is not known."""
         if edited_since(self.root, self.started):
             self.made_by[MODULES] = EDITED
         return self.made_by
@@ -333,9 +333,9 @@ class _Build:
         return file_digest(self.root / path)
 
     def _input_digest(self, path: str) -> str:
-        """Of a file as it was when the build began; one that changed since then must be read again next time."""
+        """Return the digest of a file as it was when the build began; a later edit must be read again next time."""
         file = self.root / path
-        is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # what is moved here may be old
+        is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # a file that is moved here may be old
         return EDITED if is_edited else self._digest(path)
 
     def _document(self, name: str) -> None:
@@ -349,7 +349,7 @@ class _Build:
             self._typeset(name, document, texts, derived.files, FIRST)
 
     def _whole(self) -> None:
-        """The documents of the set, as soon as its last problem is derived."""
+        """Make the documents of the set, as soon as its last problem is derived."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
         from derive.building.set_document import index_page, paper_page, the_document
@@ -359,7 +359,7 @@ class _Build:
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
         for paper, file in self._wanted():
-            numbers = Kept(self.cache, digest("numbers", paper, self.engine.identity))  # one run is enough next time
+            numbers = Kept(self.cache, digest("numbers", paper, self.engine.identity))  # then one run is enough
             document = partial(the_document(paper), self.root, self.heading, parts)
             of_set = partial(paper_page, self.root, self.heading, parts, paper)
             page = self._page(file, of_set) if paper in ON_A_PAGE else {}
@@ -368,7 +368,7 @@ class _Build:
             self._typeset(file, document, page, beside, rank, numbers if paper not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
-        """A page for a browser, which stands beside a PDF."""
+        """Return a page for a browser, which accompanies a PDF."""
         try:
             return {f"{name}.html": page()}
         except DeriveError as error:
@@ -407,7 +407,7 @@ class _Build:
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
-        """The text and the source follow their PDF, so that what lies side by side belongs together."""
+        """Write the text and the source after their PDF, so that files next to each other belong together."""
         self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
         name = pdf.removesuffix(".pdf")
         if name in [file for _, file in self.papers] and outcome.error:
@@ -417,7 +417,7 @@ class _Build:
             return
         if outcome.value:
             self._changed(pdf)
-        with suppress(OSError):  # of somebody who takes it away in this moment
+        with suppress(OSError):  # another process may remove it just now
             self.cache.keep(source, regular_content(self.outputs / pdf))
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
         if self._record(texts):
@@ -432,7 +432,7 @@ class _Build:
             self.edits.wrote(self.outputs / output)
 
     def _record(self, contents: Mapping[str, str | bytes]) -> bool:
-        """Write outputs of a problem; whether the disk took them."""
+        """Write outputs of a problem, and return whether the disk accepted them."""
         try:
             for name, content in contents.items():
                 if write(self.outputs / name, content):
@@ -444,8 +444,8 @@ class _Build:
         return True
 
     def _stamp(self) -> None:
-        """Tell `make` what there is, with which options, which files of other sets it was made from, and that all of it
-        is as new as this build's beginning."""
+        """Record for `make` the outputs, the options, the files of other sets that they use, and that all of them are
+        as new as this build's beginning."""
         outputs = [f"build/{self.set_id}/{name}" for name in self.manifest.all_outputs()]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         read = {path for inputs in self.manifest.inputs.values() for path in inputs}

@@ -78,16 +78,16 @@ def rendered(
     evidence: EvidenceShown = EvidenceShown.NONE,
     papers: Collection[str] = (),
 ) -> Rendered:
-    """Derive a problem and print it; raises `DeriveError` with everything that is wrong.
+    """Derive a problem and print it; raise `DeriveError` with everything that is wrong.
 
-    Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time; `draws`
-    says whether the files of its drawings are wanted too, `only` in which formats the page is, else in all of a build,
-    `evidence` how much it tells of how it was checked, and `papers` what else is made of it: the key, hints, a rubric.
+    Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time. `draws`
+    says whether the files of its drawings are wanted too, `only` which formats are wanted (default: all of a build),
+    `evidence` how much it shows about its checks, and `papers` which other documents: the key, hints, a rubric.
     """
     begun = time.time_ns()
     problem = load_problem(root, problem_id)
     _check_characters(problem)
-    phrases(template_folder(root))  # or what is wrong with them, before anything is derived
+    phrases(template_folder(root))  # raises what is wrong with them, before anything is derived
     solved, failures = _solved(problem, cache, begun)
     page = printed(problem, solved, failures, detail, cache, draws, only, evidence, papers)
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
@@ -104,7 +104,7 @@ def printed(
     evidence: EvidenceShown = EvidenceShown.NONE,
     papers: Collection[str] = (),
 ) -> Rendered:
-    """The page of a problem that is derived, as `rendered` has it; the `failures` are told with its warnings."""
+    """Return the page of a derived problem, as `rendered` does; the `failures` are reported with its warnings."""
     root, words = problem.root, phrases(template_folder(problem.root))
     derivation, values = solved.derivation, solved.values
     heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
@@ -180,9 +180,9 @@ def printed(
 
 
 def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[Complaint, ...]]:
-    """The steps, as they were kept or derived now, and what disagrees with the reference.
+    """Return the steps, as they were kept or derived now, and what disagrees with the reference.
 
-    They are kept under what its files say; not if one of these has been edited since the problem was read.
+    They are kept under a digest of its files; not if one of these has been edited since the problem was read.
     """
     key = steps_key(problem)
     with suppress(KeyError):
@@ -194,7 +194,7 @@ def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[C
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
     if not failures and not _edited(problem, begun):
-        with suppress(ValueError, RecursionError):  # what JSON cannot hold is derived again next time
+        with suppress(ValueError, RecursionError):  # steps that JSON cannot represent are derived again next time
             cache.keep_data(key, solved.to_data())
     return solved, failures
 
@@ -204,9 +204,9 @@ def _edited(problem: Problem, begun: int) -> bool:
     return any(file.exists() and file.stat().st_ctime_ns > begun for file in files)
 
 
-@lru_cache(maxsize=4)  # for a process that is asked again
+@lru_cache(maxsize=4)  # for a process that asks more than once
 def _kept(cache: Cache, key: str) -> Solved:
-    """What was kept under a key."""
+    """Return what was kept under a key."""
     kept = Solved.from_data(cache.recalled_data(key))
     if kept is None:
         raise KeyError(key)
@@ -215,15 +215,15 @@ def _kept(cache: Cache, key: str) -> Solved:
 
 @lru_cache(maxsize=4)
 def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
-    """With all that it has laid out before."""
+    """Return the notation with everything that it has laid out before."""
     return Notation(dict(dimensions), flat=flat)
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:
-    """The errata of the source and the remarks on it, in the order of its lines."""
+    """Return the errata of the source and the remarks on it, in the order of its lines."""
     if not any(told.erratum or told.remark for told in compared):
         return ()
-    from derive.render.notation.from_latex import in_plain_text  # which few problems need
+    from derive.render.notation.from_latex import in_plain_text  # needed by few problems
 
     found: list[tuple[int, SourceFault]] = []
     for told in compared:
@@ -242,7 +242,7 @@ def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[Source
 
 
 def _check_characters(problem: Problem) -> None:
-    """Prose may only have characters that can be printed."""
+    """Check that prose has only characters that can be printed."""
     faults = []
     for prose in problem.texts:
         at = unprintable(prose.text)
@@ -261,7 +261,7 @@ def _refers_to_problems(problem: Problem) -> bool:
 def derived(
     problem: Problem, memory: Memory | None = None
 ) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
-    """The steps behind every answer, the step that gives each answer its number, all steps by key, and the record."""
+    """Return the steps behind all answers, the steps that give them numbers, all steps by key, and the record."""
     run = record.Run(memory=memory)
     try:
         returned = run_solve(problem, run)
@@ -296,7 +296,7 @@ def derived(
 
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
-    """Two answers may be the same condition: once is enough to say whether the numbers fulfil it."""
+    """Return whether another answer is the same condition: one comparison with the numbers is enough."""
     return step.rule == "numeric.comparison" and step.chain in [other.chain for other in others]
 
 
@@ -318,7 +318,7 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
 
 
 def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension) -> tuple[str, Expr]:
-    """Degrees for an angle where an angle is given in degrees; else the coherent unit of the SI."""
+    """Return degrees for an angle if an angle is given in degrees; else the coherent unit of the SI."""
     given = next((m for m in problem.measured if kind == "angle" and m.unit in IN_DEGREES), None)
     if given is not None:
         return given.unit, given.factor
@@ -334,16 +334,16 @@ def _value(
     amounts: Mapping[Symbol, Amount] | None = None,
     case: str = "",
 ) -> Quantity | None:
-    """The number of an answer: in the unit and to the figures that the part asks for, by the key that it asks for; in
-    one of its cases with the numbers of that."""
+    """Return the number of an answer, in the unit and to the figures that the part asks for, by the key that it asks
+    for; in a case of the part, with the numbers of that case."""
     key = f"{answer.key}_in_case_{case}" if case else None
     numbers = problem.amounts if amounts is None else amounts
     form = part.form_of(asked)
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
-        # An inequality may well be solved for a letter once other values are given: its unit waits for that.
+        # An inequality may be solved for a letter once other values are given: only then is its unit used.
         never = answer.value.mark == "=" and answer.coordinates
         if form.units and never and (asked in part.forms or len(part.answers) == 1):
-            message = f"`{answer.key}` is an equation between things that move: no number of it could have a unit"
+            message = f"`{answer.key}` is an equation between quantities that vary, so it has no number with a unit"
             raise Rejected(Complaint("wrong-unit", message, form.units[0].place, help="leave its `unit` out"))
         return None
     kind, dimension = _kind_of(problem, answer, dimensions)
@@ -368,7 +368,7 @@ def _value(
 def _kind_of(
     problem: Problem, answer: Quantity, dimensions: Mapping[Any, Dimension | None]
 ) -> tuple[str | None, Dimension]:
-    """The kind, if it has one, and the dimension of what a number is put in for: in a relation such as R > a/2 of R."""
+    """Return the kind, if any, and the dimension of what takes a number: in a relation such as R > a/2, of R."""
     kind, symbol = answer.step.kind, answer.symbol
     if isinstance(answer.value, Relation):
         symbol = answer.value.left

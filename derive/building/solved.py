@@ -1,7 +1,7 @@
 """A derivation as it is kept from one build to the next, so that a reworded page is not derived again.
 
-It depends on derive's own modules and SymPy, the script and what it imports beside it, what is given, which steps
-answer the parts and in what form, and the reference; not on words, points and templates.
+It depends on derive's own modules and SymPy, the script and the modules next to it that it imports, the givens, which
+steps answer the parts and in what form, and the reference; not on words, points and templates.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Solved:
-    """A problem's steps, those that give its answers their numbers, what its reference says of them, its drawings."""
+    """A problem's steps, the steps that give its answers their numbers, the results of its reference, its drawings."""
 
     derivation: Derivation
     values: Mapping[str, Step]
@@ -32,7 +32,7 @@ class Solved:
     drawings: tuple[Recorded, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
-        """As data of JSON; a ValueError or RecursionError where JSON cannot hold its numbers or expressions."""
+        """Return data of JSON; raise ValueError or RecursionError if JSON cannot hold its numbers or expressions."""
         return {
             "derivation": to_json(self.derivation),
             "answers": list(self.values),
@@ -46,7 +46,7 @@ class Solved:
 
     @classmethod
     def from_data(cls, data: Any) -> Solved | None:
-        """What `to_data` gave; nothing if the data are of any other shape."""
+        """Return what `to_data` encoded; nothing if the data have any other shape."""
         try:
             values = from_json(data["values"])
             told = tuple(
@@ -60,7 +60,7 @@ class Solved:
 
 
 def steps_key(problem: Problem) -> str:
-    """A digest of everything that the steps depend on."""
+    """Return a digest of everything that the steps depend on."""
     _, *scripts = problem.inputs
     files = [problem.root / path for path in (*scripts, reference_path(problem))]
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]

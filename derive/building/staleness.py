@@ -1,6 +1,6 @@
-"""Why an output would be made again: what it was made from is compared, one by one, with what there is now.
+"""The reasons why an output would be made again: each input it was made from is compared with that of now.
 
-Nothing is derived for that, and nothing that derives is loaded.
+For this, nothing is derived, and nothing that derives is loaded.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from derive.course.names import INDEX, NAME
 from derive.course.names import PAPERS as KINDS_OF_PAPERS
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
-SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # of what builds write
-MOST = 8  # reasons that are told of one output
+SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # of files that builds write
+MOST = 8  # reasons that are shown for one output
 _SUCH_AS = "name a page such as `build/hw9/block.pdf`, a problem or a set"
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What somebody asks about: outputs of a set, and how they would be built now."""
+    """What a user asks about: outputs of a set, and how they would be built now."""
 
     root: Path
     set_id: str
-    outputs: tuple[str, ...]  # names of files; none: all of the set
+    outputs: tuple[str, ...]  # names of files; empty: all of the set
     detail: str | None = None
     evidence: str | None = None
     engine: str | None = None
@@ -40,7 +40,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Staleness:
-    """Why outputs would be made again, in words, and the commands that see to it; no reasons if they would not."""
+    """The reasons why outputs would be made again, in words, and the commands for it; empty if they are up to date."""
 
     of: str
     reasons: tuple[str, ...]
@@ -56,16 +56,16 @@ class Staleness:
 def left_older(
     record: Manifest, set_id: str, documents: Sequence[str], recipe: Recipe, read: Callable[[str], str]
 ) -> list[Complaint]:
-    """A warning about documents that are older than their problems, since the last build was not asked for them."""
+    """Warn of documents that are older than their problems, because the last build was not asked for them."""
     older = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
     if not older:
         return []
-    message = f"older than the problems, and not made again: {', '.join(older)} in `{shown_path(record.folder)}`"
+    message = f"older than the problems, but not made again: {', '.join(older)} in `{shown_path(record.folder)}`"
     return [Complaint("older", message, help=f"`derive build {set_id}` makes them again", severity="warning")]
 
 
 def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
-    """The set and the outputs that a path below build/, a problem's id or a set's name stands for."""
+    """Return the set and the outputs that a path below build/, a problem's id or a set's name means."""
     built = _below_build(root, what)
     set_id, _, name = built or what.partition("/")
     if not NAME.fullmatch(set_id):
@@ -90,18 +90,18 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
 
 
 def _below_build(root: Path, what: str) -> tuple[str, str, str] | None:
-    """Set, stroke, file: of a path as it is named from here, or from the root."""
+    """Return set, stroke, file of a path below build/, as named from here or from the root."""
     found = [Path(os.path.relpath(os.path.normpath(base / what), root / "build")) for base in (Path.cwd(), root)]
     below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 2]
     of_a_set = [parts for parts in below if parts and parts[0] in set_names(root)]
-    if of_a_set or below:  # a folder of no set is told as one
+    if of_a_set or below:  # a folder without a set is reported as such
         set_id, name = (*(of_a_set or below)[0], "", "")[:2]
         return set_id, "/", name
     return None
 
 
 def staleness(asked: Asked) -> Staleness:
-    """Why these outputs would be made again by `derive build`."""
+    """Return why these outputs would be made again by `derive build`."""
     folder = set_folder(asked.root, asked.set_id)
     manifest = Manifest.read(folder)
     parts = [*manifest.problems, *manifest.documents]
@@ -115,7 +115,7 @@ def staleness(asked: Asked) -> Staleness:
 
 
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
-    """Of files first, which somebody edits; then of what is rarer."""
+    """Yield reasons in files first, because users edit these; then the rarer ones."""
     read: Callable[[str], str] = cache(lambda path: file_digest(asked.root / path))
     now = recipe_of(asked.root, asked.detail, asked.evidence or manifest.evidence)
     documents = _documents(manifest, outputs)
@@ -137,7 +137,7 @@ def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterat
         if _document_of(manifest, name) in made:
             yield from _of_output(manifest, name)
     if not manifest.complete and any(name in manifest.documents for name in documents):
-        yield f"the last build of `{asked.set_id}` was not of all its problems, was interrupted or found a fault"
+        yield f"the last build of `{asked.set_id}` was not of all its problems, was interrupted or found an error"
 
 
 def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
@@ -149,13 +149,13 @@ def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
 
 
 def _is_unlisted(asked: Asked, manifest: Manifest, name: str) -> bool:
-    """Whether the set as it is now has no such problem; it is not read again, so that is known of one not edited."""
+    """Return whether the present set lacks this problem; unknown after an edit, as the set is not read again."""
     edited = any(file_digest(asked.root / path) != before for path, before in manifest.set_inputs.items())
     return not edited and name not in [*manifest.problems, *manifest.documents, *KINDS_OF_PAPERS]
 
 
 def _documents(manifest: Manifest, outputs: Sequence[str]) -> list[str]:
-    """The problems and documents of the set whose outputs these are."""
+    """Return the problems and documents of the set whose outputs these are."""
     return list(dict.fromkeys(_document_of(manifest, name) for name in outputs))
 
 
@@ -215,7 +215,7 @@ def _of_output(manifest: Manifest, name: str) -> Iterator[str]:
     elif not (manifest.folder / name).exists():
         yield f"`{name}` is not there any more"
     elif not manifest.holds(name):
-        yield f"`{name}` is not as the build wrote it: somebody edited it"
+        yield f"`{name}` has been edited since the build wrote it"
 
 
 def _mends(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
@@ -231,7 +231,7 @@ def _mends(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator
 
 
 def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
-    """The command that makes these outputs, among all that a build of their problem or their set makes."""
+    """Return the command that makes these outputs, among all that a build of their problem or their set makes."""
     documents = _documents(manifest, outputs)
     papers = [name for name in documents if name in KINDS_OF_PAPERS and name not in manifest.documents]
     only = ",".join(papers) if papers and manifest.pages else ""
@@ -243,7 +243,7 @@ def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
 
 
 def _named(asked: Asked, manifest: Manifest) -> str:
-    """The problem alone where the outputs are of one."""
+    """Return the id of the problem if the outputs are of one problem only, else the set."""
     documents = _documents(manifest, asked.outputs)
     (one,) = documents if len(documents) == 1 else ("",)
     of_set = one in (*manifest.documents, *KINDS_OF_PAPERS, INDEX)

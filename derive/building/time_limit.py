@@ -1,8 +1,8 @@
 """The limit of a worker's time, in seconds of its processor, so that no problem fails because the machine is busy.
 
-At the limit `OutOfTime` is raised where the work is: what surrounds it says what it was doing, and keeps what is
-finished. Work that only waits uses no processor, and is stopped after as many seconds of the clock. Work that catches
-`OutOfTime`, or is in the middle of one long instruction, is ended by the system a little later.
+At the limit `OutOfTime` is raised where the work is: the code around it records what it was doing, and keeps finished
+steps. Work that only waits uses no processor, and is stopped after as many seconds of the clock. If work catches
+`OutOfTime`, or is in the middle of one long instruction, the system ends it a little later.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ __all__ = ["ended_by_limit", "limited"]
 GRACE = 2.0  # seconds of the processor in which `OutOfTime` may leave the work
 IDLE = 0.02  # share of the processor below which work only waits
 PATIENCE = 10  # times the limit, by the clock: work that takes longer is stopped, however busy the machine is
-_WATCHDOG = "Timeout ("  # with this `faulthandler` begins what it writes then
+_WATCHDOG = "Timeout ("  # `faulthandler` then begins its output with this
 
 
 @contextmanager
 def limited(seconds: float, trace: int) -> Iterator[None]:
-    """Work inside may take so long; where the system ends it, the lines that it is in are written to `trace`."""
+    """Limit the time of the work inside; if the system ends it, the lines that it is in are written to `trace`."""
     used, told = time.process_time(), False
 
     def stop(*_: object, waited: bool = False) -> NoReturn:
         nonlocal told
-        if told:  # and it went on
+        if told:  # and the work went on
             signal.raise_signal(signal.SIGVTALRM)
         told = True
         raise OutOfTime(waited)
@@ -44,7 +44,7 @@ def limited(seconds: float, trace: int) -> Iterator[None]:
 
     handlers = {signal.SIGPROF: stop, signal.SIGALRM: look}
     previous = {signum: signal.signal(signum, handler) for signum, handler in handlers.items()}
-    faulthandler.register(signal.SIGVTALRM, trace, all_threads=False, chain=True)  # and then it ends this process
+    faulthandler.register(signal.SIGVTALRM, trace, all_threads=False, chain=True)  # the signal then ends this process
     faulthandler.dump_traceback_later(PATIENCE * (seconds + 6), exit=True, file=trace)
     signal.setitimer(signal.ITIMER_PROF, seconds)
     signal.setitimer(signal.ITIMER_REAL, max(seconds, 1), max(seconds, 1))
@@ -60,5 +60,5 @@ def limited(seconds: float, trace: int) -> Iterator[None]:
 
 
 def ended_by_limit(code: int, trace: str) -> bool:
-    """Whether a process that ended with this exit code, or by this signal, was ended at the limit of its time."""
+    """Return whether a process that ended with this exit code, or by this signal, was ended at its time limit."""
     return code == -signal.SIGVTALRM or trace.startswith(_WATCHDOG)

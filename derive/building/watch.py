@@ -1,8 +1,8 @@
-"""Sets built again at each edit, by one process that keeps what it has loaded.
+"""Builds of sets at each edit, by one process that keeps what it has loaded.
 
-Many times in a second the times of all files are compared. That takes a hundredth of a processor, and needs neither a
-package nor a thread, beside which it would not be safe to fork; and it sees what is edited over a network. An edit ends
-the build that is under way, and what that has finished is kept: so several files saved at once are one edit.
+The times of all files are compared many times in a second. That takes a hundredth of a processor and needs no package
+and no thread (forking next to a thread would not be safe), and it detects edits over a network. An edit ends the build
+that is under way, but finished work is kept, so several files saved at once are one edit.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ Seen = Mapping[str, tuple[int, int, int]]
 
 @dataclass(frozen=True)
 class Shown:
-    """How somebody who edits is told.
+    """The functions that inform an author who edits.
 
-    under_way  what is done just now
-    wrote      a PDF that changed, and how many seconds that took
-    built      what a build did
-    refused    why there was none
-    ended      each piece of work that is done
+    under_way  shows what is being done
+    wrote      a PDF has changed, after so many seconds
+    built      a build has ended, with its report
+    refused    no build was made, because of these errors
+    ended      a piece of work is done
     """
 
     under_way: Callable[[str], None]
@@ -48,8 +48,8 @@ class Shown:
 
 
 def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown) -> None:
-    """Build these problems of these sets, all of a set where none is named, and again at each edit; it has no end."""
-    chosen_engine(options.engine)  # or what is wrong with it, before anything is built
+    """Build these problems of these sets (all of a set if none is named), again at each edit, without end."""
+    chosen_engine(options.engine)  # raises what is wrong with it, before anything is built
     for set_id, names in asked.items():
         check_asked(root, set_id, names)
     watching = _Watch(root, asked, options, shown)
@@ -59,7 +59,7 @@ def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, sh
 
 
 class _Watch:
-    """What has been loaded and seen."""
+    """The loaded modules and the files as last seen."""
 
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
@@ -70,7 +70,7 @@ class _Watch:
         self.files: Seen = {}
 
     def build(self) -> None:
-        """All that is asked, in order, until nothing is edited meanwhile."""
+        """Build all that is asked, in order, until nothing is edited meanwhile."""
         while self._edited():
             self.files, begun = seen_in(self.folders), time.monotonic()
             try:
@@ -85,8 +85,8 @@ class _Watch:
 
         try:
             if folder_digest(self.own, "*.py") != self.loaded:
-                message = "derive itself has been edited, and what is loaded is derive as it was"
-                raise BuildFailed(Complaint("restart", message, help="end this and start it again"))
+                message = "derive itself has been edited, but the derive before the edit is loaded"
+                raise BuildFailed(Complaint("restart", message, help="stop this command and start it again"))
             edits = Edits(self._edited, wrote)
             report = built_set(self.root, set_id, options, self.shown.under_way, edits, self.shown.ended)
         except DeriveError as error:
@@ -100,12 +100,12 @@ class _Watch:
         return seen_in(self.folders) != self.files
 
     def _check_edited(self) -> None:
-        """What is said of files that are not what they were is of no use, such as of one that was half written."""
+        """Discard errors of files that have changed since, such as a file that was half written."""
         if self._edited():
             raise Superseded
 
     def wait(self) -> None:
-        """Until there is an edit."""
+        """Wait until there is an edit."""
         looked = time.monotonic()
         while not self._edited():
             time.sleep(EVERY)
@@ -116,7 +116,7 @@ class _Watch:
 
 
 def seen_in(folders: Sequence[Path]) -> Seen:
-    """When each file that somebody writes was written, and which it is; not those of editors' own."""
+    """Return when each file of authors was written, its size and which file it is; editors' own files are left out."""
     found, waiting = {}, [(str(folder), 0) for folder in folders]
     while waiting:
         folder, depth = waiting.pop()
@@ -130,6 +130,6 @@ def seen_in(folders: Sequence[Path]) -> Seen:
                     elif entry.name.endswith(WRITTEN):
                         facts = entry.stat()
                         found[entry.path] = (facts.st_mtime_ns, facts.st_size, facts.st_ino)
-        except OSError:  # what is taken away meanwhile is seen next time
+        except OSError:  # a folder that is removed meanwhile is seen next time
             continue
     return found

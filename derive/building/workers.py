@@ -1,9 +1,9 @@
 """Forked workers: each job runs in a child of one warm process, with a time limit, and can be killed at any moment.
 
 What a job returns or raises comes back to the parent. A child leads a process group of its own, so that killing it
-takes its TeX along, and it ends by itself if the parent is gone. The parent starts no threads, so forking is safe. What
-limits a child, and what is said of one that gives no answer, holds for the worker of a preview too. The limit of time
-is that of `derive.building.time_limit`.
+also kills its TeX, and it ends by itself if the parent is gone. The parent starts no threads, so forking is safe. The
+limits of a child, and the errors when it gives no answer, are the same for the worker of a preview. The time limit is
+that of `derive.building.time_limit`.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _NAMED = 5  # at most so many steps are named
 
 
 class Bug(Exception):
-    """Something in derive itself failed inside a worker; carries that worker's traceback."""
+    """An error in derive itself inside a worker, with that worker's traceback."""
 
     def __init__(self, summary: str, trace: str):
         super().__init__(summary, trace)
@@ -60,9 +60,9 @@ class Bug(Exception):
 
 @dataclass(frozen=True)
 class Job:
-    """A piece of work, named as the user knows it; `file` is what it is about, `shown_as` its path in messages.
+    """A piece of work, named as the user knows it; `file` is its subject, `shown_as` the path of that in messages.
 
-    Of those that wait, one of the least `rank` begins first.
+    Of the waiting jobs, one of the least `rank` begins first.
     """
 
     name: str
@@ -74,7 +74,7 @@ class Job:
 
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
-    """Work on a problem, whose file is named if it gives no answer; that of which most is said begins first."""
+    """Return a job for a problem; an error without an answer names its file; the longest files begin first."""
     from derive.course.problem_set import found_path
 
     path = found_path(root, problem_id) or f"problems/{problem_id}.yaml"
@@ -85,7 +85,7 @@ def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a job: its value, or the error that ended it."""
+    """The outcome of a job: its value, or the error that ended it."""
 
     job: Job
     value: Any
@@ -98,7 +98,7 @@ class _Worker:
     job: Job
     child: ForkProcess
     pipe: Connection
-    trace: int  # to where a worker writes the lines that it is in, when it is stopped or dies
+    trace: int  # where a worker that is stopped or dies writes the lines that it is in
     started: float = field(default_factory=time.monotonic)
 
     @property
@@ -107,10 +107,10 @@ class _Worker:
 
 
 class Crew:
-    """At most `size` workers at a time; leaving the `with` block kills whatever still runs, and what it left behind."""
+    """At most `size` workers at a time; leaving the `with` block kills running workers and removes what they left."""
 
     def __init__(self, size: int, tick: Callable[[Mapping[str, float]], None] | None = None):
-        """`tick` is told again and again what runs, and for how many seconds it has."""
+        """`tick` is called again and again with the running jobs and their seconds."""
         self._size = max(1, size)
         self._tick = tick or (lambda _: None)
         self._waiting: list[tuple[float, int, Job]] = []  # a heap
@@ -135,12 +135,12 @@ class Crew:
         heapq.heappush(self._waiting, (job.rank, self._put, job))
 
     def start(self) -> None:
-        """Have as many work as there may be, without waiting for any."""
+        """Start as many workers as allowed, without waiting for any."""
         while self._waiting and len(self._running) < self._size:
             self._running.append(self._started(heapq.heappop(self._waiting)[2]))
 
     def outcomes(self) -> Iterator[Outcome]:
-        """Each job's outcome as it ends; more jobs may be put meanwhile."""
+        """Yield each job's outcome as it ends; more jobs may be put meanwhile."""
         while self._waiting or self._running:
             self.start()
             self._tick({worker.job.name: worker.seconds for worker in self._running})
@@ -163,7 +163,7 @@ class Crew:
                 child.start()
         except OSError as error:
             raise of_system(error, f"cannot start a process for {job.name}") or error from None
-        with contextlib.suppress(OSError):  # the child does the same; whoever is first
+        with contextlib.suppress(OSError):  # the child does the same; either may be first
             os.setpgid(child.pid or 0, child.pid or 0)
         theirs.close()
         os.close(traced)
@@ -171,7 +171,7 @@ class Crew:
 
 
 def under_way(running: Mapping[str, float], set_id: str = "") -> str:
-    """`block 2 s, pages of top 1 s`: what has run longest stands first; of problems of that set, the names alone."""
+    """Return `block 2 s, pages of top 1 s`: the longest-running first; problems of that set by name alone."""
     longest = sorted(running.items(), key=lambda each: -each[1])
     named = [(job.removeprefix("the ").replace(f"`{set_id}/", "`").replace("`", ""), s) for job, s in longest]
     return ", ".join(f"{name} {seconds:.0f} s" for name, seconds in named)
@@ -186,7 +186,7 @@ def _pipe() -> tuple[int, int]:
 
 @contextlib.contextmanager
 def _undisturbed() -> Iterator[None]:
-    """A signal during a fork waits: Python would lose it in what it does before and after one."""
+    """Delay signals during a fork, because Python would lose them in its work before and after a fork."""
     signals = (signal.SIGINT, signal.SIGTERM)
     before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
     try:
@@ -196,7 +196,7 @@ def _undisturbed() -> Iterator[None]:
 
 
 def memory_limit() -> int:
-    """How many bytes a worker may take, from DERIVE_MEMORY in GiB."""
+    """Return how many bytes a worker may take, from DERIVE_MEMORY in GiB."""
     text = os.environ.get("DERIVE_MEMORY", "").strip()
     if not text:
         return round(MEMORY_LIMIT * GIB)
@@ -207,7 +207,7 @@ def memory_limit() -> int:
 
 
 def done(job: Job) -> Any:
-    """The value of one job, run in a worker."""
+    """Return the value of one job, run in a worker."""
     with Crew(1) as crew:
         crew.put(job)
         outcome = next(crew.outcomes())
@@ -235,15 +235,15 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """The complaint about a worker that gave no answer, at the line of the script that it was in."""
+    """Return the error about a worker that gave no answer, at the line of the script that it was in."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
-        place, help_ = Place(reference, 1), f"look at what it states of {job.name}"
+        place, help_ = Place(reference, 1), f"check what it states about {job.name}"
     return BuildFailed(Complaint(code, message, place, tuple(notes), help_))
 
 
 def _reference_in(trace: str, job: Job) -> str:
-    """The file of what a document states, if the worker was reading that, or comparing with it."""
+    """Return the file of what a document states, if the worker was reading it or comparing with it."""
     path = f"{'/'.join(job.shown_as.split('/')[:2])}/reference.yaml"
     compares = re.search(r'^  File ".+/derive/course/reference/', trace, re.MULTILINE)
     there = compares and job.file and (job.file.parents[job.shown_as.count("/")] / path).is_file()
@@ -251,7 +251,7 @@ def _reference_in(trace: str, job: Job) -> str:
 
 
 def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed:
-    """A worker that came to the limit of its time: where, what it was doing if it could still say so, what is done."""
+    """Return the error of a worker at its time limit: where it was, what it was doing if known, what is finished."""
     late = late or OutOfTime()
     asked = f", at last for `{late.answers[-1]}`" if late.answers else ""
     took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
@@ -268,27 +268,27 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
 
 
 def died(job: Job, code: int, trace: str) -> BuildFailed:
-    """A worker that ended by itself, with that exit code, or by a signal."""
+    """Return the error of a worker that ended by itself, with that exit code, or by a signal."""
     if ended_by_limit(code, trace):
         return too_long(job, trace)
     why = f"signal {-code}" if code < 0 else f"exit code {code}"
-    message = f"{job.name} ended without a word: {why}"
+    message = f"{job.name} ended without a message: {why}"
     help_ = "was memory short?" if code < 0 else "does its script end the program itself?"
     return _stopped(job, "worker-died", message, help_, trace)
 
 
 def overtaxed(job: Job, what: str, trace: str) -> BuildFailed:
-    """A worker that came to the limit of its memory or of its stack."""
+    """Return the error of a worker that came to the limit of its memory or of its stack."""
     if what == TOO_DEEP:
         help_ = "look for an endless recursion in its script, or for an expression with very many brackets"
-        return _stopped(job, TOO_DEEP, f"{job.name} goes deeper than Python can follow", help_, trace)
+        return _stopped(job, TOO_DEEP, f"{job.name} is nested deeper than Python allows", help_, trace)
     message = f"{job.name} took over {memory_limit() / GIB:g} GiB of memory"
-    help_ = "look for what grows without bound, or set DERIVE_MEMORY to more GiB"
+    help_ = "look for a value that grows without bound, or set DERIVE_MEMORY to more GiB"
     return _stopped(job, MEMORY, message, help_, trace)
 
 
 def lines_told(trace: int) -> str:
-    """What a worker has written there; it does not wait for more."""
+    """Return what a worker has written there, without waiting for more."""
     try:
         return os.read(trace, 1 << 16).decode(errors="replace")
     except OSError:
@@ -296,7 +296,7 @@ def lines_told(trace: int) -> str:
 
 
 def _line_in(trace: str, job: Job) -> Place | None:
-    """The innermost line of a script beside the problem's file."""
+    """Return the innermost line of a script next to the problem's file."""
     for name, line in re.findall(r'^  File "(.+)", line (\d+) in ', trace, re.MULTILINE):
         file = Path(name)
         if job.file and file.parent == job.file.parent:
@@ -352,13 +352,13 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
         pipe.send((value, error))
     except MemoryError:
         pipe.send((None, MEMORY))
-    except Exception as bug:  # what cannot cross to the parent
+    except Exception as bug:  # a value that cannot be sent to the parent
         pipe.send((None, Bug(f"{type(bug).__name__}: {bug}", _short_trace(bug))))
     pipe.close()
 
 
 def confine(lifeline: int, trace: int, limit: int) -> None:
-    """Make this process a worker: it ends with its parent, takes so much memory at most, says where it is if asked."""
+    """Make this process a worker: it ends with its parent, has a memory limit, and says where it is if asked."""
     for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(signum, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
@@ -373,7 +373,7 @@ def confine(lifeline: int, trace: int, limit: int) -> None:
 
 
 def _limit_memory(limit: int) -> None:
-    """Where the system counts it, of the data of this process and of each program that it starts."""
+    """Limit the data of this process and of each program that it starts, where the system counts them."""
     with contextlib.suppress(OSError, ValueError):
         soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
         known = [each for each in (limit, soft, hard) if each != resource.RLIM_INFINITY]
@@ -381,14 +381,14 @@ def _limit_memory(limit: int) -> None:
 
 
 def told_to(trace: int, error: MemoryError | RecursionError) -> str:
-    """Which limit that is; the lines that it came through are written there."""
+    """Write the lines that the error came through, and return which limit it is."""
     with contextlib.suppress(OSError):
         os.write(trace, trail_of(error).encode()[: select.PIPE_BUF * 8])
     return MEMORY if isinstance(error, MemoryError) else TOO_DEEP
 
 
 def trail_of(error: BaseException) -> str:
-    """The lines that it came through, innermost first, as `faulthandler` writes them; of many the ends."""
+    """Return the lines that an error came through, innermost first, as `faulthandler` does; of many only the ends."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')
@@ -397,7 +397,7 @@ def trail_of(error: BaseException) -> str:
 
 
 def _short_trace(error: BaseException) -> str:
-    """Its traceback, which for a deep recursion is cut."""
+    """Return the traceback of an error, which is cut for a deep recursion."""
     return "".join(traceback.format_exception(type(error), error, error.__traceback__, limit=-60))
 
 

@@ -1,4 +1,4 @@
-"""What a command was asked about: the folder of the course, sets and problems by their names."""
+"""The subject of a command: the folder of the course, sets and problems by their names."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from derive.errors import Complaint, Misused
 
 
 def found_root(named: str | None) -> Path | None:
-    """The folder that has `problems`: as named, or here or above, or where derive is developed."""
+    """Return the folder that has `problems`: as named, or here or above, or where derive is developed."""
     asked = named or os.environ.get("DERIVE_ROOT")
     try:
         here = Path.cwd()
         candidates = [Path(asked)] if asked else [here, *here.parents, Path(FOLDER).resolve().parent]
         return next((folder.resolve() for folder in candidates if _has_problems(folder)), None)
     except FileNotFoundError:
-        message = "the folder that you are in is no more"
+        message = "the folder that you are in does not exist any more"
         raise Misused(Complaint("no-root", message, help="change to another folder")) from None
 
 
@@ -36,18 +36,18 @@ def root_of(arguments: argparse.Namespace) -> Path:
     if root is None:
         where = f"in `{arguments.root}`" if arguments.root else "here or above"
         raise Misused(
-            Complaint("no-root", f"there is no folder `problems` {where}", help="name its folder with `--root`")
+            Complaint("no-root", f"no folder `problems` was found {where}", help="name its folder with `--root`")
         )
     return root
 
 
 def problem_id_of(text: str) -> str:
-    """The id, also where a path was completed by the shell: problems/hw9/block.yaml, with a topic or without."""
+    """Return the id, also of a path that the shell completed: problems/hw9/block.yaml, with or without a topic."""
     return re.sub(r"^([^/]+)/[^/]+/([^/]+)$", r"\1/\2", new_id_of(text))
 
 
 def new_id_of(text: str) -> str:
-    """The id of a problem that there is not yet, which is in no topic."""
+    """Return the id of a problem that does not exist yet, which has no topic."""
     return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
 
 

@@ -1,4 +1,4 @@
-"""The changes of `derive diff` in words: on a terminal in colour, and always with marks that do without it."""
+"""The changes of `derive diff` in words: in colour on a terminal, and always with marks that need no colour."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from derive.building.compared_sets import ComparedSet
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 
-# Each sort with its heading, and what one and several of it are called.
+# Each sort with its heading, its singular and its plural.
 _SORTS = {
     "given": ("given", "given value", "given values"),
     "problem": ("problems", "problem", "problems"),
@@ -34,20 +34,20 @@ _SORTS = {
 _FACETS = {
     "name": "name",
     "result": "result",
-    "lines": "lines on the way",
+    "lines": "lines before the result",
     "rule": "made by",
     "outcome": "outcome",
-    "inputs": "rests on",
+    "inputs": "depends on",
     "evidence": "evidence",
 }
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
-_AROUND = 6  # words of a sentence that are shown on either side of what changed in it
-_MOST_LINES = 3  # of a step's lines on the way
+_AROUND = 6  # words of a sentence that are shown on each side of a change
+_MOST_LINES = 3  # of the lines before a step's result
 
 
 def told(problem_id: str, compared: Compared, coloured: bool) -> str:
-    """Every change under the heading of its sort; first how many there are."""
+    """Return every change under the heading of its sort, after the number of changes."""
     found = compared.changes
     if not found:
         return f"{problem_id}: nothing has changed since {compared.since}"
@@ -59,14 +59,14 @@ def told(problem_id: str, compared: Compared, coloured: bool) -> str:
 
 
 def told_of_set(set_id: str, compared: ComparedSet, coloured: bool) -> str:
-    """The set itself, and each problem that has changed."""
+    """Return the changes of the set itself, and of each problem that has changed."""
     each = {set_id: compared.own, **compared.problems}
     changed = [told(name, one, coloured) for name, one in each.items() if one.changes]
     return "\n\n".join(changed) or told(set_id, compared.own, coloured)
 
 
 def as_json(problem_id: str, compared: Compared) -> str:
-    """The same for programs."""
+    """Return the same for programs."""
     return _json(_data("problem", problem_id, compared))
 
 
@@ -85,7 +85,7 @@ def _json(data: Any) -> str:
 
 
 class _Shown:
-    """Lines of the terminal."""
+    """The changes as lines of the terminal."""
 
     def __init__(self, coloured: bool):
         self.coloured = coloured
@@ -108,7 +108,7 @@ class _Shown:
         return self._painted(f"  {_SIGNS[change.how]} {change.where}", change.how) + text
 
     def _pair(self, head: str, before: str, after: str, indent: str) -> list[str]:
-        """What it was and what it is: in one line if there is room, else one above the other for the eye."""
+        """Show the text before and after: in one line if there is room, else one below the other."""
         line = f"{head}: {before} -> {after}"
         if before and after and columns(line) <= WIDTH and "\n" not in line:
             return [f"{head}: {self._painted(before, REMOVED)} -> {self._painted(after, ADDED)}"]
@@ -142,7 +142,7 @@ class _Shown:
                 yield from self._pair(self._head(change), *result, "      ")
             else:
                 yield self._head(change)
-            if result and "lines" in facets:  # of which the result tells enough
+            if result and "lines" in facets:  # the result shows enough
                 del facets["lines"]
             for facet, (before, after) in facets.items():
                 cut = _few if facet == "lines" else str
@@ -155,7 +155,7 @@ class _Shown:
                 yield from self._filled([w for run, *ends in _ended(change.words) for w in _marked(*run, *ends)])
 
     def _filled(self, words: Sequence[tuple[str, str]]) -> Iterable[str]:
-        """Words set in lines by the room that they take, which their colours do not."""
+        """Fill lines with words by their width, without counting their colours."""
         indent, line, room = " " * 6, list[str](), WIDTH - 6
         for how, word in words:
             if columns(word) > room and line:
@@ -174,25 +174,25 @@ class _Shown:
 
 
 def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], bool, bool]]:
-    """Each run of words, and whether the sentence begins or ends with it."""
+    """Return each run of words, and whether the sentence begins or ends with it."""
     return ((run, i == 0, i == len(runs) - 1) for i, run in enumerate(runs))
 
 
 def _marked(how: str, words: str, first: bool, last: bool) -> list[tuple[str, str]]:
-    """The words of a run one by one, in the marks of `git diff --word-diff`."""
+    """Return the words of a run one by one, in the marks of `git diff --word-diff`."""
     marked = {EQUAL: _abridged(words, first, last), REMOVED: f"[-{words}-]", ADDED: f"{{+{words}+}}"}[how]
     return [(how, word) for word in marked.split(" ")]
 
 
 def _abridged(words: str, first: bool, last: bool) -> str:
-    """Of many words that stayed, those next to what changed."""
+    """Return only the unchanged words next to a change, if there are many."""
     listed = words.split(" ")
     before, after = ([] if first else listed[:_AROUND]), ([] if last else listed[-_AROUND:])
     return words if len(listed) <= len(before) + len(after) + 1 else " ".join([*before, "…", *after])
 
 
 def _few(lines: str) -> str:
-    """Of many lines the first, and how many others there are."""
+    """Return the first of many lines, and how many others there are."""
     listed = lines.splitlines()
     more = len(listed) - _MOST_LINES
     return lines if more <= 1 else "\n".join([*listed[:_MOST_LINES], f"and {more} more"])

@@ -24,7 +24,7 @@ _OF_CLAIMS = ("lines", "routes", "checks")
 
 
 def check_table(outcomes: Iterable[tuple[str, Outcome]]) -> str:
-    """A line for each problem, and what its columns count."""
+    """Return a line for each problem, and what its columns count."""
     return f"{table([HEADING, *(_row(problem, outcome) for problem, outcome in outcomes)])}\n\n{LEGEND}"
 
 

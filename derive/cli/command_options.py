@@ -14,9 +14,9 @@ SHELLS = ("bash", "zsh", "fish")
 _TIME_LIMIT = 120.0
 
 _WHERE = """\
-Print what has a shell complete names and options. It belongs in
+Print the script by which a shell completes names and options. It belongs in
   ~/.bashrc                   eval "$(derive completion bash)"
-  ~/.zshrc, behind compinit   eval "$(derive completion zsh)"
+  ~/.zshrc, after compinit    eval "$(derive completion zsh)"
   ~/.config/fish/config.fish  derive completion fish | source"""
 
 
@@ -29,7 +29,7 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
 
 
 def _new(new: argparse.ArgumentParser) -> None:
-    named(new.add_argument("id", metavar="SET/PROBLEM", help="what it shall be called; the set may be new too"), "new")
+    named(new.add_argument("id", metavar="SET/PROBLEM", help="its name; the set may be new too"), "new")
     like = new.add_argument(
         "--like",
         default="system",
@@ -45,7 +45,7 @@ def _preview(preview: argparse.ArgumentParser) -> None:
     preview.add_argument("--open", action="store_true", help="open the browser too")
     _detail(preview)
     _time_limit(preview)
-    preview.add_argument("-q", "--quiet", action="store_true", help="tell the address and what is wrong, nothing else")
+    preview.add_argument("-q", "--quiet", action="store_true", help="show the address and errors, nothing else")
 
 
 def _build(build: argparse.ArgumentParser) -> None:
@@ -106,7 +106,7 @@ def _why(why: argparse.ArgumentParser) -> None:
 def _list(listed: argparse.ArgumentParser) -> None:
     of = listed.add_argument("set", nargs="?", metavar="SET|ID", help="only those of a set; with --answers, a problem")
     named(of, "ids and sets")
-    listed.add_argument("--answers", action="store_true", help="every name that parts of a problem may ask for")
+    listed.add_argument("--answers", action="store_true", help="every name that the parts of a problem may ask for")
     named(listed.add_argument("--topic", metavar="TOPIC", help="only those of a topic, a folder in a set"), "topics")
     _time_limit(listed)
 
@@ -134,7 +134,7 @@ def _detail(command: argparse.ArgumentParser) -> None:
 
 
 def _evidence(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--evidence", choices=EVIDENCE, help="how much is told of the checks")
+    command.add_argument("--evidence", choices=EVIDENCE, help="how much is shown of the checks")
 
 
 def _engine(command: argparse.ArgumentParser) -> None:
@@ -152,8 +152,8 @@ def _text_or_json(command: argparse.ArgumentParser) -> None:
 def _jobs_and_messages(command: argparse.ArgumentParser) -> None:
     command.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
     told = command.add_mutually_exclusive_group()
-    told.add_argument("-v", "--verbose", action="store_true", help="tell each piece that is done, with its time")
-    told.add_argument("-q", "--quiet", action="store_true", help="tell what is wrong, and nothing else")
+    told.add_argument("-v", "--verbose", action="store_true", help="show each piece that is done, with its time")
+    told.add_argument("-q", "--quiet", action="store_true", help="show errors, and nothing else")
 
 
 _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
@@ -176,7 +176,7 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
 
 
 def named(action: argparse.Action, names: str) -> None:
-    """Have a shell complete it by names of the course; which they are, `derive/cli/completing.py` knows."""
+    """Have a shell complete it by names of the course; `derive/cli/completing.py` finds these names."""
 
     def completer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> Iterable[str]:
         from derive.cli.completing import offered
@@ -202,7 +202,7 @@ def _count(text: str) -> int:
 def _papers(text: str) -> tuple[str, ...]:
     papers = tuple(text.split(","))
     if odd := [paper for paper in papers if paper not in PAPERS]:
-        message = f"there is no paper `{odd[0]}`: name some of {', '.join(PAPERS)}, with commas between them"
+        message = f"`{odd[0]}` is not a document: name some of {', '.join(PAPERS)}, with commas between them"
         raise argparse.ArgumentTypeError(message)
     return papers
 

@@ -1,7 +1,7 @@
-"""What a shell completes: names of sets, problems, topics and pages by the names of their files, and steps as built.
+"""The names that a shell completes: sets, problems, topics and pages by their file names, and steps as built.
 
-A shell asks each time that somebody presses Tab, so that nothing is loaded here that derives, and no more is read than
-the page of the problem whose steps are wanted.
+A shell asks each time that you press Tab, so nothing that derives is loaded here, and only the page of the problem
+whose steps are wanted is read.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ _PAGES = (".html", ".json", ".pdf", ".svg", ".tex", ".txt")
 
 
 def offer(parser: argparse.ArgumentParser) -> None:
-    """Answer the shell that asks, and end; options are offered where a `-` begins one."""
+    """Answer the shell that asks, and end; options are offered if the word begins with `-`."""
     from argcomplete import autocomplete
 
     autocomplete(parser, always_complete_options=False)
 
 
 def offered(names: str, prefix: str, root: str | None, problem: str = "") -> list[str]:
-    """The names of a sort that begin so; none where there is no course. Steps are those of a problem."""
+    """Return the names of a sort that begin with a prefix; nothing without a course. Steps are those of a problem."""
     try:
         folder = found_root(root)
     except DeriveError:
@@ -38,11 +38,11 @@ def offered(names: str, prefix: str, root: str | None, problem: str = "") -> lis
 
 
 def _steps(root: Path, problem_id: str) -> list[str]:
-    """The keys of the steps that its page had when it was last built."""
+    """Return the keys of the steps that the problem's page had when it was last built."""
     try:
         page = json.loads((root / "build" / f"{problem_id}.json").read_bytes())
         return [str(step["key"]) for step in page["steps"]]
-    except (OSError, ValueError, LookupError, TypeError):  # it is not built, or not by us
+    except (OSError, ValueError, LookupError, TypeError):  # it is not built, or not by derive
         return []
 
 
@@ -51,7 +51,7 @@ def _sets(root: Path) -> list[str]:
 
 
 def _files(root: Path) -> list[tuple[str, ...]]:
-    """The parts of the path of each problem: set, topic if it has one, file."""
+    """Return the parts of the path of each problem: set, topic if it has one, file."""
     top = root / "problems"
     files = [file for depth in ("*/*.yaml", "*/*/*.yaml") for file in top.glob(depth)]
     return [file.relative_to(top).parts for file in files if file.stem not in _NOT_PROBLEMS]

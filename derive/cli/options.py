@@ -8,7 +8,7 @@ import os
 import sys
 from collections.abc import Container, Sequence
 
-# Each command with what it does, its operands, and an example of them.
+# Each command with its purpose, its operands, and an example of them.
 _COMMANDS = {
     "new": ("begin a problem: files that build at once", "SET/PROBLEM", "hw10/wheel --like body"),
     "preview": ("show a problem in the browser while you write it", "ID|SET", "hw9/block"),
@@ -17,12 +17,12 @@ _COMMANDS = {
     "solve": ("derive one problem and show its solution", "ID", "hw9/block --format pdf"),
     "explain": ("why a line is there, and how it was checked", "ID [STEP]", "hw9/block torque"),
     "diff": ("what an edit changed since the last build, or a revision", "ID|SET", "hw9/block --rev HEAD"),
-    "why": ("what made a page stale, and what mends it", "FILE|ID|SET", "build/hw9/block.pdf"),
+    "why": ("why a page is stale, and what to do", "FILE|ID|SET", "build/hw9/block.pdf"),
     "list": ("list the problems, or what can be asked of one", "[SET|ID]", "hw9/block --answers"),
     "schema": ("schemas by which editors complete and check", "[SORT]", "problem"),
     "clean": ("remove what builds made; what you wrote stays", "[SET ...]", "hw9 --cache"),
     "doctor": ("show what a build needs and what is missing", "", "--engine lualatex"),
-    "completion": ("print what has a shell complete names and options", "SHELL", "fish"),
+    "completion": ("print the script to complete names and options", "SHELL", "fish"),
 }
 
 _AFTERWARDS = """\
@@ -39,7 +39,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         from derive.cli.completing import offer
 
         offer(parser_of_commands())
-    gc.set_threshold(300_000)  # modules stay: to look for garbage among them took an eighth of their loading
+    gc.set_threshold(300_000)  # modules stay: the search for garbage in them took an eighth of their loading time
     try:
         from derive.cli.streams import read
 
@@ -52,7 +52,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 class _Screen(argparse.RawDescriptionHelpFormatter):
-    """Help that fits a screen: each option on a line where it can be, and commands without a heading of their own."""
+    """Help that fits a screen: each option on one line if possible, and commands without a heading of their own."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=34)
@@ -66,10 +66,10 @@ class _Screen(argparse.RawDescriptionHelpFormatter):
 
 
 def parser_of_commands(words: Container[str] | None = None) -> argparse.ArgumentParser:
-    """Every command; of those that are not among `words`, if these are given, the name and the help alone."""
+    """Return every command; if `words` are given, commands that are not among them have only a name and a help."""
     parser = argparse.ArgumentParser(
         prog="derive",
-        usage="%(prog)s [--root FOLDER] COMMAND ...   (derive COMMAND --help tells of one)",
+        usage="%(prog)s [--root FOLDER] COMMAND ...   (derive COMMAND --help explains one)",
         description="Worked solutions of mechanics problems: derived, checked line by line, typeset.",
         epilog=_AFTERWARDS,
         formatter_class=_Screen,

@@ -1,4 +1,4 @@
-"""Where the answer of a command goes: to standard output or into a file, never over what somebody wrote."""
+"""The output of a command: to standard output or into a file, never over a file written by hand."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
 
 
 def check_output(output: str | None, root: Path) -> None:
-    """Refuse before any work what `-o` should not write to: what somebody wrote by hand, and what a link stands for."""
+    """Refuse, before any work, what `-o` must not write to: a file written by hand, or the target of a link."""
     if output in (None, "-"):
         return
     path = Path(output or "")
@@ -29,34 +29,34 @@ def check_output(output: str | None, root: Path) -> None:
 
 
 def _kept_from(path: Path, root: Path) -> str:
-    """Why nothing may be written to that path; empty if it may."""
+    """Return why nothing may be written to that path; empty if it is allowed."""
     if os.path.islink(path):
-        return f"`{path}` is a link, and what it leads to is not replaced"
+        return f"`{path}` is a link, and its target is not replaced"
     by_hand = path.suffix in _WRITTEN_BY_HAND and not _is_ours(path)
     written = os.path.isfile(path) and (by_hand or _belongs_to(path, root))
-    return f"`{path}` is a file that somebody wrote, and is not replaced" if written else ""
+    return f"`{path}` is a file written by hand, and is not replaced" if written else ""
 
 
 def _is_ours(path: Path) -> bool:
-    """Whether the first line says that derive has written it."""
+    """Return whether the first line says that derive has written it."""
     with suppress(OSError), path.open("rb") as file:
         return WRITTEN.encode() in file.readline(200)
     return False
 
 
 def _belongs_to(path: Path, root: Path) -> bool:
-    """Whether a file is part of the course, or of derive."""
+    """Return whether a file is part of the course, or of derive."""
     folders = (root / "problems", root / "templates", Path(FOLDER))
     return path.name == "Makefile" or any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
 
 
 def deliver(content: bytes, output: str | None) -> None:
-    """Write what was asked for, whole or not at all where it is a file."""
+    """Write what was asked for; a file is written whole or not at all."""
     from derive.building.files import write
 
     path = Path(output or "-")
     if output in (None, "-"):
-        # Not sys.stdout.buffer, which under PYTHONUNBUFFERED may write a part and say nothing.
+        # Not sys.stdout.buffer, which under PYTHONUNBUFFERED may write a part and report no error.
         with open(1, "wb", closefd=False) as out:
             out.write(content)
     elif os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):

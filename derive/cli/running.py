@@ -1,4 +1,4 @@
-"""A command carried out; whatever stops it is told in a few lines, and is not a traceback."""
+"""The run of a command; what stops it is reported in a few lines, not as a traceback."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from derive.cli.streams import silence
 from derive.cli.terminal import complain, tell
 from derive.errors import BuildFailed, Complaint, DeriveError
 
-_REPORT = "   = help: this is a fault of derive: report it with the traceback and the files of the problem"
+_REPORT = "   = help: this is a bug in derive: report it with the traceback and the files of the problem"
 _UNWRITTEN = {errno.EBADF, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
 
-# Where each command is carried out; of them only the one that is asked for is loaded.
+# The function of each command; only the module of the command that is asked for is loaded.
 COMMANDS = {
     "list": "listing.list_problems",
     "solve": "solving.solve",
@@ -43,10 +43,10 @@ COMMANDS = {
 
 
 def exit_code(arguments: argparse.Namespace) -> int:
-    """Carry out a command; whatever stops it is told in a few lines, and is not a traceback."""
+    """Run a command; what stops it is reported in a few lines, not as a traceback."""
     try:
         for number in (signal.SIGTERM, signal.SIGHUP):
-            if signal.getsignal(number) != signal.SIG_IGN:  # as `nohup` has it
+            if signal.getsignal(number) != signal.SIG_IGN:  # as `nohup` sets it
                 signal.signal(number, _terminated)
         code = _command(arguments.command)(arguments)
         sys.stdout.flush()
@@ -58,7 +58,7 @@ def exit_code(arguments: argparse.Namespace) -> int:
         print("interrupted", file=sys.stderr)
         return 130
     except BrokenPipeError:
-        # Whoever read our output has had enough; the interpreter must not complain about it once more.
+        # The reader of our output has closed it; the interpreter must not report that again.
         silence(1)
         return 141
     except MemoryError:
@@ -89,8 +89,8 @@ def _told(error: DeriveError) -> int:
 
 
 class Ending:
-    """Whether this process was asked to end, and by which signal: what is raised in the middle of the code of a library
-    may be lost there."""
+    """Whether this process was asked to end, and by which signal: an exception raised in the middle of the code of a
+    library may be lost there."""
 
     number = 0
 

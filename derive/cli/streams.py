@@ -1,4 +1,4 @@
-"""The standard streams as a command finds them, and what is shown before any command is carried out."""
+"""The standard streams as a command finds them, and the output before any command is run."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from io import StringIO, TextIOWrapper
 
 
 def read(parse: Callable[[], argparse.Namespace]) -> argparse.Namespace:
-    """What is asked for; if that is shown at once, as the version is, it has to arrive."""
+    """Return what is asked for; if its answer is printed at once, as the version is, that has to arrive."""
     _open_streams()
     shown = StringIO()
     try:
@@ -31,7 +31,7 @@ def read(parse: Callable[[], argparse.Namespace]) -> argparse.Namespace:
 
 
 def _unwritten(error: OSError) -> int:
-    """The exit code after the message that standard output cannot be written."""
+    """Report that standard output cannot be written, and return the exit code."""
     from pathlib import Path
 
     from derive.building.files import cannot_write
@@ -43,17 +43,17 @@ def _unwritten(error: OSError) -> int:
 
 
 def silence(descriptor: int) -> None:
-    """What is still to be written there goes nowhere."""
+    """Discard what is still to be written to a descriptor."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
 
 
 def _open_streams() -> None:
-    """A standard stream that is closed stays so, but no other file may take its place and be written to."""
+    """Keep a closed standard stream closed, so that no other file takes its place and is written to."""
     for descriptor, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
         try:
             os.fstat(descriptor)
         except OSError:
-            os.open(os.devnull, mode)  # to write to the second fails, as it should
+            os.open(os.devnull, mode)  # writing to descriptor 1 fails, as it should
     sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):

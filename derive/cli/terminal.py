@@ -1,4 +1,4 @@
-"""What the command line shows: complaints in colour, one live line while something runs, aligned tables."""
+"""The output of the command line: errors in colour, one live line while work is under way, aligned tables."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from collections.abc import Iterable, Sequence
 from derive.errors import Complaint
 
 _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
-MOST = 50  # complaints that are shown
+MOST = 50  # errors that are shown
 WIDTH = 98
-_INDENT = 22  # of what is told of a fault of the source
+_INDENT = 22  # of the lines about an error of the source
 _PAINT = {"error": "1;31", "warning": "1;33", "done": "32"}
 
 
 def complain(complaints: Iterable[Complaint]) -> None:
-    """Each fault once, in its order, on standard error; of very many the first, and how many more there are."""
+    """Print each error once, in order, on standard error; of very many the first, and how many more there are."""
     coloured = in_colour()
     found = list(dict.fromkeys(complaints))
     for text in dict.fromkeys(complaint.shown() for complaint in found[:MOST]):
@@ -30,14 +30,14 @@ def complain(complaints: Iterable[Complaint]) -> None:
 
 
 def in_colour() -> bool:
-    """Whether what is told on standard error has colours: on a terminal that knows them, unless somebody says no."""
+    """Return whether standard error has colours: on a terminal that supports them, unless the user forbids it."""
     return sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
 def tell(text: str) -> None:
     """Show what is under way, over what was shown before; an empty text clears the line. Silent in a pipe.
 
-    Of a list that is too long for the line its first items are shown whole.
+    If a list is too long for the line, only its first items are shown, each of them whole.
     """
     if sys.stderr.isatty():
         width = shutil.get_terminal_size().columns - 1
@@ -47,7 +47,7 @@ def tell(text: str) -> None:
 
 
 def note(how: str, of: str, seconds: float) -> None:
-    """A line that stays, of a piece of work that is done, and how long it took where it took any time."""
+    """Print a line that stays: a piece of work that is done, and how long it took, if any time."""
     tell("")
     colour = _PAINT["error"] if how == "failed" else _PAINT["done"]
     painted = f"\x1b[{colour}m{how}\x1b[0m" if in_colour() else how
@@ -55,7 +55,7 @@ def note(how: str, of: str, seconds: float) -> None:
 
 
 def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
-    """The errata of a problem's source and the remarks on it, each with its line, what is printed there, and why."""
+    """Return the errata of a problem's source and the remarks on it, each with its line, its text, and why."""
     sorts = [sort for sort, *_ in faults]
     words = {"erratum": ("erratum", "errata"), "remark": ("remark", "remarks")}
     counts = [f"{n} {words[sort][n > 1]}" for sort in words if (n := sorts.count(sort))]
@@ -69,13 +69,13 @@ def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
 
 
 def _wrapped(text: str, before: str) -> list[str]:
-    """Text of a file, never cut off, for a slip may stand at its end, and without what a terminal would obey."""
+    """Wrap text of a file: whole, because a slip may be at its end, and without codes that a terminal obeys."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return textwrap.wrap(plain, WIDTH, initial_indent=before, subsequent_indent=" " * _INDENT) or [before.rstrip()]
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:
-    """Columns aligned: words to the left, numbers to the right; the first row is the heading."""
+    """Return aligned columns: words to the left, numbers to the right; the first row is the heading."""
     columns = list(zip(*rows, strict=True))
     numeric = [all(re.fullmatch(r"[\d.]*", cell) for cell in column[1:]) for column in columns]
     widths = [max(map(len, column)) for column in columns]

@@ -1,8 +1,8 @@
-"""Values under construction: what a reader of mathematics knows of each part, and what it checks when parts meet.
+"""Values under construction: what a reader of mathematics records about each part, and checks when it combines parts.
 
-Both readers, of plain expressions and of LaTeX, build their values here: dimensions must fit, nothing is divided by
-zero, and what would grow too large is refused before it is worked out. `size` bounds digits and degrees, `terms` what
-a value would be when multiplied out.
+Both readers, of plain expressions and of LaTeX, build their values here. Dimensions must agree, nothing is divided by
+zero, and a value that would be too large is refused before it is computed. `size` bounds digits and degrees; `terms`
+bounds the number of terms after multiplying out.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ MAX_EXP_ARGUMENT = 100
 
 @dataclass(frozen=True)
 class Declared:
-    """A symbol that the file declares, of what kind it is, and between which numbers it lies."""
+    """A symbol that the file declares, its kind, and the range in which it lies."""
 
     name: str
     symbol: Symbol
@@ -44,7 +44,7 @@ class Declared:
 
 @dataclass(frozen=True)
 class Term:
-    """A value under construction: what it is, where it stands, and how large it could become."""
+    """A value under construction: its expression, its place in the text, and how large it could become."""
 
     expr: Expr
     dimension: Dimension
@@ -64,7 +64,7 @@ class Term:
 
 
 class Arithmetic:
-    """The operations of a reader on terms of one text; each refuses, at its place, what cannot be meant."""
+    """The operations of a reader on terms of one text; each refuses, at its place, what has no meaning."""
 
     max_terms = MAX_TERMS
 
@@ -112,7 +112,7 @@ class Arithmetic:
         return replace(term, expr=1 / term.expr, dimension=NUMBER / term.dimension)
 
     def raised(self, base: Term, exponent: Term) -> Term:
-        """The power, once it is known to be small; `9**9**9` ends here before it is worked out."""
+        """Return the power, after a check that it is small; `9**9**9` is refused here before it is computed."""
         number = exponent.expr
         if not number.is_number and exponent.dimension == NUMBER:
             return self._raised_to_letters(base, exponent)
@@ -133,19 +133,19 @@ class Arithmetic:
         return self.real(replace(term, dimension=base.dimension ** fraction(number), kind=None))
 
     def _raised_to_letters(self, base: Term, exponent: Term) -> Term:
-        """(r/a)**n: a power that depends on letters is one of a positive number."""
+        """Return a power such as (r/a)**n: if the exponent has letters, the base must be a positive number."""
         if base.dimension != NUMBER:
-            message = f"`{self.shown(base)}` is {base.is_a}, and `{self.shown(exponent)}` may be any exponent"
-            self.refuse("dimension", f"{message}: raise a number, such as `(r/a)**n`", base.start, exponent.end)
+            message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a base that is a number"
+            self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)
         if not base.expr.is_positive:
-            message = f"`{self.shown(base)}` may be negative, so that it has no power `{self.shown(exponent)}`"
+            message = f"`{self.shown(base)}` may be negative, so it cannot be raised to `{self.shown(exponent)}`"
             self.refuse("expression", message, base.start, base.end)
         size = base.size + exponent.size
         self.bound(base.start, exponent.end, size, base.terms)
         return Term(base.expr**exponent.expr, NUMBER, base.start, exponent.end, size, base.terms)
 
     def applied(self, name: str, function: Callable[[Expr], Expr], inner: Term, start: int, end: int) -> Term:
-        """A function of a number or an angle, or the root of anything."""
+        """Apply a function to a number or an angle, or take the root of any quantity."""
         if name == "sqrt":
             root = replace(inner, dimension=inner.dimension ** fraction(Rational(1, 2)))
         elif inner.dimension != NUMBER:
@@ -179,7 +179,7 @@ class Arithmetic:
 
 
 def rational(text: str) -> Rational:
-    """A decimal number exactly: `1.5` is 3/2, `1e-3` is 1/1000."""
+    """Convert a decimal number exactly: `1.5` is 3/2, `1e-3` is 1/1000."""
     digits, _, power = text.lower().partition("e")
     whole, _, places = digits.partition(".")
     return Rational(int((whole + places) or 0)) * Integer(10) ** (int(power or 0) - len(places))

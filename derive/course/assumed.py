@@ -1,4 +1,4 @@
-"""`assume:` of a description: relations between its letters, `l < r_0`, `a < b < c`, read, and checked together."""
+"""The key `assume:` of a description: relations between its letters, such as `a < b < c`, read and checked together."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _MARK = re.compile(r"<=|>=|[<>=≤≥!]+")
 
 @dataclass(frozen=True)
 class Assumed:
-    """One relation, and where it is written."""
+    """One relation, and the place where it is written."""
 
     relation: Relation
     written: str
@@ -32,10 +32,10 @@ class Assumed:
 
 
 def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[str]) -> list[Assumed]:
-    """The relations of one entry; of a chain each with its neighbour.
+    """Return the relations of one entry; a chain gives one relation for each pair of neighbours.
 
-    constant   the letters that a relation may hold
-    moving     coordinates and rates, of which a relation would not hold all the time
+    constant   the letters that a relation may contain
+    moving     coordinates and rates: a relation about them would not hold at all times
     """
     if not isinstance(node, Scalar) or node.empty:
         rejected("wrong-type", "`assume` needs a list of relations between letters", node.place, EXAMPLE)
@@ -45,11 +45,11 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
     for mark in marks:
         if mark[0] not in {"<", "<=", ">", ">="}:
             place = node.place_within(mark.start(), mark.end() - mark.start())
-            equal = "; letters are put equal by `put_in`" if mark[0] in {"=", "=="} else ""
+            equal = "; to set letters equal, use `put_in`" if mark[0] in {"=", "=="} else ""
             help_line = f"the marks are `<`, `<=`, `>` and `>=`{equal}"
-            rejected("relation", f"`{mark[0]}` is not a mark of an order", place, help_line)
+            rejected("relation", f"`{mark[0]}` is not an order relation", place, help_line)
     if len({mark[0][0] for mark in marks}) > 1:
-        rejected("relation", f"`{node.text.strip()}` turns round on its way", node.place, "write two relations")
+        rejected("relation", f"`{node.text.strip()}` changes its direction", node.place, "write two relations")
     ends = [0, *(at for mark in marks for at in mark.span()), len(node.text)]
     pieces = [node.piece(first, last - first) for first, last in zip(ends[::2], ends[1::2], strict=True)]
     sides = [_side(piece, constant, {*moving}) for piece in pieces]
@@ -73,7 +73,7 @@ def _side(piece: Scalar, constant: Mapping[str, Declared], moving: set[str]) -> 
 
 
 def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict[Symbol, Range]:
-    """The ranges of letters, with those relations that bound a letter by a number."""
+    """Return the ranges of letters, narrowed by those relations that bound a letter by a number."""
     found = dict(ranges)
     for each in assumed:
         bound = _bound(each.relation)
@@ -84,7 +84,7 @@ def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict
 
 
 def _bound(relation: Relation) -> tuple[Symbol, Expr, bool, bool] | None:
-    """A letter, the number that bounds it, whether from above, and whether it may have it."""
+    """Return a letter, the number that bounds it, whether from above, and whether the letter may equal it."""
     (left, right), less = relation.sides, relation.mark[0] == "<"
     closed = relation.mark.endswith("=")
     if isinstance(left, Symbol) and right.is_number:
@@ -104,7 +104,7 @@ def _cut(known: Range, number: Expr, above: bool, closed: bool) -> Range:
 def order_of(
     assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], wrong: Callable[[Assumed], None] = lambda each: None
 ) -> Order:
-    """What all relations together say; each that contradicts those before it is handed to `wrong`."""
+    """Combine all relations into one order; call `wrong` with each relation that contradicts those before it."""
     order = Order()
     with within(ranges):
         for each in assumed:
@@ -121,11 +121,11 @@ def order_of(
 def check_assumed(
     assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], numbers: Mapping[Symbol, Expr], faults: Faults
 ) -> None:
-    """Whether the relations can hold together, in the ranges of their letters, and for their numbers."""
+    """Check that the relations can hold together, within the ranges of their letters and for their numbers."""
 
     def contradicts(each: Assumed) -> None:
-        message = f"`{each.written}` contradicts what is known of these letters"
-        help_line = "look at the other relations, at the ranges under `symbols`, and at which kinds are positive"
+        message = f"`{each.written}` contradicts what is known about these letters"
+        help_line = "check the other relations, the ranges under `symbols`, and which kinds are positive"
         faults.error("contradiction", message, each.place, help=help_line)
 
     known = narrowed(ranges, [])
@@ -140,7 +140,7 @@ def check_assumed(
         relation = each.relation
         apart = relation.residual.xreplace(dict(numbers))
         if apart.is_number and not _is_so(relation.mark, apart):
-            message = f"`{each.written}` is not true of the numbers that are given"
+            message = f"`{each.written}` is not true for the given numbers"
             faults.error("contradiction", message, each.place, help="change the numbers or the relation")
 
 

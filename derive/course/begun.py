@@ -1,7 +1,7 @@
-"""A first problem for an instructor: files that build at once, begun from a pattern or from a problem that there is.
+"""A new problem for an instructor: files that build at once, begun from a pattern or from an existing problem.
 
-Nothing that somebody wrote is lost: a file that is there is never written over, and of a set's own file only the list
-of its problems grows by one line.
+No work of the author is lost: an existing file is never overwritten, and an existing set's file only gains one line in
+its list of problems.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
 
 
 def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str) -> dict[str, str]:
-    """What would be written for a new problem, by path from the root; raises `Misused` with what stands against it.
+    """Return the files of a new problem, by path from the root; raise `Misused` if they cannot be written.
 
     templates   the folder of patterns
     schemas     the folder of schemas for editors
@@ -42,7 +42,7 @@ def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str
     if script:
         files[f"{folder}/{written_for}"] = script
     if taken := next((path for path in files if (root / path).exists()), None):
-        raise Misused(Complaint("exists", f"there is a file `{taken}` already", help="choose another name"))
+        raise Misused(Complaint("exists", f"the file `{taken}` already exists", help="choose another name"))
     files[f"{folder}/set.yaml"] = _with_problem(root, f"{folder}/set.yaml", set_id, name)
     return files
 
@@ -50,23 +50,23 @@ def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str
 def _check_names(root: Path, set_id: str, name: str) -> None:
     if not NAME.fullmatch(set_id) or not NAME.fullmatch(name):
         help_line = "such as `hw10/wheel`: letters, digits, `-` and `_`"
-        message = f"`{set_id}{'/' if name else ''}{name}` is no name of a set and a problem"
+        message = f"`{set_id}{'/' if name else ''}{name}` is not a valid name of a set and a problem"
         raise Misused(Complaint("new-name", message, help=help_line))
     if name in (*PAPERS, INDEX, "set", "reference"):
-        message = f"a problem cannot be called `{name}`, for another file of the set has that name"
+        message = f"a problem cannot be called `{name}`, because another file of the set has that name"
         raise Misused(Complaint("new-name", message, help="choose another name"))
 
 
 def _pattern(templates: Path, like: str) -> tuple[str, str]:
     if like not in PATTERNS:
-        help_line = did_you_mean(like, PATTERNS) or f"like {', '.join(PATTERNS)}, or a problem such as `hw9/top`"
-        raise Misused(Complaint("new-like", f"there is no pattern `{like}`", help=help_line))
+        help_line = did_you_mean(like, PATTERNS) or f"use {', '.join(PATTERNS)}, or a problem such as `hw9/top`"
+        raise Misused(Complaint("new-like", f"`{like}` is not a pattern", help=help_line))
     script = templates / "new" / f"{like}.py"
     return _read(templates / "new" / f"{like}.yaml"), _read(script) if script.is_file() else ""
 
 
 def _copied(root: Path, like: str) -> tuple[str, str]:
-    """A problem and its script; what it says of other problems of its set is said in words."""
+    """Return a problem and its script; references to other problems of its set become words."""
     file = root / path_of(root, like)
     text = re.sub(r"\A# yaml-language-server:.*\n", "", _read(file))
     heading = problem_set(root, like.partition("/")[0])
@@ -80,7 +80,7 @@ def _copied(root: Path, like: str) -> tuple[str, str]:
 
 
 def _with_problem(root: Path, path: str, set_id: str, name: str) -> str:
-    """The file of a set with one problem more, or that of a new set."""
+    """Return the file of a set with one more problem, or the file of a new set."""
     file = root / path
     if not file.is_file():
         return f"{NEW_SET.format(set_id)}  - {name}\n"

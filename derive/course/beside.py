@@ -1,4 +1,4 @@
-"""The modules in a script's folder that it imports: found there while it runs, and read anew each time."""
+"""The modules that a script imports from its own folder: found there while it runs, and read again each time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def modules_beside(script: Path) -> tuple[Path, ...]:
-    """Those that it imports, and those that they import; each file of a package."""
+    """Return the modules that the script imports, and those that they import; for a package, each of its files."""
     found: set[Path] = set()
     waiting = [script]
     while waiting:
@@ -24,7 +24,7 @@ def modules_beside(script: Path) -> tuple[Path, ...]:
 
 @contextmanager
 def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
-    """Its folder is looked in last, so that no problem stands in for a package; behind it, nothing is left of them."""
+    """Search the script's folder last, so that no problem hides an installed package; afterwards forget its modules."""
     if not modules:
         yield
         return
@@ -44,7 +44,7 @@ def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
 
 
 def _imported(file: Path) -> set[str]:
-    """The first words of what a file imports; nothing of one that is not Python, which is told where it is run."""
+    """Return the first words of what a file imports; nothing if it is not Python, which is reported where it is run."""
     try:
         nodes = [*ast.walk(ast.parse(file.read_bytes()))]
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):

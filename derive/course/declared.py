@@ -1,4 +1,4 @@
-"""Letters as a file declares them: a kind, and the range in which one lies."""
+"""Letters as a file declares them: a kind, and the range in which the letter lies."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ _RANGE = re.compile(r"\s*([\[(])([^,]+),([^,]+)([\])])\s*")
 
 
 def read_range(name: str, node: Scalar, kind: str, signed: bool = False) -> Range:
-    """Between which numbers a letter lies: `(0, pi/2)`, `[0, 90 deg]`, `(0, infinity)`.
+    """Read the range in which a letter lies: `(0, pi/2)`, `[0, 90 deg]`, `(0, infinity)`.
 
-    `signed` says that it may be negative though it is of a kind that is else positive, as a coordinate may.
+    `signed` means that the letter may be negative although its kind is otherwise positive, as for a coordinate.
     """
     found = _RANGE.fullmatch(node.text)
     if not found:
-        message = f"`{abridged(node.text)}` is no range in which `{name}` could lie"
-        rejected("range", message, node.place, "write `in (0, pi/2)`, or `in [0, pi/2]` with its ends")
+        message = f"`{abridged(node.text)}` is not a range for `{name}`"
+        rejected("range", message, node.place, "write `in (0, pi/2)`, or `in [0, pi/2]` to include its ends")
     least, greatest = (_end(name, node.piece(found.start(i), found.end(i) - found.start(i)), kind) for i in (2, 3))
     if least == -oo and found[1] == "[" or greatest == oo and found[4] == "]":
-        rejected("range", f"`{name}` cannot be infinite", node.place, "write `(0, infinity)`, without that end")
+        rejected("range", f"`{name}` cannot be infinite", node.place, "exclude that end, as in `(0, infinity)`")
     if not (greatest - least).is_extended_positive:
         rejected("range", f"nothing lies between {least} and {greatest}", node.place)
     if about_kind(kind).positive and not about_kind(kind).signed and not signed and least.is_negative:
@@ -76,7 +76,7 @@ def declared_letters(kinds: Table[Word, SortOfLetter], faults: Faults) -> dict[s
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """What is said of the values of a letter beside its kind."""
+    """Return the range that a declaration states in addition to its kind."""
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort)

@@ -1,4 +1,4 @@
-"""JSON schemas of the files that an instructor writes, by which editors complete and check them."""
+"""JSON schemas of the files that an instructor writes; editors use them to complete and check these files."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from derive.course.written import SCRIPT, ProblemKeys
 
 
 def problem_schema() -> str:
-    """Of a problem's file; what may stand under `given:` goes by the script of the engine that it names."""
+    """Return the schema of a problem's file; the keys allowed under `given:` depend on the engine's script it names."""
     schema = object_schema(ProblemKeys)
     schema["properties"]["solve"] |= {"anyOf": [{"enum": list(stock_names())}, {"pattern": f"^{SCRIPT.pattern}$"}]}
     schema["properties"]["reference"] |= {**object_schema(OwnKeys), "type": ["object", LEFT_EMPTY]}
@@ -24,12 +24,12 @@ def problem_schema() -> str:
 
 
 def set_schema() -> str:
-    """Of a set's own file."""
+    """Return the schema of a set's own file."""
     return schema_for_editors("A set of problems", object_schema(SetKeys))
 
 
 def reference_schema() -> str:
-    """Of what a document states about the problems of a set."""
+    """Return the schema of what a document states about the problems of a set."""
     items = {"anyOf": [object_schema(DocumentKeys), object_schema(GroupKeys)]}
     groups = {"type": "array", "items": items, "minItems": 1}
     return schema_for_editors("What a document states", groups)
@@ -43,7 +43,7 @@ SCHEMAS = {
 
 
 def schema_folder(root: Path) -> Path:
-    """Where the schemas of a course lie: with its templates if it has its own, else with its problems."""
+    """Return the folder of a course's schemas: with its templates if it has its own, else with its problems."""
     return root / "templates" if (root / "templates").is_dir() else root / "problems" / "schemas"
 
 

@@ -5,11 +5,11 @@
     unary    ("-" | "+") unary | atom ("**" unary)?
     atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
 
-A number may have the unit of an angle behind it, `sin(30 deg)`; one with another unit goes behind a letter, where the
-reader of the file has letters for numbers.
+A number may be followed by the unit of an angle, `sin(30 deg)`. A number with another unit is replaced by a letter, if
+the reader of the file has letters for numbers.
 
-Every character is accounted for by the grammar; no text ever reaches Python or SymPy as code. What is built is bounded
-before it is built: `size` bounds digits and degrees, `terms` what it would be when multiplied out.
+Every character is accounted for by the grammar; no text ever reaches Python or SymPy as code. Every value is bounded
+before it is built: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
 """
 
 from __future__ import annotations
@@ -82,15 +82,15 @@ class _Token:
 def read_expression(
     scalar: Scalar, symbols: Mapping[str, Declared], letter_for: LetterFor | None = None
 ) -> tuple[Expr, Dimension]:
-    """The value and dimension of an expression in the declared symbols, or `Rejected` with what is wrong with it.
+    """Return the value and dimension of an expression in the declared symbols, or raise `Rejected` with what is wrong.
 
-    letter_for   finds the letter behind which a number with its unit goes
+    letter_for   finds the letter that replaces a number with its unit
     """
     return _Parser(scalar, symbols, letter_for).whole()
 
 
 def names_in(scalar: Scalar) -> list[Word]:
-    """The names in an expression that have no meaning of their own, each with its place, before anything is read."""
+    """Return the names in an expression that are not reserved, each with its place, before anything is read."""
     names = (m for m in _TOKEN.finditer(scalar.text) if m.lastgroup == "name" and m[0] not in RESERVED)
     return [scalar.piece(m.start(), m.end() - m.start()).word for m in names]
 
@@ -104,7 +104,7 @@ class _Parser(Arithmetic):
         if not self.text.strip():
             self.refuse("expression", "an expression is missing", 0)
         if len(self.text) > LONGEST_EXPRESSION:
-            message = f"this expression has {len(self.text)} characters, and {LONGEST_EXPRESSION} are allowed"
+            message = f"this expression has {len(self.text)} characters, but only {LONGEST_EXPRESSION} are allowed"
             self.refuse("too-large", message, 0)
         found = [_Token(str(m.lastgroup), m[0], m.start()) for m in _TOKEN.finditer(self.text)]
         self.tokens = [token for token in found if token.kind != "space"]
@@ -114,7 +114,7 @@ class _Parser(Arithmetic):
     # -- words ----------------------------------------------------------------------------------------------------
 
     def check_vocabulary(self) -> None:
-        """Every undeclared name at once; a character or call that has no meaning here ends the list."""
+        """Report every undeclared name at once; stop at a character or call that has no meaning here."""
         faults = Faults()
         pairs = zip(self.tokens, self.tokens[1:], strict=False)
         measured = {unit.start for number, unit in pairs if self.is_measured(number, unit)}
@@ -133,7 +133,7 @@ class _Parser(Arithmetic):
         faults.stop()
 
     def is_measured(self, number: _Token, unit: _Token) -> bool:
-        """Whether a number has its unit behind it, and not a letter: `30 deg`."""
+        """Return whether a number is followed by its unit and not by a letter: `30 deg`."""
         is_unit = unit.text not in self.symbols and unit.text.replace("°", "deg") in UNIT_NAMES
         return number.kind == "number" and unit.kind == "name" and is_unit
 
@@ -166,7 +166,7 @@ class _Parser(Arithmetic):
         return self.tokens[self.at]
 
     def taken(self, *texts: str) -> str | None:
-        """The operator that stands here, if it is one of these, and step past it."""
+        """Return the operator at this position if it is one of these, and step past it."""
         if self.token.text not in texts:
             return None
         self.at += 1
@@ -229,7 +229,7 @@ class _Parser(Arithmetic):
         self.refuse("expression", f"something is missing {found}", token.start, token.end)
 
     def measured(self, number: _Token) -> Term:
-        """A number with its unit: that of an angle is exact, any other number goes behind a letter."""
+        """Read a number with its unit: an angle is exact, any other number is replaced by a letter."""
         start, end = number.start, self.token.end
         self.at += 1
         piece = self.scalar.piece(start, end - start)

@@ -1,4 +1,4 @@
-"""How what a problem gives becomes a checked value of the kind that its script's `solve()` asks for.
+"""How a given of a problem becomes a checked value of the kind that its script's `solve()` asks for.
 
 A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. To a type checker `Mass` is a SymPy `Expr`. A number
 with a unit becomes a symbol that remembers its number (`Measured`), so the derivation stays symbolic to its end.
@@ -39,7 +39,7 @@ DIRECTION_NAMES = ("diagonal", "x", "y", "z")
 
 @dataclass(frozen=True)
 class Measured:
-    """A number put in at the end: 900 rpm for omega, which is exactly 30*pi in the SI; `place` is where it stands."""
+    """A number substituted at the end: 900 rpm for omega, exactly 30*pi in the SI; `place` is where it is written."""
 
     symbol: Symbol
     number: Rational
@@ -49,15 +49,15 @@ class Measured:
 
     @property
     def factor(self) -> Expr:
-        """What one of its unit is in the SI; unlike `si / number` it is there for a zero too."""
+        """The size of its unit in the SI; unlike `si / number`, it exists for a zero too."""
         return read_unit(self.unit).factor if self.unit else Integer(1)
 
 
 @dataclass(frozen=True)
 class Given:
-    """One key of `given:`: what goes to `solve()`, the numbers behind its letters, and its word if it is one.
+    """One key of `given:`: the argument of `solve()`, the numbers behind its letters, and its word if it is one.
 
-    A value that is used exactly, such as pi/4, is `written` as it was given, 45 deg.
+    For a value that is used exactly, such as pi/4, `written` is the form in which it was given, 45 deg.
     """
 
     name: str
@@ -69,14 +69,14 @@ class Given:
 
     @property
     def letters(self) -> list[Symbol]:
-        """Those of its value, in the order of its entries."""
+        """The letters of its value, in the order of its entries."""
         value = self.value.components or () if isinstance(self.value, Direction) else self.value
         entries = value if isinstance(value, tuple) else (value,)
         return [s for entry in entries for s in sorted(entry.free_symbols, key=str) if isinstance(s, Symbol)]
 
 
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
-    """What a declared letter is in expressions: `t` is the time itself, any other letter of its kind a duration."""
+    """Return the symbol of a declared letter: `t` is the time itself, any other letter of its kind a duration."""
     if name == TIME.name and kind == "time":
         return TIME
     if about_kind(kind).positive or lies is not None and lies.is_above_zero:
@@ -94,10 +94,10 @@ def read_givens(
     used: Iterable[str] = (),
     numbers: Mapping[Symbol, Expr] | None = None,
 ) -> tuple[tuple[Given, ...], dict[str, Declared]]:
-    """The givens in the order of `nodes`, and all symbols, with those that were introduced for numbers.
+    """Return the givens in the order of `nodes`, and all symbols, including those that were introduced for numbers.
 
-    `notes` says for each name where `solve()` asks for it; `used` are symbols that already have a number.
-    `numbers` are those numbers, in the SI: a value that they make negative is refused where it must be positive.
+    `notes` states for each name where `solve()` asks for it; `used` are symbols that already have a number.
+    `numbers` are those numbers, in the SI: a value that must be positive is refused if they make it negative.
     """
     read: dict[str, tuple[Expr | Number, ...] | Direction] = {}
     for name, node in nodes.items():
@@ -114,13 +114,13 @@ def read_givens(
 
 
 def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Measured:
-    """An entry of `values:`: a number, with its unit, for a declared symbol."""
+    """Read an entry of `values:`: a number, with its unit, for a declared symbol."""
     declared = symbols.get(name)
     if declared is None:
         help_line = did_you_mean(name, symbols) or "declare it under `symbols:`"
         rejected("undeclared-symbol", f"`{name}` is not declared", name.place, help_line)
     if declared.symbol == TIME:
-        rejected("time", "`t` is the time, which passes: it has no number", name.place, "use another letter: `t_1`")
+        rejected("time", "`t` is the time, so it cannot have a number", name.place, "use another letter: `t_1`")
     wanted = Wanted(str(name), declared.kind)
     scalar = _scalar(node, wanted, name.place)
     value = _value(scalar, wanted, symbols)
@@ -135,7 +135,7 @@ def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Me
 
 
 def read_numbers(written: Mapping[Word, Tree], symbols: Mapping[str, Declared], faults: Faults) -> tuple[Measured, ...]:
-    """The numbers of `values:`, or of one of the cases of a plot."""
+    """Read the numbers of `values:`, or of one of the cases of a plot."""
     found = []
     for name, value in written.items():
         with faults:
@@ -144,7 +144,7 @@ def read_numbers(written: Mapping[Word, Tree], symbols: Mapping[str, Declared], 
 
 
 def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
-    """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
+    """Read an expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
     wanted = Wanted(name, kind, notes)
     value = _value(_scalar(node, wanted), wanted, symbols)
     return value.si if isinstance(value, Number) else value
@@ -191,7 +191,7 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
 
 
 def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
-    """A scalar as an expression, or as a number with its unit; its kind and its sign are checked."""
+    """Read a scalar as an expression, or as a number with its unit; check its kind and its sign."""
     if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
         point = f"{comma[1]}.{comma[2]}{comma[3]}"
         wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
@@ -217,7 +217,7 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
 
 
 def _check_sign(value: Expr, scalar: Scalar, wanted: Wanted) -> None:
-    """Refused when it is known to be wrong, by itself or with the numbers known; `a - b` may well be positive."""
+    """Refuse a sign that is known to be wrong, by itself or with the known numbers; `a - b` may well be positive."""
     text = " ".join(scalar.text.split())
     value = value.xreplace(dict(wanted.numbers))
     if about_kind(wanted.kind).positive and not about_kind(wanted.kind).signed and value.is_nonpositive:
@@ -240,7 +240,7 @@ def _direction(node: Tree, wanted: Wanted, symbols: Mapping[str, Declared]) -> D
     if isinstance(node, Scalar) and not node.empty:
         if node.text not in DIRECTION_NAMES:
             help_line = did_you_mean(node.text, DIRECTION_NAMES) or f"the names are {names}"
-            message = f"`{wanted.name}` must be a direction, but {shape_of(node)} names none"
+            message = f"`{wanted.name}` must be a direction, but {shape_of(node)} is not one"
             wanted.refuse("wrong-kind", message, node.place, help_line)
         return Direction(node.text)
     items = _three(node, wanted, "a direction or 3 components", f"write {names}, or `[1, 1, 0]`")
@@ -276,9 +276,9 @@ def _names_in(values: Iterable[tuple[Expr | Number, ...] | Direction]) -> set[st
 
 
 class NumbersAsLetters:
-    """The letters behind which the numbers of a description go, so that its derivation stays symbolic.
+    """The letters that replace the numbers of a description, so that its derivation stays symbolic.
 
-    Equal numbers of a kind have one letter.
+    Equal numbers of a kind share one letter.
     """
 
     def __init__(self, symbols: Mapping[str, Declared]):
@@ -287,7 +287,7 @@ class NumbersAsLetters:
         self.measured: list[Measured] = []
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
-        """The letter, or an exact angle, of a number with its unit, one `of` several; nothing for an expression."""
+        """Return the letter, or exact angle, of a number with its unit, one `of` several; nothing for an expression."""
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
@@ -301,21 +301,21 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """How a script asks for one of that kind, or of so many: by its usual letters."""
+    """Return how a script asks for one value of that kind, or for that many: by its usual letters."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))
 
 
 class _LettersForNumbers:
-    """Finds a letter for a number: one declared for its kind and not yet used, else a usual one that is free."""
+    """Finds a letter for a number: an unused one that is declared for its kind, else a usual one that is free."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
         self.symbols = dict(symbols)
         self.used = used
 
     def letter(self, kind: Asked, size: Expr, scalar: Scalar) -> Symbol:
-        """That of a size, which was written so and lies where the letter is declared to lie."""
+        """Return the letter for a size, after a check that the size, as written, lies in the letter's range."""
         taken = {*self.used, TIME.name}
         declared = (d for d in self.symbols.values() if d.kind == kind.each and d.name not in taken)
         chosen = next(declared, None)
@@ -366,13 +366,13 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
 
 
 def _is_exact_angle(angle: Expr) -> bool:
-    """30, 45, 60, 90 degrees and their multiples, whose sines are single roots; not 0, which has no unit to show."""
+    """Return whether the angle is a multiple of 30 or 45 degrees: its sine is a single root. 0 has no unit to show."""
     parts = angle / pi
     return bool(parts.is_Rational and parts != 0 and (4 * parts).is_Integer | (6 * parts).is_Integer)
 
 
 def _common_measure(value: tuple[Expr | Number, ...]) -> Number | None:
-    """The smallest of several positive numbers, if all of them are small whole multiples of it."""
+    """Return the smallest of several positive numbers, if all of them are small whole multiples of it."""
     numbers = [entry for entry in value if isinstance(entry, Number) and entry.number > 0]
     if len(numbers) < len(value):
         return None

@@ -1,4 +1,4 @@
-"""A number with its unit as a file has it, and what it is read for."""
+"""Numbers with units as written in a file, and what each of them is read for."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NUMBER_UNIT = re.compile(
 
 @dataclass(frozen=True)
 class Number:
-    """A number with its unit, before it has a letter, and how it is written."""
+    """A number with its unit, before it has a letter, and its text in the file."""
 
     number: Rational
     unit: str
@@ -35,7 +35,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is being read, for messages: its name, its kind, and where `solve()` asks for it."""
+    """The value that is being read, for messages: its name, its kind, and where `solve()` asks for it."""
 
     name: str
     kind: str
@@ -57,7 +57,7 @@ class Wanted:
 
 
 def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Number | None:
-    """`1.5 kg`; nothing if the text is an expression."""
+    """Read a number with its unit, `1.5 kg`; return nothing if the text is an expression."""
     match = _NUMBER_UNIT.fullmatch(scalar.text)
     if not match or not match["unit"].strip() or len(scalar.text) > 80:
         return None
@@ -85,8 +85,8 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
 
 
 def is_more_than_unit(text: str, symbols: Mapping[str, Declared]) -> bool:
-    """Whether a number goes on as an expression: `3 cm*sin(phi)`, `2 m + a`."""
-    names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first is that of the unit
+    """Return whether a number continues as an expression: `3 cm*sin(phi)`, `2 m + a`."""
+    names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first is the unit
     return any(name in RESERVED or name in symbols and name not in UNIT_NAMES for name in names)
 
 
@@ -96,7 +96,7 @@ def _ten_power(number: str) -> int:
 
 
 def check_range(declared: Declared, size: Expr, scalar: Scalar) -> None:
-    """A number for a letter, as it is written, lies where the letter is declared to lie."""
+    """Check that a number for a letter, as written, lies in the declared range of the letter."""
     if declared.lies and not declared.lies.holds(size):
         text = " ".join(scalar.text.split())
         message = f"`{declared.name}` is declared to lie in {declared.lies.written}, but `{text}` does not"

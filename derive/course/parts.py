@@ -45,7 +45,7 @@ def _points(node: Tree, name: str, faults: Faults) -> Fraction | None:
 
 
 def _units(node: Tree, name: str, faults: Faults) -> tuple[Word, ...]:
-    """One unit, or a list of them: `rpm`, `[rad/s, rpm]`."""
+    """Read one unit, or a list of them: `rpm`, `[rad/s, rpm]`."""
     items = node.items if isinstance(node, Sequence) else (node,)
     if not items or any(not isinstance(item, Scalar) for item in items):
         wrong_type(faults, f"`{name}`", "a unit", node)
@@ -87,7 +87,7 @@ KEY_OF_STEP = {"type": ["string", "boolean"], "pattern": f"^{_STEP_KEY.pattern}$
 
 @dataclass(frozen=True)
 class AnswerForm(Record):
-    """How a number is to be given, in one unit or in several; nothing leaves it to the problem."""
+    """The form in which a number is to be given, in one unit or in several; the problem decides what is left out."""
 
     units: tuple[Word, ...] = key(
         "unit of the number, such as `degree` or `N m`, or a list of units",
@@ -102,7 +102,7 @@ _FORM_BY_ANSWER = mapping_of(_FORM, _FORM_IS)
 
 
 def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm]:
-    """The form of every answer, under `None`, or forms by the answer's key."""
+    """Return the form of every answer, under `None`, or forms by the answer's key."""
     if not isinstance(node, Mapping):
         wrong_type(faults, f"`{name}`", _FORM_IS, node)
         return {}
@@ -124,10 +124,10 @@ class Question(Record):
     )
     points: Fraction | None = key("points of this part", POINTS)
     extra: bool = key(
-        "`true` where the part asks for more than the source does; it carries no points and is marked", YES_OR_NO
+        "`true` if the part asks for more than the source does; it carries no points and is marked", YES_OR_NO
     )
     detail: Level = key(
-        "`full` or `standard`: an extra part that only pages of that detail show; its steps are derived all the same",
+        "`full` or `standard`: an extra part that only pages of that detail show; its steps are always derived",
         DETAIL,
     )
     forms: Table[str | None, AnswerForm] = key(
@@ -139,7 +139,7 @@ class Question(Record):
     rubric: dict[Word, Fraction] = key(
         "points of some of its steps, by the key of the step; the rest is shared among the others", mapping_of(POINTS)
     )
-    cases: Word | None = key("a plot of `drawings:`, for each of whose `cases:` the answers get their numbers", TEXT)
+    cases: Word | None = key("a plot of `drawings:`; the answers get numbers for each of its `cases:`", TEXT)
 
     def form_of(self, answer: str) -> AnswerForm:
         return self.forms.get(answer) or self.forms.get(None) or AnswerForm({}, {})
@@ -160,11 +160,11 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
         part = replace(part, points=None)
     if part and (said := sum(part.rubric.values(), Fraction(0))) > (part.points or 0):
         has = f"has {points_text(part.points)}" if part.points is not None else "has no points"
-        message = f"the steps of `rubric` have {points_text(said)} points, and the part {has}"
-        faults.error("points", message, part.places["rubric"], help="let them add up to at most those of the part")
+        message = f"the steps of `rubric` have {points_text(said)} points, but the part {has}"
+        faults.error("points", message, part.places["rubric"], help="lower them to at most those of the part")
     if part and part.detail is not Level.BRIEF and not part.extra:
-        message = "what the problem asks for is shown at every detail"
-        faults.error("detail", message, part.places["detail"], help="leave `detail` out, or say `extra: true`")
+        message = "a part that is not `extra` is shown at every detail"
+        faults.error("detail", message, part.places["detail"], help="leave `detail` out, or write `extra: true`")
     return part if part and part.ask else None
 
 
@@ -172,12 +172,12 @@ _LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
 def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
-    """The parts, those that fewer pages show behind the others, so that nothing rests on what a page leaves out."""
+    """Return the parts; those that fewer pages show come last, so that nothing depends on a part that a page omits."""
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):
-            message = f"this part is shown at the detail `{part.detail}`, the next one at less"
-            faults.error("detail", message, part.places["detail"], help="put it behind the others")
+            message = f"this part is shown at the detail `{part.detail}`, but the next part at less"
+            faults.error("detail", message, part.places["detail"], help="put it after the others")
     return parts
 
 
@@ -187,7 +187,7 @@ PARTS = Reader(_LISTED.schema, _parts, _LISTED.absent)
 def points_in_all(
     stated: Fraction | None, place: Place | None, parts: List[Question], faults: Faults
 ) -> Fraction | None:
-    """The points of a problem: as it says them, where those of its parts add up to that, or else their sum."""
+    """Return the points of a problem: those that it states, checked against its parts, or else the sum of its parts."""
     counted = [part.points for part in parts if part.points is not None]
     total = sum(counted, Fraction(0))
     if stated is None or not parts:
@@ -200,5 +200,5 @@ def points_in_all(
 
 
 def points_text(points: Fraction) -> str:
-    """`3`, `2.5`."""
+    """Return points as text: `3`, `2.5`."""
     return str(points.numerator) if points.denominator == 1 else str(float(points))

@@ -1,7 +1,7 @@
 """A problem as checked values: its YAML, its script, and the match of `given:` to the signature of `solve()`.
 
-`load_problem` finds every fault of a file before it gives up. Names in prose and answer keys are checked later, by
-whoever knows the steps; `Prose.place_of` and `Problem.place_of` say where to point.
+`load_problem` finds every error of a file before it stops. Names in prose and answer keys are checked later, where the
+steps are known; `Prose.place_of` and `Problem.place_of` give the places for their errors.
 """
 
 from __future__ import annotations
@@ -44,9 +44,9 @@ DEFAULT_FIGURES = 4
 
 @dataclass(frozen=True)
 class Problem:
-    """Everything that a problem's file says, checked; paths are relative to the root.
+    """The contents of a problem's file, checked; paths are relative to the root.
 
-    What a source states is read where it is compared; `reference` is its text.
+    The statements of a source are read where they are compared; `reference` is their text.
     """
 
     id: str
@@ -79,24 +79,24 @@ class Problem:
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """The files it was read from."""
+        """The files from which it was read."""
         modules = self.script.modules if isinstance(self.script, Script) else ()
         beside = (module.relative_to(self.root).as_posix() for module in modules)
         return (self.path, *filter(None, [self.script_path]), *beside)
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """What all its parts ask for, and what is looked at in limiting cases."""
+        """The steps that all its parts ask for, and those of its limiting cases."""
         return _asked(self.parts, self.limits)
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
-        """The dimension of every letter, also of those that were introduced for numbers."""
+        """The dimension of every letter, including those that were introduced for numbers."""
         return {declared.symbol: declared.dimension for declared in self.symbols.values()}
 
     @property
     def ranges(self) -> dict[Symbol, Range]:
-        """Between which numbers letters lie, where that is declared."""
+        """The ranges of letters, as declared and as narrowed by the assumed relations."""
         return narrowed(self._declared_ranges, self.assumed)
 
     @property
@@ -105,22 +105,22 @@ class Problem:
 
     @property
     def assumed(self) -> tuple[Assumed, ...]:
-        """Relations between letters that are taken to hold."""
+        """Relations between letters that are assumed to hold."""
         return self.described.assumed if self.described else ()
 
     @property
     def order(self) -> Order:
-        """What these relations say of signs."""
+        """The order that these relations give, which decides signs."""
         return order_of(self.assumed, self.ranges)
 
     @property
     def letters(self) -> tuple[Declared, ...]:
-        """Those that are declared, and those that a description brings in."""
+        """The letters that are declared, and those that a description introduces."""
         return (*self.symbols.values(), *(self.described.letters.values() if self.described else ()))
 
     @property
     def amounts(self) -> dict[Symbol, Amount]:
-        """The number behind each letter that has one, in the coherent SI unit; an angle in degrees stays so."""
+        """The number behind each letter that has one, in the coherent SI unit; an angle in degrees stays in degrees."""
         return self._in_the_si(self.measured)
 
     def _in_the_si(self, numbers: Iterable[Measured]) -> dict[Symbol, Amount]:
@@ -133,20 +133,20 @@ class Problem:
         }
 
     def cases_of(self, part: Question) -> dict[str, dict[Symbol, Amount]]:
-        """The numbers of each case for which a part is to be answered, by its letter; one says only what differs from
-        the first."""
+        """Return the numbers of each case for which a part is to be answered, by its label; a case states only what
+        differs from the first."""
         cases = next((placement.cases for placement in self.drawings if placement.key == part.cases), ())
         numbers = (self._in_the_si((*self.measured, *cases[0], *case)) for case in cases)
         return {case_label(i): amounts for i, amounts in enumerate(numbers)}
 
     @property
     def every_amount(self) -> list[tuple[Symbol, Amount]]:
-        """Each letter with each of its numbers, those of the cases of a part among them."""
+        """Every letter with each of its numbers, including those of the cases of a part."""
         cases = [case for part in self.parts for case in self.cases_of(part).values()]
         return [pair for numbers in (self.amounts, *cases) for pair in numbers.items()]
 
     def keys_in_cases(self, part: Question, answers: Iterable[str]) -> list[str]:
-        """What the numbers of a part's answers are called, case by case."""
+        """Return the keys of the numbers of a part's answers, case by case."""
         return [f"{answer}_in_case_{case}" for case in self.cases_of(part) for answer in answers]
 
     @property
@@ -158,19 +158,19 @@ class Problem:
         return (self.title, self.statement, *(part.ask for part in self.parts), *around, *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
-        """Where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
+        """Return the place where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
         return self.places[".".join(keys)]
 
 
 def load_problem(root: Path, problem_id: str) -> Problem:
-    """The problem, or one `Rejected` with every fault of its file and its script."""
+    """Return the problem, or raise one `Rejected` with every error of its file and its script."""
     faults = Faults()
     path = path_of(root, problem_id)
     written = written_problem(root, problem_id, faults)
     script_path, script = _script(root, path, written.solve, faults)
     points = written.points_in_all(faults)
     if not all(kind.known for kind in written.symbols.values()):
-        faults.stop()  # what is given in such letters is read when their kinds are known
+        faults.stop()  # givens in such letters can be read only when their kinds are known
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
@@ -209,22 +209,22 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys]) -> tuple[Word
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    for name in (*answers, *limited):  # a limit may be of a step on the way to an answer
+    for name in (*answers, *limited):  # a limit may concern a step that leads to an answer
         first.setdefault(str(name), name)
     return tuple(first.values())
 
 
 def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], faults: Faults) -> None:
-    """A part is answered for the cases of a plot that has some."""
+    """Check that a part is answered for the cases of a plot that has cases."""
     known = [placement.key for placement in drawings if placement.cases]
     for cases in (part.cases for part in parts if part.cases):
         if cases not in known:
-            help_line = did_you_mean(cases, known) or "it is the name of one of `drawings:` that has `cases:`"
+            help_line = did_you_mean(cases, known) or "name one of `drawings:` that has `cases:`"
             faults.error("unknown-drawing", f"no drawing `{cases}` has cases", cases.place, help=help_line)
 
 
 def run_solve(problem: Problem, record: Run | None = None) -> object:
-    """What the script's `solve()` returns for what is given; what else it leaves is on the record."""
+    """Return what the script's `solve()` returns for the givens; everything else that it leaves is on the record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
             return problem.script.stock.solve(problem.described, problem.asked)
@@ -233,7 +233,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """What is done inside is on that record, and knows all that is given."""
+    """Record what is done inside on that record, with everything that is given."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -248,20 +248,20 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
 
 @contextmanager
 def deriving(problem: Problem, record: Run) -> Iterator[None]:
-    """What is done inside is on that record, and knows the ranges of the problem's letters."""
+    """Record what is done inside on that record, with the ranges of the problem's letters."""
     with recorded(record), within(problem.ranges), in_order(problem.order):
         yield
 
 
 def _letters_of(problem: Problem) -> set[str]:
-    """The letters of what is given, and those that a description brings in itself."""
+    """Return the letters of the givens, and those that a description introduces itself."""
     own = problem.described.letters if problem.described else {}
     given = {letter.name for each in problem.givens for letter in each.letters}
     return {*own, *given, *(measured.symbol.name for measured in problem.measured)}
 
 
 def _assume_range(declared: Declared) -> None:
-    """What the statement says of a letter that lies in a range; that a length is positive is not worth saying."""
+    """Assume the range that the statement gives for a letter; a bound that follows from its kind is left out."""
     if declared.lies is None:
         return
     least, greatest = declared.lies.least, declared.lies.greatest
@@ -273,8 +273,8 @@ def _assume_range(declared: Declared) -> None:
 
 
 def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[str, Script | StockScript | None]:
-    """The script and its path, if there is one of that name beside the problem's file or beside another problem's, or
-    one of the engine."""
+    """Return the script and its path: a file next to the problem's file or next to another problem's, or one of the
+    engine."""
     if name is None:
         return "", None
     if name in stock_names():
@@ -287,7 +287,7 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
     elif not (file := root / shown_as).exists():
         beside = (other.name for other in file.parent.glob("*.py"))
         help_line = did_you_mean(name, [*beside, *stock_names()])
-        faults.error("missing-file", f"there is no script `{name}`", name.place, help=help_line)
+        faults.error("missing-file", f"the script `{name}` does not exist", name.place, help=help_line)
     else:
         with faults:
             module = "derive_problem_" + re.sub(r"\W", "_", f"{path}_{name.removesuffix('.py')}")
@@ -300,7 +300,7 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
 
 @dataclass(frozen=True)
 class Pinned:
-    """What `solve()` gets: its letters, what is given or described, and the numbers behind letters."""
+    """The input of `solve()`: its letters, what is given or described, and the numbers behind letters."""
 
     symbols: dict[str, Declared]
     givens: tuple[Given, ...]
@@ -316,7 +316,7 @@ def pinned_by(
     script: Script | StockScript | None,
     faults: Faults,
 ) -> Pinned:
-    """What three keys of a file say: `symbols:`, `values:` and `given:`, of which a script asks the last."""
+    """Read three keys of a file: `symbols:`, `values:` and `given:`; the script determines the names in the last."""
     symbols = declared_letters(kinds, faults)
     moving = _coordinates_in(given) - {*symbols} if isinstance(script, StockScript) else set()
     for name in moving.intersection(numbers):
@@ -343,7 +343,7 @@ def pinned_by(
 
 
 def _coordinates_in(given: Mapping | None) -> set[str]:
-    """What a description says varies."""
+    """Return the coordinates of a description, which vary."""
     coordinates = given.get("coordinates") if given else None
     return {name.text for name, _ in coordinates.pairs} if isinstance(coordinates, Mapping) else set()
 
@@ -351,7 +351,7 @@ def _coordinates_in(given: Mapping | None) -> set[str]:
 def _described_by(
     script: StockScript, given: Mapping, symbols: dict[str, Declared], values: tuple[Measured, ...], faults: Faults
 ) -> Pinned:
-    """What a description says; each declared letter is given, and prose may mention it."""
+    """Read a description; each declared letter is given, and prose may mention it."""
     own = Faults()
     written = read_record(script.stock.keys, given, "`given`", own)
     if own:
@@ -368,7 +368,7 @@ def _described_by(
 
 
 def _check_names(given: Table[Word, Tree], asked: Table[str, Parameter], place: Place, faults: Faults) -> None:
-    """What is given is what `solve()` asks for; a mistyped name is one fault, not two."""
+    """Check that the givens are what `solve()` asks for; a mistyped name is one error, not two."""
     missing = [name for name, parameter in asked.items() if parameter.required and name not in given]
     for word in given:
         if word not in asked:

@@ -1,4 +1,4 @@
-"""Which problems and sets there are, and what a set's own file says."""
+"""The problems and sets that exist, and the contents of a set's own file."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did
 _NOT_PROBLEMS = ("set", "reference")
 
 
-# Each paper with the name of its files.
+# Each document with the name of its files.
 THOSE_OF_EVERY_SET = tuple((paper, paper) for paper in DOCUMENTS)
 
 
@@ -54,21 +54,21 @@ PAPERS_SCHEMA = {
 
 
 def _papers(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None:
-    """`[solutions, hints]`, or `{solutions: hw9-solutions}`: each paper with the name of its files."""
+    """Read `[solutions, hints]`, or `{solutions: hw9-solutions}`: each document with the name of its files."""
     pairs: list[tuple[Tree, Tree]] = []
     if isinstance(node, Mapping) and node.pairs:
         pairs = [(paper, file) for paper, file in node.pairs]
     elif isinstance(node, Sequence) and node.items:
         pairs = [(item, item) for item in node.items]
     else:
-        wrong_type(faults, f"`{name}`", "a list of papers, or a mapping of papers to names of files", node)
+        wrong_type(faults, f"`{name}`", "a list of documents, or a mapping of documents to names of files", node)
     found: dict[Word, Word] = {}
     for paper, file in pairs:
         if not isinstance(paper, Scalar) or not isinstance(file, Scalar):
-            wrong_type(faults, "a paper", "a name", file if isinstance(paper, Scalar) else paper)
+            wrong_type(faults, "a document", "a name", file if isinstance(paper, Scalar) else paper)
         elif paper.text not in PAPERS:
-            help_line = did_you_mean(paper.text, PAPERS) or f"the papers are {', '.join(PAPERS)}"
-            faults.error("no-such-paper", f"there is no paper `{paper.text}`", paper.place, help=help_line)
+            help_line = did_you_mean(paper.text, PAPERS) or f"the documents are {', '.join(PAPERS)}"
+            faults.error("no-such-paper", f"`{paper.text}` is not a document of a set", paper.place, help=help_line)
         elif not NAME.fullmatch(file.text):
             faults.error("paper-name", f"`{file.text}` cannot be the name of a file", file.place)
         else:
@@ -84,9 +84,9 @@ class SetKeys(Record):
     title: Word | None = key("the heading of the set", TEXT, required=True)
     date: Word | None = key("the date as it is to be printed", TEXT)
     instructor: Word | None = key("who teaches the course", TEXT)
-    evidence: str | None = key("how much the solutions tell of how they were checked", one_of(tuple(EvidenceShown)))
+    evidence: str | None = key("how much the solutions show about how they were checked", one_of(tuple(EvidenceShown)))
     papers: dict[Word, Word] = key(
-        "the papers that are made, or the name of each one's files", Reader(PAPERS_SCHEMA, _papers, dict)
+        "the documents that are made, or the name of each one's files", Reader(PAPERS_SCHEMA, _papers, dict)
     )
     problems: tuple[Word, ...] = key(
         "names of the problems in order", list_of(TEXT, "a list of names", each="a problem of the set"), required=True
@@ -94,12 +94,12 @@ class SetKeys(Record):
 
 
 def problem_ids(root: Path) -> list[str]:
-    """`hw9/block` for every problem file below the root, also for those in the folder of a topic of their set."""
+    """Return `hw9/block` for every problem file below the root, including those in the folder of a topic of a set."""
     return sorted(problem_paths(root))
 
 
 def ids_in_order(root: Path) -> list[str]:
-    """The same set by set, as each lists its problems; behind them those that it does not list."""
+    """Return these ids set by set, as each set lists its problems; those that it does not list come last."""
     listed: list[str] = []
     for set_id in set_ids(root):
         with suppress(DeriveError):
@@ -109,7 +109,7 @@ def ids_in_order(root: Path) -> list[str]:
 
 
 def problem_paths(root: Path) -> dict[str, str]:
-    """id -> file, relative to the root: `problems/hw9/block.yaml`, `problems/library/rotation/wheel.yaml`."""
+    """Map ids to files, relative to the root: `problems/hw9/block.yaml`, `problems/library/rotation/wheel.yaml`."""
     top = root / "problems"
     files = [file for depth in ("*/*.yaml", "*/*/*.yaml") for file in sorted(top.glob(depth), reverse=True)]
     found = [file.relative_to(top) for file in files if file.stem not in _NOT_PROBLEMS]
@@ -118,7 +118,7 @@ def problem_paths(root: Path) -> dict[str, str]:
 
 
 def found_path(root: Path, problem_id: str) -> str | None:
-    """The file of one problem, if there is one, without a look at those of other sets."""
+    """Return the file of one problem, if there is one, without a look at the files of other sets."""
     set_id, _, name = problem_id.partition("/")
     if not (NAME.fullmatch(set_id) and NAME.fullmatch(name)) or name in _NOT_PROBLEMS:
         return None
@@ -130,13 +130,13 @@ def found_path(root: Path, problem_id: str) -> str | None:
 
 
 def topic_of(path: str) -> str:
-    """The folder of a problem's file within its set; none for a file beside `set.yaml`."""
+    """Return the folder of a problem's file within its set; nothing for a file next to `set.yaml`."""
     parts = path.split("/")
     return parts[2] if len(parts) > 3 else ""
 
 
 def path_of(root: Path, problem_id: str) -> str:
-    """The problem's file, relative to the root, if there is such a problem."""
+    """Return the problem's file, relative to the root; raise `Misused` if the problem does not exist."""
     if path := found_path(root, problem_id):
         return path
     paths = problem_paths(root)
@@ -144,33 +144,33 @@ def path_of(root: Path, problem_id: str) -> str:
         help_line = f"name one of its problems: {', '.join(own)}"
         raise Misused(Complaint("no-such-problem", f"`{problem_id}` is a set", help=help_line))
     help_line = _meant(problem_id, list(paths))
-    raise Misused(Complaint("no-such-problem", f"there is no problem `{problem_id}`", help=help_line))
+    raise Misused(Complaint("no-such-problem", f"no problem is called `{problem_id}`", help=help_line))
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
-    """The nearest id, by the whole or by the name after the set."""
+    """Return a help line with the nearest id, by the whole id or by the name after the set."""
     by_name = {full.partition("/")[2]: full for full in reversed(known)}
     close = nearest(problem_id, known) or by_name.get(nearest(problem_id.rpartition("/")[2], by_name) or "")
     return f"did you mean `{close}`?" if close else "`derive list` shows the problems"
 
 
 def set_ids(root: Path) -> list[str]:
-    """Every folder below `problems/` that says it is a set."""
+    """Return the name of every folder below `problems/` that has the file of a set."""
     folders = sorted(file.parent.name for file in (root / "problems").glob("*/set.yaml"))
     return [name for name in folders if NAME.fullmatch(name)]
 
 
 def known_set(root: Path, set_id: str) -> str:
-    """The set of that name, if there is one."""
+    """Return the name of the set; raise `Misused` if the set does not exist."""
     known = set_ids(root)
     if set_id not in known:
         help_line = did_you_mean(set_id, known) or "`derive list` shows the sets"
-        raise Misused(Complaint("no-such-set", f"there is no set `{set_id}`", help=help_line))
+        raise Misused(Complaint("no-such-set", f"no set is called `{set_id}`", help=help_line))
     return set_id
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """The set, or one `Rejected` with every fault of its file."""
+    """Return the set, or raise one `Rejected` with every error of its file."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
@@ -192,7 +192,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
 
 
 def _clashes(papers: dict[Word, Word], problems: List[str], faults: Faults) -> None:
-    """No two files of a set may have one name."""
+    """Check that no two files of a set have the same name."""
     for n, file in enumerate(papers.values()):
         others = [*list(papers.values())[:n], *problems, INDEX]
         if file in others:
@@ -200,7 +200,7 @@ def _clashes(papers: dict[Word, Word], problems: List[str], faults: Faults) -> N
 
 
 def mapping_in(root: Path, path: str, what: str, quickly: bool = False) -> Mapping:
-    """The mapping that a file must be."""
+    """Return the mapping that a file must contain."""
     node = read_yaml(root / path, path, quickly)
     if not isinstance(node, Mapping):
         raise Rejected(Complaint("wrong-type", f"{what} must be a mapping, but this is {shape_of(node)}", node.place))
@@ -212,11 +212,11 @@ def _listed(written: tuple[Word, ...], set_id: str, known: List[str], faults: Fa
     found: list[str] = []
     for item in written:
         if item in (*PAPERS, INDEX):
-            message = f"a problem cannot be called `{item}`, for a document of the set has that name"
+            message = f"a problem cannot be called `{item}`, because a document of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
         elif item not in names:
             help_line = did_you_mean(item, names)
-            message = f"there is no problem `{item}` in this set"
+            message = f"no problem of this set is called `{item}`"
             if item in known and not item.startswith(f"{set_id}/"):
                 message = f"`{item}` is a problem of another set"
                 help_line = f"copy its files to `problems/{set_id}/` and list it by its name alone"

@@ -1,7 +1,7 @@
-"""Prose as an instructor writes it: plain text in which `<<name>>` stands for something that was derived.
+"""Prose as an instructor writes it: plain text in which `<<name>>` stands for a symbol or a derived result.
 
-`<<eq torque>>` is the number of that step's equation, `<<problem top>>` that of another problem of the set.
-Text is data. It has no mathematics, TeX or template commands of its own; whoever prints it escapes it.
+`<<eq torque>>` is the number of that step's equation, `<<problem top>>` is the number of another problem of the set.
+Text is data. It has no mathematics, TeX or template commands of its own; the code that prints it escapes it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _MENTION = re.compile(
     r"|(?P<odd><<[^<>\n]{0,40}>{0,2}|<%|<#)",
     re.ASCII,
 )
-# A price is none: the dollars of a formula have no blank within them, and no digit behind.
+# A price does not match: the dollars of a formula have no blank just inside them, and no digit follows.
 _LATEX = re.compile(
     r"\$(?=\S)(?P<letter>[A-Za-z](?:_\w+)?)?[^$]*(?<=\S)\$(?!\d)|\\[A-Za-z]+|\\[(\[]"
     r"|\w(?P<power>\^)[\w{(+-]+|\b(?P<below>[A-Za-z]_)[\w{]+",
@@ -34,7 +34,7 @@ _HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<
 
 @dataclass(frozen=True)
 class Mention:
-    """A `<<name>>`, and where it stands; `of` is what it refers to if not to the name: `eq`, `problem`, `figure`."""
+    """A `<<name>>` and its place; `of` is what it refers to if not to the name: `eq`, `problem`, `figure`."""
 
     name: str
     place: Place
@@ -43,9 +43,9 @@ class Mention:
 
 @dataclass(frozen=True)
 class Prose:
-    """Text with mentions; `pieces` is all of it in order, so that nobody needs to parse it again.
+    """Text with mentions; `pieces` is all of it in order, so that no other code needs to parse it.
 
-    `place_within` is where so many characters from an index of the text stand.
+    `place_within` gives the place of a number of characters from an index of the text.
     """
 
     text: str
@@ -70,12 +70,12 @@ class Prose:
         return tuple(piece for piece in self.pieces if isinstance(piece, Mention))
 
     def place_of(self, name: str) -> Place:
-        """Where the text first mentions a name; the text itself if it does not."""
+        """Return the place where the text first mentions a name; the place of the text if it does not."""
         return next((mention.place for mention in self.mentions if mention.name == name), self.place)
 
 
 def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
-    """The prose of a node, or nothing after a complaint."""
+    """Return the prose of a node, or nothing after an error."""
     if not isinstance(node, Scalar):
         faults.error("wrong-type", f"`{what}` must be text, but it is {shape_of(node)}", node.place)
         return None
@@ -98,7 +98,7 @@ def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def latex_in(prose: Prose) -> Complaint | None:
-    """A warning of the first bit of LaTeX in a text: it is data, and printed as it stands."""
+    """Return a warning about the first LaTeX in a text, because a text is data and is printed unchanged."""
     found = [*_LATEX.finditer(_MENTION.sub(lambda mention: "x" * len(mention[0]), prose.text))]
     if not found:
         return None
@@ -106,7 +106,7 @@ def latex_in(prose: Prose) -> Complaint | None:
     notes = (f"{len(found) - 1} more in this text",) * bool(found[1:])
     return Complaint(
         "latex-in-prose",
-        f"LaTeX is not read in prose: `{abridged(first[0])}` is printed as it stands",
+        f"LaTeX is not read in prose: `{abridged(first[0])}` is printed unchanged",
         prose.place_within(first.start(), len(first[0])),
         notes,
         "write `²` for a square" if first["power"] else f"write `<<{_letter(first)}>>` for a letter",
@@ -115,7 +115,7 @@ def latex_in(prose: Prose) -> Complaint | None:
 
 
 def _letter(latex: re.Match[str]) -> str:
-    """The letter that was meant, if that is plain, else any."""
+    """Return the letter that was meant, if that is clear, else any letter."""
     inner = latex[0].strip("$").strip()
     whole = latex["below"] or latex["letter"]
     return inner if whole and re.fullmatch(r"\w+", inner) else "R"

@@ -1,4 +1,4 @@
-"""What a script requires of what is given: a disc that is mounted on a rod does not lie beyond its end."""
+"""Conditions that a script requires of its givens: a disc mounted on a rod must not lie beyond the end of the rod."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _MARKS = {"==": "=", "!=": "!=", "<": "<", ">": ">", "<=": "<=", ">=": ">="}
 
 
 def require(condition: Boolean | bool, given: str, must: str) -> None:
-    """Refuse what is given if a condition is known to fail, by its letters or by their numbers.
+    """Refuse a given if a condition is known to fail, by its letters or by their numbers.
 
-    What neither decides is assumed, and the page says so.
+    A condition that neither decides is assumed, and the page says so.
 
-    condition   a comparison of what is given, `disc_at <= rod_length`, or several that all must hold, joined by `&`
-    given       the parameter to blame
-    must        what it must be, for the message: "must not lie beyond the end of the rod"
+    condition   a comparison of givens, `disc_at <= rod_length`, or several that must all hold, joined by `&`
+    given       the parameter that the error names
+    must        the requirement, for the message: "must not lie beyond the end of the rod"
     """
     run = record.current_run.get()
     place = run.places.get(given) if run else None
@@ -31,6 +31,6 @@ def require(condition: Boolean | bool, given: str, must: str) -> None:
             rejected("not-as-required", f"`{given}` {must}", place)
         if known == true:
             continue
-        if not isinstance(each, Relational):  # of `a < b or c < d` nobody could say which of them is assumed
-            rejected("wrong-argument", f"`require` takes comparisons that all must hold, but not `{each}`", place)
+        if not isinstance(each, Relational):  # `a < b or c < d` does not say which one is assumed
+            rejected("wrong-argument", f"`require` takes comparisons that must all hold, but not `{each}`", place)
         record.assume(Relation(each.lhs, _MARKS[each.rel_op], each.rhs))

@@ -1,8 +1,8 @@
-"""The keys of the files an instructor writes: each is a field of a record, with its meaning and with its reader.
+"""The keys of the files that an instructor writes: each is a field of a record, with its meaning and its reader.
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
-A reader tells editors what may stand under a key, as a JSON schema, and makes a checked value of what does.
+A reader gives editors a JSON schema of what a key allows, and makes a checked value of what is written there.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ R = TypeVar("R", bound="Record")
 
 @dataclass(frozen=True)
 class Reader(Generic[T]):
-    """What may stand under a key: as JSON schema, and as the value that is made of it, or nothing after a complaint.
+    """The contents that a key allows: a JSON schema of them, and the value that they give, or nothing after an error.
 
-    `read` takes what stands there and the name of its key; `absent` makes what stands for nothing.
+    `read` takes the contents and the name of their key; `absent` makes the value of a missing key.
     """
 
     schema: dict[str, Any]
@@ -37,7 +37,7 @@ class Reader(Generic[T]):
 
 @dataclass(frozen=True)
 class Key:
-    """One key: what it is for, what may stand under it, whether it must be there."""
+    """One key: its meaning, the contents that it allows, and whether it is required."""
 
     meaning: str
     reader: Reader[Any]
@@ -45,7 +45,7 @@ class Key:
 
 
 def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "") -> Any:
-    """A field of a record that is a key of a file; `called` is its name there, where that is none for Python."""
+    """Declare a field of a record that is a key of a file; `called` is its name there, if Python does not allow it."""
     return field(default_factory=reader.absent, metadata={"called": called, "key": Key(meaning, reader, required)})
 
 
@@ -53,8 +53,8 @@ def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: st
 class Record:
     """A mapping of a file, key by key.
 
-    places     where each key stands, also those within it, `show.spin`; the mapping itself under the empty name
-    values_at  where what is under each key begins
+    places     the place of each key, also of nested ones, `show.spin`; the mapping itself is under the empty name
+    values_at  the place where the value of each key begins
     """
 
     places: Table[str, Place] = field(repr=False, compare=False)
@@ -66,7 +66,7 @@ def keys_of(record: type[Record]) -> dict[str, Key]:
 
 
 def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
-    """Every key of a mapping; a fault in one does not hide those of the others."""
+    """Read every key of a mapping; an error in one does not hide those of the others."""
     keys = keys_of(record)
     check_keys(node, keys, what, faults)
     read: dict[str, Any] = {}
@@ -79,7 +79,7 @@ def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
 
 
 def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) -> None:
-    """Unknown and missing keys of a mapping; a mistyped key is one fault, not two."""
+    """Report unknown and missing keys of a mapping; a mistyped key is one error, not two."""
     missing = [name for name, wanted in keys.items() if wanted.required and node.get(name) is None]
     for name, _ in node.pairs:
         if name.text not in keys:
@@ -93,7 +93,7 @@ def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) 
 
 
 def wrong_type(faults: Faults, what: str, wanted: str, node: Tree, help: str | None = None) -> None:
-    """The complaint that something is of another shape than its key asks for."""
+    """Report that a node has another shape than its key asks for."""
     if isinstance(node, Scalar) and node.empty or isinstance(node, Sequence) and not node.items:
         faults.error("missing-value", f"{what} must be {wanted}, but it is empty", node.place, help=help)
     else:
@@ -133,27 +133,27 @@ def _formula(node: Tree, name: str, faults: Faults) -> Formula | None:
 
 # Text needs no quotes where YAML itself would read a number: `title: 2015`.
 TEXT = Reader({"type": ["string", "number", "boolean"], "pattern": r"\S"}, _text)
-LEFT_EMPTY = "null"  # what editors find behind a `:` with nothing after it
+LEFT_EMPTY = "null"  # the type, for editors, of a key with nothing after its `:`
 FORMULA = Reader({"type": ["string", "number"], "pattern": r"\S"}, _formula)
 YES_OR_NO = Reader({"type": "boolean"}, _yes_or_no, bool)
 FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _figures)
 
 
 def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
-    """What can be read only when more is known than the file says, if it is of the shape that is `wanted`."""
+    """Keep a node of the shape that is `wanted`; it can be read only when more is known than the file says."""
 
     def read(node: Tree, name: str, faults: Faults) -> Tree | None:
         odd = _misfit(node, schema)
         if odd is None:
             return node
-        wrong_type(faults, f"`{name}`" if odd is node else f"what is in `{name}`", wanted, odd)
+        wrong_type(faults, f"`{name}`" if odd is node else f"an entry of `{name}`", wanted, odd)
         return None
 
     return Reader(schema, read)
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """The first node that is empty, or a list, a mapping or text where none may stand; what text says is read later."""
+    """Return the first node that is empty, or a list, a mapping or text where none is allowed; texts are read later."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)
 
@@ -177,7 +177,7 @@ SCALAR = as_written(FORMULA.schema, "an expression")
 
 
 def one_of(words: tuple[str, ...]) -> Reader[str]:
-    """One of a few words."""
+    """Read one of a few words."""
 
     def read(node: Tree, name: str, faults: Faults) -> str | None:
         if isinstance(node, Scalar) and node.text in words:
@@ -190,7 +190,7 @@ def one_of(words: tuple[str, ...]) -> Reader[str]:
 
 
 def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
-    """A mapping by names of its own; it may be left empty, unless it says what is `wanted`."""
+    """Read a mapping whose names are free; it may be left empty, unless `wanted` describes it."""
 
     def read(node: Tree, name: str, faults: Faults) -> dict[Word, T]:
         if isinstance(node, Mapping):
@@ -205,7 +205,7 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
 
 
 def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
-    """A mapping that can be read only when more is known than the file says; it may be left empty."""
+    """Keep a mapping that can be read only when more is known than the file says; it may be left empty."""
 
     def read(node: Tree, name: str, faults: Faults) -> Mapping | None:
         if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.left_empty):
@@ -216,7 +216,7 @@ def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
 
 
 def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = None) -> Reader[tuple[T, ...]]:
-    """A list, which is not empty; `each` is what an item is called."""
+    """Read a list, which is not empty; `each` is the name for an item."""
 
     def read(node: Tree, name: str, faults: Faults) -> tuple[T, ...] | None:
         if not isinstance(node, Sequence) or not node.items or len(node.items) != (length or len(node.items)):
@@ -230,7 +230,7 @@ def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = 
 
 
 def record_of(record: type[R], what: str, wanted: str, called: str = "") -> Reader[R]:
-    """A mapping with keys of ours; `called` is what it is called, by its own name, where it is no mapping."""
+    """Read a mapping with keys of ours; `called` names it, with its own name, in the error that it is not a mapping."""
 
     def read(node: Tree, name: str, faults: Faults) -> R | None:
         if isinstance(node, Mapping):
@@ -259,5 +259,5 @@ def one_or_more(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def schema_for_editors(title: str, schema: dict[str, Any]) -> str:
-    """The JSON schema that an editor uses to complete and to check a file while it is written."""
+    """Return the JSON schema that an editor uses to complete and to check a file while you write it."""
     return json.dumps({"$schema": "http://json-schema.org/draft-07/schema#", "title": title, **schema}, indent=2) + "\n"

@@ -1,7 +1,7 @@
-"""The script beside a problem: imported as Python, with every failure told at the script's own line.
+"""The script next to a problem: imported as Python, with every failure reported at the script's own line.
 
-A script is trusted code. What may not happen is that its faults look like ours: no traceback, the innermost line
-that belongs to the script, and the kinds that its `solve()` asks for.
+A script is trusted code, but its errors must not look like ours: a failure shows no traceback, only the innermost
+line that belongs to the script, and the kinds that its `solve()` asks for.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from derive.errors import Complaint, DeriveError, Faults, OutOfTime, Place, Reje
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter of `solve()`: what kind it asks for, and where."""
+    """One parameter of `solve()`: the kind that it asks for, and its place."""
 
     name: str
     kind: Asked
@@ -43,7 +43,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Script:
-    """A script that was imported, the signature of its `solve()`, and the modules of its folder that it imports."""
+    """An imported script, the signature of its `solve()`, and the modules of its folder that it imports."""
 
     file: Path
     source: Source
@@ -54,14 +54,14 @@ class Script:
 
 
 class _NoCache(SourceFileLoader):
-    """Neither reads nor writes bytecode: a script is compiled from what it says now, and its folder stays clean."""
+    """Neither reads nor writes bytecode: a script is compiled from its present text, and its folder stays clean."""
 
     def path_stats(self, path: Any) -> Mapping[str, Any]:
         raise OSError
 
 
 def imported_script(file: Path, shown_as: str, name: str) -> Script:
-    """The script's `solve()` and what it asks for, or `Rejected` with the script's line."""
+    """Return the script with its `solve()` and what that asks for, or raise `Rejected` with the script's line."""
     source = read_source(file, shown_as)
     definition = _definition(source)
     modules = modules_beside(file)
@@ -76,20 +76,20 @@ def imported_script(file: Path, shown_as: str, name: str) -> Script:
 
 
 def run(script: Script, values: Mapping[str, Any]) -> object:
-    """What `solve()` returns; what it prints goes to standard error, where it spoils no output."""
+    """Return what `solve()` returns; what it prints goes to standard error, so that it does not mix with the output."""
     try:
         with redirect_stdout(sys.stderr), importable(script.file, script.modules):
             return script.solve(**values)
     except DeriveError as error:
         raise _placed(error, script.file, script.source) from error
     except (MemoryError, OutOfTime):
-        raise  # not the script's own line, but the limit is what there is to say
+        raise  # the limit is the error, not the script's own line
     except BaseException as error:
         raise Rejected(_failure(error, script.file, script.source)) from error
 
 
 def _placed(error: DeriveError, file: Path, source: Source) -> DeriveError:
-    """A verb knows no file: its complaint stands at the line of the script that called it."""
+    """Place the error of a verb, which does not know the file, at the line of the script that called it."""
     place = _innermost(error, file, source)
     if place is None:
         return error
@@ -150,7 +150,7 @@ def _parameters(definition: ast.FunctionDef, solve: Callable[..., object], sourc
         place = source.at(*_start(arg or definition), len(name))
         kind = asked_by_annotation(parameter.annotation)
         if parameter.kind not in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY):
-            faults.error("script", f"`solve()` must name what it asks for, and `{name}` does not", place)
+            faults.error("script", f"`solve()` must name what it asks for, but `{name}` does not", place)
         elif kind is None:
             annotation = ast.unparse(arg.annotation) if arg and arg.annotation else None
             message = f"`{annotation}` is not a kind" if annotation else f"`{name}` has no kind"
@@ -169,7 +169,7 @@ def _start(node: ast.expr | ast.stmt | ast.arg) -> tuple[int, int]:
 
 
 def _innermost(error: BaseException, file: Path, source: Source) -> Place | None:
-    """The last line of the script that ran before the error left it."""
+    """Return the last line of the script that ran before the error left the script."""
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
     if not frames:
         return None
@@ -199,7 +199,7 @@ def _message(error: BaseException) -> str:
 
 
 def _meant(error: BaseException) -> str | None:
-    """What a mistyped name was probably meant to be."""
+    """Return a help line with the name that was probably meant."""
     if isinstance(error, ImportError):
         wanted = re.search(r"cannot import name '(\w+)'", str(error))
         return did_you_mean(wanted[1], dir(sys.modules.get(error.name or ""))) if wanted else None

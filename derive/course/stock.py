@@ -1,7 +1,7 @@
-"""Scripts of the engine: `solve: system` names one, and `given:` then describes what a script would have said.
+"""Scripts of the engine: `solve: system` names one, and `given:` then describes what a script would have stated.
 
-Each is a module of `derive/stock` with one `STOCK`: which keys may stand under `given:`, what they mean once the
-letters are known, and the answers that are made of them. They are loaded by name, as a problem's own script is.
+Each is a module of `derive/stock` with one `STOCK`: the keys allowed under `given:`, their meaning once the letters
+are known, and the answers derived from them. They are loaded by name, as a problem's own script is.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ NOWHERE: Mapping[str, Place] = MappingProxyType({})
 
 @dataclass(frozen=True)
 class Described:
-    """What a problem describes.
+    """The description that a problem gives.
 
-    letters   those that it brings in itself, coordinates and their rates
+    letters   those that it introduces itself, coordinates and their rates
     chosen    those that stand for its numbers, which are `measured`
-    told      what prose may mention by its key, besides letters
-    made      what is made of answers, by its name, with the names of the answers that it uses
-    without   keys on which some answers do not depend, with the names of these
-    assumed   relations between letters that are taken to hold
+    told      values other than letters that prose may mention by their keys
+    made      results computed from answers, by their names, with the names of the answers that each uses
+    without   keys on which some answers do not depend, with the names of these answers
+    assumed   relations between letters that are assumed to hold
     """
 
     letters: Mapping[str, Declared] = field(default_factory=dict)
@@ -57,10 +57,10 @@ class Described:
 class Stock:
     """A script of the engine.
 
-    keys    what may stand under `given:`
-    read    what it says in the declared letters, after complaints about what cannot be meant
-    solve   its answers by the names that parts ask for; a name may stand for several steps
-    every   all that parts may ask for by name, each with its steps or with why it cannot be derived
+    keys    the keys allowed under `given:`
+    read    their meaning in the declared letters, after an error for each value that has no meaning
+    solve   its answers by the names that parts ask for; one name may mean several steps
+    every   every name that parts may ask for, each with its steps or with why it cannot be derived
     """
 
     keys: type[Record]
@@ -71,14 +71,14 @@ class Stock:
 
 @dataclass(frozen=True)
 class StockScript:
-    """A script of the engine that a problem names, and where it does so."""
+    """A script of the engine that a problem names, and the place of its name."""
 
     stock: Stock
     returns: Place
 
 
 def stock_names(folder: Path = Path(FOLDER, "stock")) -> tuple[str, ...]:
-    """What `solve:` may name in place of a script."""
+    """Return the names that `solve:` allows in place of a script."""
     return tuple(sorted(file.stem for file in folder.glob("[a-z]*.py")))
 
 
@@ -89,7 +89,7 @@ def stock_script(name: str) -> Stock:
 
 @contextmanager
 def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Iterator[None]:
-    """A verb does not know the file: its error is shown where it was asked for, or at the key of the wrong argument."""
+    """Show the error of a verb, which does not know the file, where it was asked for or at the wrong argument's key."""
     try:
         yield
     except DeriveError as error:
@@ -98,16 +98,16 @@ def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Itera
 
 
 def in_keys(help_line: str | None) -> str | None:
-    """What a verb says that a script should do, as what a file should say."""
+    """Return the help line of a verb for a script in the form for a file."""
     if help_line and help_line.startswith(DECIDES):
         return f"state it under `given:`, as `assume: [{help_line.removeprefix(DECIDES).strip()}]`"
     return help_line.in_file if isinstance(help_line, Spelled) else help_line
 
 
 class InLetters:
-    """What a description says, read in its letters, of which `t` is always the time.
+    """A description, read in its letters, of which `t` is always the time.
 
-    Each reading ends with a value or with what is wrong.
+    Each reading returns a value or raises what is wrong.
     """
 
     def __init__(self, letters: Mapping[str, Declared]):
@@ -121,15 +121,15 @@ class InLetters:
         return {name: known[name] for name in known if name not in self.letters}
 
     def unused(self, name: Word, help_line: str) -> str:
-        """The name of a letter that the description brings in, which nothing else may have."""
+        """Return the name of a letter that the description introduces; nothing else may have that name."""
         if name in self.letters:
             message = f"`{name}` stands for something else already"
             rejected("letter-clash", message, name.place, help_line)
         return str(name)
 
     def value(self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False) -> Expr:
-        """An expression of a kind; where letters of that kind are positive it cannot be known to be negative, nor zero
-        where that means nothing. It is constant."""
+        """Read a constant expression of a kind; if letters of that kind are positive, it must not be known to be
+        negative, nor to be zero unless `or_zero`."""
         found = self.constant(node, name, kind, of)
         if (
             found.is_nonpositive
@@ -141,7 +141,7 @@ class InLetters:
         return found
 
     def constant(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
-        """An expression of a kind that neither changes in time nor depends on a coordinate."""
+        """Read an expression of a kind that neither changes in time nor depends on a coordinate."""
         found = self.of_kind(node, name, kind, of)
         coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
         moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}
@@ -153,9 +153,9 @@ class InLetters:
         return found
 
     def of_kind(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
-        """An expression of the dimension of a kind, with either sign, or a number; zero has any dimension.
+        """Read an expression of the dimension of a kind, with either sign, or a number; zero has any dimension.
 
-        of   how many of them there are, on which the letters of numbers depend
+        of   how many of them there are; the letters of numbers depend on this
         """
         wanted, is_a = dimension_of_kind(kind), kind_with_article(kind)
         if isinstance(node, Scalar) and (letter := self.numbers.letter(node, name, kind, of)) is not None:
@@ -169,17 +169,17 @@ class InLetters:
         return expr
 
     def read(self, node: Tree, name: str, is_a: str = "an expression") -> tuple[Expr, Dimension]:
-        """An expression of any dimension."""
+        """Read an expression of any dimension."""
         if isinstance(node, Scalar) and not node.empty:
             return read_expression(node, self.letters, lambda number, kind: self.numbers.letter(number, name, kind))
         faults = Faults()
         wrong_type(faults, f"`{name}`", is_a, node)
         faults.stop()
-        raise AssertionError  # which has been told
+        raise AssertionError  # the error has been raised
 
 
 def each(readings: Iterable[Callable[[], T]]) -> list[T]:
-    """What all of them yield, or the faults of all."""
+    """Return what all readings yield, or raise the errors of all."""
     faults, found = Faults(), []
     for reading in readings:
         with faults:

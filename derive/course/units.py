@@ -1,7 +1,7 @@
-"""Units, exactly: what one of them is in the SI, as a rational number and a power of pi.
+"""Units, exactly: the size of each in the SI, as a rational number and a power of pi.
 
-`rpm` is pi/30 rad/s and not 0.10472, so a number put in at the end spoils nothing. See docs/decisions/0003-units.md.
-An angle is a number, but a unit knows how many it has: a length is not measured in `cm/rev`, nor a cosine in degrees.
+`rpm` is pi/30 rad/s and not 0.10472, so substituting a number at the end loses nothing (docs/decisions/0003-units.md).
+An angle is a number, but a unit records its power of an angle: no length is in `cm/rev`, no cosine in degrees.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ MAX_TEXT = 40
 HIGHEST_POWER = 9
 
 # name -> (its SI value as a fraction and a power of pi, dimension, power of an angle). A radian is 1 and `Hz` is 1/s: a
-# turn is said as `rev`.
+# turn is written as `rev`.
 _UNITS: dict[str, tuple[Fraction, int, Dimension, int]] = {
     "m": (Fraction(1), 0, _LENGTH, 0),
     "mm": (Fraction(1, 1000), 0, _LENGTH, 0),
@@ -89,8 +89,8 @@ class Unit:
 
     @property
     def factor(self) -> Expr:
-        """What one of it is in the SI, for whoever calculates."""
-        from sympy import Rational, pi  # a unit is read, and refused, without it
+        """The size of the unit in the SI, for calculations."""
+        from sympy import Rational, pi  # a unit is read, and refused, without SymPy
 
         return Rational(self.rational.numerator, self.rational.denominator) * pi**self.power_of_pi
 
@@ -100,7 +100,7 @@ class Unit:
 
 
 def read_unit(text: str, place: Place | None = None) -> Unit:
-    """`kg m^2/s` as a unit; a `/` divides by the one factor after it, as in `m/s/s` or `N m/rad`."""
+    """Read `kg m^2/s` as a unit; a `/` divides by the one factor after it, as in `m/s/s` or `N m/rad`."""
     text = text.strip()
     if not text or len(text) > MAX_TEXT:
         rejected("unknown-unit", "a unit is missing" if not text else "this unit is too long", place)
@@ -115,7 +115,7 @@ def read_unit(text: str, place: Place | None = None) -> Unit:
 
 @dataclass(frozen=True)
 class Misfit:
-    """Why a unit does not measure something: a code, what follows its name in a message, and a help."""
+    """The reason why a unit does not measure a quantity: a code, what follows its name in a message, and a help."""
 
     code: str
     why: str
@@ -123,7 +123,7 @@ class Misfit:
 
 
 def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
-    """Why what has a kind, or only a dimension, is not measured in a unit; nothing if it is."""
+    """Return why a quantity of a kind, or only of a dimension, is not measured in a unit; nothing if it is."""
     is_a = kind_with_article(kind) if kind else named(dimension)
     if unit.dimension != dimension:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")
@@ -137,7 +137,7 @@ def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
             f"write `{turns}` for turns, `{radians}` for radians",
         )
     if kind is None and (unit.angles or "Hz" in unit.names):
-        why = f"has no kind, so nothing says that it is measured in `{unit.text}`"
+        why = f"has no kind, so it is not known to be measured in `{unit.text}`"
         return Misfit("wrong-unit", why, "give it a `kind=` in the script")
     if unit.angles not in about_kind(kind).angles:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")
@@ -168,10 +168,10 @@ def _check(name: str, power: int, text: str, place: Place | None) -> None:
         units = ", ".join(f"`{unit}`" for unit in ("m", "cm", "kg", "g", "s", "N", "rad/s", "rpm", "deg"))
         rejected("unknown-unit", f"unknown unit `{name}`{within}", place, did_you_mean(name, _UNITS) or f"try {units}")
     if not 0 < abs(power) <= HIGHEST_POWER:
-        rejected("unknown-unit", f"the power {power} of `{name}` is not used", place)
+        rejected("unknown-unit", f"the power {power} of `{name}` is not allowed", place)
 
 
 def begins_with_unit(text: str) -> bool:
-    """Whether the first name of a text is that of a unit: enough to tell `2 cm` from `2 a`."""
+    """Return whether the first name of a text is a unit: enough to distinguish `2 cm` from `2 a`."""
     first = re.match(r"\s*([A-Za-z]+|°|1(?=\s*/))", text)
     return first is not None and (first[1] in _UNITS or not first[1].isalpha())

@@ -1,4 +1,4 @@
-"""What a problem's file says without effect: declared letters, coordinates, results and keys that nothing uses."""
+"""Entries of a problem's file without effect: declared letters, coordinates, results and keys that nothing uses."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def unused_in(
     measured: Collection[Measured],
     described: Described | None,
 ) -> tuple[Complaint, ...]:
-    """A warning about each of them."""
-    behind = {each.symbol.name for each in measured} - {*written.values}  # letters that numbers have taken
-    exact = {given.kind.each for given in givens if given.written is not None}  # where another number takes a letter
+    """Return a warning about each entry that has no effect."""
+    behind = {each.symbol.name for each in measured} - {*written.values}  # letters that stand for numbers
+    exact = {given.kind.each for given in givens if given.written is not None}  # kinds with exact numbers
     found = [*_letters(written, behind, exact)]
     found += [*_drawings(written), *_points(written)]
     if described is not None:
@@ -44,7 +44,7 @@ def unused_in(
 
 
 def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> set[str]:
-    """What parts ask for, and what that is made of; of `both_x_1` it may be `both`."""
+    """Return what parts ask for, and the answers from which that is computed; `both_x_1` may come from `both`."""
     found, waiting = set[str](), [str(name) for name in asked]
     while waiting:
         name = waiting.pop()
@@ -58,9 +58,9 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 
 
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
-    """Letters that are declared, and occur neither in what is given nor in what it is compared with."""
+    """Warn of declared letters that occur neither in the givens nor in comparisons, limits or drawings."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
-    drawn = {name for each in written.drawings.values() for name in each.values}  # of which the drawing tells
+    drawn = {name for each in written.drawings.values() for name in each.values}  # a drawing uses them
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
     for name, sort in written.symbols.items():
         if name in used or sort in exact:
@@ -71,13 +71,13 @@ def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[st
 
 
 def _lacks_gravity(given: Mapping | None, sort: SortOfLetter) -> bool:
-    """Whether a letter may be the acceleration of free fall of a system that is described without it."""
+    """Return whether a letter may be the acceleration of free fall of a system that is described without gravity."""
     is_system = given is not None and given.get("coordinates") is not None and given.get("lagrangian") is None
     return is_system and sort == ACCELERATION and given is not None and given.get(GRAVITY) is None
 
 
 def _drawings(written: ProblemKeys) -> Iterator[Complaint]:
-    """What is said of a drawing that is not shown."""
+    """Warn of settings of a drawing that is not shown."""
     for name, each in written.drawings.items():
         hidden = isinstance(each.at, Scalar) and each.at.text == HIDDEN
         for key in (key for key in ("caption", "width") if hidden and key in each.values_at):
@@ -101,7 +101,7 @@ def _of_limit(limit: object) -> Iterator[str]:
 
 
 def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
-    """Coordinates on which no place, body or energy depends."""
+    """Warn of coordinates on which no place, body or energy depends."""
     coordinates = given.get("coordinates") if given is not None else None
     if given is None or not isinstance(coordinates, Mapping):
         return
@@ -113,7 +113,7 @@ def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
 
 
 def _axes(given: Mapping | None) -> Iterator[Complaint]:
-    """Axes along which no place is given, and which no body turns with."""
+    """Warn of axes along which no place is given, and with which no body turns."""
     axes = given.get("axes") if given is not None else None
     if given is None or not isinstance(axes, Mapping):
         return
@@ -133,7 +133,7 @@ def _results(made: Table[Word, Collection[Word]], needed: Collection[str]) -> It
 
 
 def _keys(described: Described, needed: Collection[str]) -> Iterator[Complaint]:
-    """Keys on which nothing depends that is asked for."""
+    """Warn of keys on which nothing depends that is asked for."""
     for key, indifferent in described.without:
         if {*needed} - {*described.made} <= {*indifferent}:
             message = f"nothing that is asked for depends on `{key}`"
@@ -141,7 +141,7 @@ def _keys(described: Described, needed: Collection[str]) -> Iterator[Complaint]:
 
 
 def _names(node: Tree | None) -> Iterator[str]:
-    """Every name in the texts of a node; keys of mappings are no texts."""
+    """Return every name in the texts of a node; keys of mappings are not texts."""
     if isinstance(node, Scalar):
         yield from _NAME.findall(node.text)
     elif isinstance(node, Sequence):

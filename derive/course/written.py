@@ -1,4 +1,4 @@
-"""What a problem's file says, before its script is run and its expressions are read: all that needs no mathematics."""
+"""The contents of a problem's file before its script is run and its expressions are read: all without mathematics."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ ANY_OUTCOME = ""
 POSITIVE = "positive"  # before a kind
 SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
-CHAIN = "chain"  # what a sentence calls the lines of its step
+CHAIN = "chain"  # the name in a sentence for the lines of its step
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
 
 class SortOfLetter(str):
-    """The kind of a letter; `ends` is what stands after `in`, the range in which it lies.
+    """The kind of a letter; `ends` is the text after `in`, the range in which it lies.
 
-    `positive` was written before the kind: the letter stands for a positive number. One that is not `known` has been
-    complained of.
+    `positive` was written before the kind: the letter stands for a positive number. If the kind is not `known`, an
+    error has been reported.
     """
 
     ends: Scalar | None = None
@@ -54,7 +54,7 @@ class SortOfLetter(str):
 
 
 def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] = tuple(KINDS)) -> SortOfLetter:
-    """A kind; of one that is mistyped another, which nothing may be made of."""
+    """Read a kind; in place of a mistyped one return another, from which nothing may be derived."""
     text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
     positive, _, rest = text.strip().partition(" ")
     kind = rest.strip() if positive == POSITIVE else text.strip()
@@ -71,7 +71,7 @@ def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] =
 
 
 def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
-    """Kinds, positive ones of them, and kinds with a range."""
+    """Return the schema of kinds, positive kinds, and kinds with a range."""
     plain = list(kinds)
     pattern = rf"^({POSITIVE} )?({'|'.join(plain)}) in [\[(].+,.+[\])]$"
     return {
@@ -80,7 +80,7 @@ def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
 
 
 def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
-    """The words of a step, by outcome or for any."""
+    """Read the words of a step, by outcome or for any outcome."""
     entries = [(o.text, n) for o, n in node.pairs] if isinstance(node, Mapping) else [(ANY_OUTCOME, node)]
     read = {outcome: read_prose(entry, name, faults) for outcome, entry in entries}
     found = {outcome: prose for outcome, prose in read.items() if prose}
@@ -103,7 +103,7 @@ class DrawingKeys(Record):
     """The keys of one of `drawings:`."""
 
     at: Tree | None = key(
-        "where it stands: `statement`, the letter of a part, the step that a part asks for, or `hidden`",
+        "where it appears: `statement`, the letter of a part, the step that a part asks for, or `hidden`",
         as_written(TEXT.schema, "statement, the letter of a part, a step, or hidden"),
     )
     caption: Prose | None = key("what it shows, in prose", PROSE_OR_NOTHING)
@@ -126,25 +126,25 @@ class DrawingKeys(Record):
 class LimitKeys(Record):
     """The keys of one of `limits:`."""
 
-    of: Word | None = key("the step that is looked at in a limiting or a special case, by its key", TEXT)
+    of: Word | None = key("the step whose limiting or special case is shown, by its key", TEXT)
     letter: Formula | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", FORMULA)
-    to: Formula | None = key("where it goes: `infinity` or a value; 0 unless it is given", FORMULA)
+    to: Formula | None = key("where it goes: `infinity` or a value; default 0", FORMULA)
     where: dict[Word, Formula] = key(
-        "what letters become in a special case, `{b: a, c: a}`", mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`")
+        "letters in a special case, `{b: a, c: a}`", mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`")
     )
     step: Word | None = key("a step that the script has made for this, in place of `of`", TEXT)
-    stated: Formula | None = key("what the result then is; refused where it is not", FORMULA, called="is")
+    stated: Formula | None = key("the result in that case; a wrong one is an error", FORMULA, called="is")
     known: Word | None = key("a step that has the same result in another way, by its key", TEXT)
-    why: Prose | None = key("what is added to the sentence, in prose: `as for a disc`", PROSE)
+    why: Prose | None = key("words added to the sentence, in prose: `as for a disc`", PROSE)
 
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
-    """One of `limits:`, which says of what it is a limit, and in what way."""
+    """Read one of `limits:`, which must say in exactly one way what its limit is."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None
     if any(way in found.values_at and getattr(found, way) is None for way in ("letter", "step", "of")):
-        return None  # that it is of another shape has been told
+        return None  # the wrong shape has been reported
     ways = [way for way in ("letter", "where", "step") if getattr(found, way)]
     if len(ways) != 1 or (found.of is None) != (ways == ["step"]):
         message = "a limit has `of` with `letter` or with `where`, or it has a `step` alone"
@@ -156,7 +156,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
 
 
 def _way(*keys: str) -> dict[str, Any]:
-    """A limit that says of what it is one by these keys, and by none of the other ways."""
+    """Return the schema of a limit that has these keys, and none of the keys of the other ways."""
     others = {"of", "letter", "where", "step"} - {*keys}
     return {"required": list(keys), "not": {"anyOf": [{"required": [key]} for key in sorted(others)]}}
 
@@ -174,41 +174,41 @@ class ProblemKeys(Record):
 
     title: Prose | None = key("the heading of the problem", PROSE, required=True)
     solve: Word | None = key(
-        "the script beside this file whose `solve()` derives the answers, or one of the engine", TEXT, required=True
+        "the script next to this file whose `solve()` derives the answers, or one of the engine", TEXT, required=True
     )
     points: Fraction | None = key("points in all; those of the parts must add up to it", POINTS)
     symbols: dict[Word, SortOfLetter] = key(
-        "letters and their kinds, with what is known of the values: `M: mass`, `F: positive force`, "
+        "letters and their kinds, with what is known about the values: `M: mass`, `F: positive force`, "
         "`alpha: angle in (0, pi/2)`",
         SYMBOLS,
     )
     given: Mapping | None = key(
-        "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; "
-        "for a script of the engine the description of what it solves",
+        "the arguments of `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; "
+        "for a script of the engine, the description of what it solves",
         GIVEN,
     )
-    values: dict[Word, Tree] = key("numbers for declared letters, put in at the end: `a: 2 cm`", VALUES)
+    values: dict[Word, Tree] = key("numbers for declared letters, substituted at the end: `a: 2 cm`", VALUES)
     statement: Prose | None = key("the problem in prose; `<<mass>>` stands for what is given", PROSE, required=True)
-    strategy: Prose | None = key("one or two sentences at the head of the solution: what it rests on, and why", PROSE)
+    strategy: Prose | None = key("one or two sentences at the head of the solution: its method, and why", PROSE)
     parts: tuple[Question, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
         "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
         mapping_of(Reader({"anyOf": [_WORDS, _TEXTS]}, _sentences)),
     )
     show: Table[str, str] = key("how much of a step is shown, by the step's key", mapping_of(one_of(SHOWN)))
-    figures: int | None = key("significant figures where `form` says nothing", FIGURES)
+    figures: int | None = key("significant figures where `form` states none", FIGURES)
     drawings: dict[Word, DrawingKeys] = key(
-        "where the drawings of the script stand, by their names", mapping_of(_DRAWING)
+        "where the drawings of the script appear, by their names", mapping_of(_DRAWING)
     )
     limits: tuple[LimitKeys, ...] = key("limiting and special cases that check the answers at the end", LIMITS)
     note: Prose | None = key("a remark after the last part, in prose", PROSE)
-    reference: Mapping | None = key("what a source states of the same problem", mapping_node({}))
+    reference: Mapping | None = key("what a source states about the same problem", mapping_node({}))
 
     def points_in_all(self, faults: Faults) -> Fraction | None:
         return points_in_all(self.points, self.values_at.get("points"), self.parts, faults)
 
 
 def written_problem(root: Path, problem_id: str, faults: Faults, quickly: bool = False) -> ProblemKeys:
-    """What the file says; `faults` takes all that is wrong with its keys and their shapes."""
+    """Read the file; `faults` collects all that is wrong with its keys and their shapes."""
     mapping = mapping_in(root, path_of(root, problem_id), "a problem", quickly)
     return read_record(ProblemKeys, mapping, "a problem", faults)

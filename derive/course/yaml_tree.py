@@ -1,8 +1,8 @@
-"""YAML as it was written: every node knows its place, and every fault of a file is told at once.
+"""YAML as it was written: every node has its place, and all errors of a file are reported at once.
 
 YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used on purpose,
-because its messages name the character at fault; ours are made from them in `_syntax_complaint`. Where hundreds of
-files are only looked at, libyaml reads them in a tenth of the time, and one that it refuses is read again.
+because its messages name the wrong character; `_syntax_complaint` makes ours from them. Where hundreds of files are
+only looked at, libyaml reads them in a tenth of the time; a file that it refuses is read again in Python.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ LONG_LINE = 160
 _LEFT_OUT = "... "
 NOTHING = ("~", "null", "Null", "NULL")  # as editors read YAML
 
-# Printable text, less the line separators that editors do not count and the marks that reorder text on the screen.
+# Printable text, without the line separators that editors do not count and the marks that reorder text on the screen.
 _ODD = re.compile(
     "[^\t\n\r\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]"
 )
@@ -56,11 +56,11 @@ class Source:
         return [*(m.start() for m in _LINE_END.finditer(self.text)), len(self.text)]
 
     def line(self, number: int) -> str:
-        """A line by its number, from 1, without its end."""
+        """Return a line by its number, from 1, without its end."""
         return self.text[self._starts[number - 1] : self._ends[number - 1]]
 
     def place(self, index: int, width: int = 1) -> Place:
-        """The place of `width` characters from `index`, cut at the end of its line; a long line is cut around it."""
+        """Return the place of `width` characters from `index`, cut at the end of its line; a long line is shortened."""
         number = bisect_right(self._starts, index)
         start = self._starts[number - 1]
         length = len(self.line(number))
@@ -79,13 +79,13 @@ class Source:
         return _ODD.sub("\ufffd", self.text[start : start + length])
 
     def at(self, line: int, column: int = 1, width: int = 1) -> Place:
-        """The place of a line and column as Python and YAML tools count them, from 1."""
+        """Return the place of a line and column as Python and YAML tools count them, from 1."""
         line = min(max(1, line), len(self._starts))
         return self.place(min(self._starts[line - 1] + max(0, column - 1), len(self.text)), width)
 
 
 class Word(str):
-    """A word of a file, and where it stands."""
+    """A word of a file, and its place."""
 
     place: Place
 
@@ -112,12 +112,12 @@ class Scalar:
 
     @property
     def empty(self) -> bool:
-        """There is nothing to read in it."""
+        """Whether there is nothing to read in it."""
         return not self.text.strip()
 
     @property
     def left_empty(self) -> bool:
-        """Nothing was written after the `:` or `-`, or YAML's word for nothing; `""` is text."""
+        """Whether nothing was written after the `:` or `-`, or only YAML's word for nothing; `""` is text."""
         return self.style == "" and self.empty
 
     @property
@@ -129,13 +129,13 @@ class Scalar:
         return Word.at(self.text, self.place)
 
     def piece(self, offset: int, length: int) -> Scalar:
-        """A part of the text, with its own place."""
+        """Return a part of the text, with its own place."""
         text = self.text[offset : offset + length]
-        start = self.start + (self.quoted) + offset  # what is folded or escaped is told a little off its place
+        start = self.start + (self.quoted) + offset  # the place of folded or escaped text is slightly off
         return Scalar(text, "", start, start + length, self.source)
 
     def place_within(self, offset: int, width: int = 1) -> Place:
-        """The place of `text[offset:offset + width]`, however the scalar was quoted or folded."""
+        """Return the place of `text[offset:offset + width]`, however the scalar was quoted or folded."""
         if not self.text:
             return self.source.place(self.start)
         if offset >= len(self.text):
@@ -146,7 +146,7 @@ class Scalar:
 
     @cached_property
     def _spans(self) -> list[tuple[int, int]]:
-        """For each character of the text, from where to where it stands in the source."""
+        """The start and end, in the source, of each character of the text."""
         raw, at = self.source.text, self.start
         if self.style not in (">", "|") and raw.startswith(self.text, at + self.quoted):
             return [(i, i + 1) for i in range(at + self.quoted, at + self.quoted + len(self.text))]
@@ -164,14 +164,14 @@ class Scalar:
 
 
 def _next_visible(raw: str, at: int, style: str) -> int:
-    """Past line ends and indentation, and past the `\\` that joins lines in double quotes."""
+    """Return the index past line ends and indentation, and past the `\\` that joins lines in double quotes."""
     gap = _JOINED_LINES if style == '"' else _SPACE
     found = gap.match(raw, at)
     return found.end() if found else at
 
 
 def _raw_width(raw: str, at: int, style: str, char: str) -> int:
-    """How many characters of the file made this one character of text."""
+    """Return how many characters of the file made this one character of text."""
     here = raw[at : at + 2]
     if style == '"' and here.startswith("\\"):
         return 2 + {"x": 2, "u": 4, "U": 8}.get(here[1:], 0)
@@ -181,7 +181,7 @@ def _raw_width(raw: str, at: int, style: str, char: str) -> int:
 
 
 class Formula(Word):
-    """An expression of a file, read when its letters are known; nothing but its text counts where it is compared."""
+    """An expression of a file, read when its letters are known; it is compared by its text alone."""
 
     scalar: Scalar
 
@@ -212,7 +212,7 @@ class Mapping:
 
     @property
     def places(self) -> dict[str, Place]:
-        """Where each key stands, and each key within it, `show.spin`."""
+        """The place of each key, and of each key within it, `show.spin`."""
         found = {key.text: key.place for key, _ in self.pairs}
         inner = ((key.text, value.places) for key, value in self.pairs if isinstance(value, Mapping))
         return found | {f"{key}.{name}": place for key, places in inner for name, place in places.items()}
@@ -222,7 +222,7 @@ Tree: TypeAlias = Scalar | Sequence | Mapping
 
 
 def as_text(node: Tree | None) -> str:
-    """All that a node says, without where it says it."""
+    """Return the contents of a node as text, without places."""
     if isinstance(node, Mapping):
         return "{" + ", ".join(f"{name.text!r}: {as_text(value)}" for name, value in node.pairs) + "}"
     if isinstance(node, Sequence):
@@ -231,7 +231,7 @@ def as_text(node: Tree | None) -> str:
 
 
 def shape_of(node: Tree) -> str:
-    """What a node is, in words for a message."""
+    """Return the shape of a node in words for a message."""
     if isinstance(node, Scalar):
         return "empty" if node.empty else f"`{abridged(node.text)}`"
     return "a list" if isinstance(node, Sequence) else "a mapping"
@@ -243,16 +243,16 @@ def abridged(text: str, limit: int = 40) -> str:
 
 
 def read_source(path: Path, shown_as: str, *, limit: int = LARGEST_FILE) -> Source:
-    """The text of a file that somebody wrote, if it is text at all."""
+    """Return the text of a file of the author, if it is text at all."""
     whole = Place(shown_as, 1)
     try:
-        # A pipe or a device is not waited for.
+        # Do not wait for a pipe or a device.
         with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
             if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
                 raise Rejected(Complaint("unreadable", f"`{shown_as}` is not a file", help="put a file in its place"))
             raw = file.read(limit + 1)
     except FileNotFoundError:
-        raise Rejected(Complaint("missing-file", f"there is no file `{shown_as}`")) from None
+        raise Rejected(Complaint("missing-file", f"the file `{shown_as}` does not exist")) from None
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise Rejected(Complaint("unreadable", f"`{shown_as}` cannot be read: {reason}")) from None
@@ -270,25 +270,25 @@ def read_source(path: Path, shown_as: str, *, limit: int = LARGEST_FILE) -> Sour
 
 
 def read_yaml(path: Path, shown_as: str, quickly: bool = False) -> Tree:
-    """The tree of a YAML file; `shown_as` is its path in messages."""
+    """Return the tree of a YAML file; `shown_as` is its path in messages."""
     source, quick = read_source(path, shown_as), getattr(yaml, "CSafeLoader", None)
     if quickly and quick and not _ODD.search(source.text):
-        with suppress(Rejected):  # with what is wrong in words that are not ours
+        with suppress(Rejected):  # an error in words that are not ours: read it again
             return _Reader(source, Faults(), quick).tree()
     return yaml_tree(source)
 
 
-@lru_cache(maxsize=64)  # each problem of a set asks for what a reference states of it
+@lru_cache(maxsize=64)  # each problem of a set asks for the same reference
 def yaml_tree(source: Source) -> Tree:
-    """The tree of a YAML text, or one `Rejected` with every fault of its form."""
+    """Return the tree of a YAML text, or raise one `Rejected` with every error of its form."""
     faults = Faults()
     for odd in islice(_ODD.finditer(source.text), 5):
         faults.error("control-character", f"the character U+{ord(odd[0]):04X} is not text", source.place(odd.start()))
     tabs = list(_TAB_INDENT.finditer(source.text))
     if tabs:
-        # One complaint for the file: an editor that writes tabs writes them on every line.
+        # One error for the file: an editor that writes tabs writes them on every line.
         place = source.place(tabs[0].start() + tabs[0][0].index("\t"))
-        notes = (f"{len(tabs)} lines are indented so",) if tabs[1:] else ()
+        notes = (f"{len(tabs)} lines are indented by tabs",) if tabs[1:] else ()
         faults.error("tab", "a tab indents this line", place, notes=notes, help="indent with spaces")
     faults.stop()
     return _Reader(source, faults).tree()
@@ -314,7 +314,7 @@ class _Reader:
                     root = _nothing_is_empty(self.node(event, 1))
         except yaml.MarkedYAMLError as error:
             complaint = _syntax_complaint(error, self.source)
-            # An alias or a tag that was refused leaves the rest of its line unreadable: that is one fault, not two.
+            # An alias or a tag that was refused leaves the rest of its line unreadable: that is one error, not two.
             if complaint.place is None or complaint.place.line not in self.odd_lines:
                 self.faults.add(complaint)
         if root is None or (isinstance(root, Scalar) and root.left_empty):
@@ -372,7 +372,7 @@ class _Reader:
         return Mapping(tuple(pairs.values()), self.source.place(opening.start_mark.index))
 
     def refuse_cleverness(self, event: Any) -> None:
-        """Aliases, anchors and tags: YAML that is a program, or that was meant as something else."""
+        """Refuse aliases, anchors and tags: they make YAML a program, or were meant as something else."""
         if isinstance(event, yaml.AliasEvent):
             help_line = "quote an expression that begins with `*`"
             self.refuse("alias", f"`*{event.anchor}` is a YAML alias", event, len(str(event.anchor)) + 1, help_line)
@@ -385,12 +385,12 @@ class _Reader:
 
 
 def _nothing_is_empty(node: Tree) -> Tree:
-    """A value for which YAML has the word `null` or `~` is as one that was not written."""
+    """Return a value for which YAML has the word `null` or `~` as one that was not written."""
     return replace(node, text="") if isinstance(node, Scalar) and not node.style and node.text in NOTHING else node
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """The value that a comma has cut in two, whose bracket is closed in what then looks like the next key."""
+    """Return the value that a comma has cut in two: its bracket is closed in what then looks like the next key."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start
@@ -404,7 +404,7 @@ def _needs_quotes(name: str, value: Scalar) -> Complaint:
 
 
 def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
-    """What the parser found, in the words of somebody who has never read a YAML grammar."""
+    """Return the parser's error in words for an author who has never read a YAML grammar."""
     context, problem = str(error.context or ""), str(error.problem or "this is not YAML")
     mark = error.problem_mark or error.context_mark
     index = min(mark.index, len(source.text)) if mark else 0
@@ -423,7 +423,7 @@ def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
     if "unknown escape" in problem:
         return syntax(f"`\\{found}` has no meaning in double quotes", "use single quotes", max(0, index - 1))
     if "flow" in context and found == "?":
-        return syntax("a `?` ends what stands within brackets", "put the text in quotes")
+        return syntax("a `?` ends the text within brackets", "put the text in quotes")
     cut = next((m for m in _RANGE.finditer(source.text) if m.start(2) <= index < m.end()), None)
     if "flow" in context and cut:
         return _needs_quotes(cut[1], Scalar(cut[2], "", cut.start(2), cut.end(), source))

@@ -1,6 +1,6 @@
-"""The worker of a preview as its server sees it: asked, waited for, ended when it takes too long, begun again.
+"""The worker of a preview as its server sees it: asked, waited for, ended when it takes too long, started again.
 
-It has the limits of a build's workers, and what is said of one that gives no answer is the same.
+It has the limits of a build's workers, and the same errors when it gives no answer.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from derive.building.files import of_system
 from derive.building.workers import Job, died, job_of, lines_told, memory_limit, overtaxed
 from derive.errors import BuildFailed, Complaint, DeriveError
 
-STEP = 0.05  # seconds between two looks whether an answer is still wanted
-PATIENCE = 1.0  # seconds that a question may go on after a newer edit has made it idle
+STEP = 0.05  # seconds between two checks whether an answer is still wanted
+PATIENCE = 1.0  # seconds that a question may take after a newer edit has made it idle
 
 
 @dataclass(frozen=True)
 class Shown:
-    """What a browser is to show: the main part of a page, or complaints about the files that it is made from."""
+    """The content for a browser: the main part of a page, or errors of the files that it is made from."""
 
     main: str = ""
     complaints: tuple[str, ...] = ()
@@ -38,8 +38,8 @@ class Shown:
 
 
 class _Worker:
-    """The process, and the ends of its pipes that are ours: questions, answers, where it says what it is at, and one
-    that nothing is written to, by whose end it knows of ours."""
+    """The process, and our ends of its pipes: questions, answers, its trace, and a lifeline that nothing is written to,
+    by whose end the process notices our end."""
 
     def __init__(self, root: Path):
         limit, pipes = memory_limit(), _pipes(4)
@@ -51,8 +51,8 @@ class _Worker:
                 command,
                 stdin=subprocess.DEVNULL,
                 pass_fds=theirs,
-                env={**os.environ, "PYTHONIOENCODING": "utf-8:backslashreplace"},  # of what a script prints
-                start_new_session=True,  # Ctrl-C is for the server, which ends it
+                env={**os.environ, "PYTHONIOENCODING": "utf-8:backslashreplace"},  # for output of a script
+                start_new_session=True,  # Ctrl-C goes to the server, which ends the worker
             )
         except OSError:
             self._close()
@@ -71,11 +71,11 @@ class _Worker:
 
     def ask(self, **question: Any) -> None:
         self._asked += 1
-        with suppress(BrokenPipeError):  # that it has ended is seen where its answer is read
+        with suppress(BrokenPipeError):  # the reader of its answer notices that it has ended
             os.write(self._asks, json.dumps({"number": self._asked, **question}).encode() + b"\n")
 
     def answer(self, seconds: float) -> bytes | None:
-        """A line that it says within that time; nothing if it does not, an empty one if it never will."""
+        """Return a line that it writes within that time; nothing if it does not, an empty one if it never will."""
         if select.select([self._answers], [], [], seconds)[0]:
             more = os.read(self._answers, 1 << 16)
             if not more:
@@ -88,7 +88,7 @@ class _Worker:
         return line + ended
 
     def read(self, line: bytes) -> dict[str, Any] | None:
-        """The answer in a line, if it is one to the last question."""
+        """Return the answer in a line, if it answers the last question."""
         try:
             said = json.loads(line)
         except ValueError:
@@ -96,7 +96,7 @@ class _Worker:
         return said if isinstance(said, dict) and said.get("number") == self._asked else None
 
     def ended(self) -> int:
-        """The exit code of one that says nothing more."""
+        """Return the exit code of a process that writes nothing more."""
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(1)
         return self._process.returncode or 0
@@ -106,7 +106,7 @@ class _Worker:
             return self._process.poll() is None
 
     def kill(self) -> None:
-        """It and the programs that it has started."""
+        """Kill the process and the programs that it has started."""
         with self._guard, suppress(OSError):
             os.killpg(self._process.pid, signal.SIGKILL)
 
@@ -122,7 +122,7 @@ class _Worker:
 
 
 def _pipes(number: int) -> list[tuple[int, int]]:
-    """All of them, or none where there are too few descriptors."""
+    """Return that many pipes, or none if there are too few descriptors."""
     found: list[tuple[int, int]] = []
     try:
         while len(found) < number:
@@ -136,7 +136,7 @@ def _pipes(number: int) -> list[tuple[int, int]]:
 
 @dataclass
 class Warm:
-    """A worker, started when it is first asked or before; from when it is ended for good there is none."""
+    """A worker, started when it is first asked or before, and never again after the end of the preview."""
 
     root: Path
     limit: float
@@ -145,7 +145,7 @@ class Warm:
     _over: bool = False
 
     def page(self, problem_id: str, detail: str | None, idle: Callable[[], bool] = lambda: False) -> Shown | None:
-        """The answer to a question; nothing if it became `idle` while it was worked on, or the preview is over."""
+        """Return the answer to a question; nothing if it became `idle` meanwhile, or the preview is over."""
         started = time.monotonic()
         with self._asking:
             try:
@@ -185,7 +185,7 @@ class Warm:
         return said
 
     def begun(self) -> _Worker | None:
-        """The process, which loads what it needs before it answers; none after the end of the preview."""
+        """Return the process, which loads what it needs before it answers; nothing after the end of the preview."""
         with self._asking:
             if self._worker is not None and not self._worker.is_alive():
                 self._end()
@@ -203,7 +203,7 @@ class Warm:
             self._worker = None
 
     def end(self) -> None:
-        """For good; who is waiting for an answer gets none."""
+        """End it for good; a question that waits for an answer gets none."""
         self._over = True
         worker = self._worker
         if worker is not None:
@@ -216,7 +216,7 @@ class Warm:
 
 
 def _disturbed(job: Job) -> BuildFailed:
-    message = f"{job.name} has written where its process gives its answers: into a file descriptor"
+    message = f"{job.name} has written into the file descriptor on which its process answers"
     help_ = "a script may write to standard output and to files that it opens itself"
     return BuildFailed(Complaint("worker-died", message, help=help_))
 

@@ -1,4 +1,4 @@
-"""A set served while it is edited: its files watched, its pages made anew, whoever looks at them told."""
+"""A set served while it is edited: its files are watched, its pages are made again, and browsers are informed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Ending(Protocol):
 
 
 WRITTEN = (".yaml", ".py", ".j2", ".css", ".js")
-SETTLED = 20  # milliseconds without a further change after which an edit is taken to be whole
+SETTLED = 20  # an edit is complete after so many milliseconds without another change
 
 
 def preview(
@@ -38,8 +38,8 @@ def preview(
     told: Callable[[str, Shown], None],
     ending: Ending,
 ) -> None:
-    """Serve the pages of a set until somebody interrupts, or `ending` is set; `ready` is told the address, `told` what
-    was shown."""
+    """Serve the pages of a set until the user interrupts it, or `ending` is set; `ready` is called with the address,
+    `told` with what was shown."""
     check_asked(root, set_id, [name] if name else ())
     heading = problem_set(root, set_id)
     first = name or heading.problems[0].rpartition("/")[2]
@@ -65,7 +65,7 @@ def preview(
 
 @contextmanager
 def _serving(served: Server) -> Iterator[int]:
-    """In a thread, so that edits are noticed in this one; the port that it has."""
+    """Serve in a thread, so that edits are noticed in this one; give the port."""
     thread = threading.Thread(target=served.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
     thread.start()
     try:
@@ -76,7 +76,7 @@ def _serving(served: Server) -> Iterator[int]:
 
 
 def _edits(root: Path, ending: Ending) -> Iterator[object]:
-    """Each time that problems or scripts, which may be another set's, templates or phrases were written."""
+    """Yield each time that problems or scripts, also of other sets, templates or phrases were written."""
     from watchfiles import watch
 
     yield from watch(

@@ -1,11 +1,11 @@
-"""A server on this machine alone: the pages of one set, and what changes in them as it is edited.
+"""A server for this machine alone: the pages of one set, and their changes while it is edited.
 
     /                 the page that was asked for first
-    /NAME.html        that of another problem of the set
-    /NAME/events      what its page is told: itself when it has changed, or what is wrong with it
+    /NAME.html        the page of another problem of the set
+    /NAME/events      messages to this page: itself when it has changed, or what is wrong with it
 
-Nothing else is served, no file is read by its name, and only a browser of this machine that knows it by a local name is
-answered: so that no other page can have it read what is here.
+Nothing else is served, no file is read by its name, and only a browser that names this machine by a local name gets
+an answer, so that no other page can have it read what is here.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from derive.preview.asking import Shown, Warm
 
 HOST = "127.0.0.1"
 _LOCAL = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.ASCII | re.IGNORECASE)
-ALIVE = 15.0  # seconds after which a browser that was told nothing is told so, and one that has gone is noticed
-PROMPT = 5.0  # seconds in which a browser has sent a request, or closes a connection that it keeps
-TAKEN = 30.0  # seconds in which it has taken an answer
-MOST = 64  # connections at a time, of which each open page has one
-FULL = 0.1  # seconds until descriptors may be free again
+ALIVE = 15.0  # seconds after which an idle browser gets a message, and a closed one is noticed
+PROMPT = 5.0  # seconds within which a browser must send a request on a connection that it keeps
+TAKEN = 30.0  # seconds within which it must take an answer
+MOST = 64  # connections at a time, each open page has one
+FULL = 0.1  # seconds to wait for free descriptors
 CACHED = "no-store"
 NONE = "'none'"
 NOTHING_ELSE = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -45,7 +45,7 @@ NOTHING_ELSE = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-a
 
 @dataclass
 class Pages:
-    """The pages of a set as they were last, and who waits for the next."""
+    """The pages of a set as they were last, and the browsers that wait for the next."""
 
     warm: Warm
     set_id: str
@@ -53,14 +53,14 @@ class Pages:
     detail: str | None = None
     told: Callable[[str, Shown], None] = lambda name, shown: None
     _last: dict[str, Shown] = field(default_factory=dict)
-    _good: dict[str, str] = field(default_factory=dict)  # the last main part of each that was without a fault
+    _good: dict[str, str] = field(default_factory=dict)  # the last main part of each page without an error
     _edition: int = 0
     _changed: threading.Condition = field(default_factory=threading.Condition)
     _asking: threading.Lock = field(default_factory=threading.Lock)
     _stale: set[str] = field(default_factory=set)
 
     def now(self, name: str) -> Shown:
-        """A page as it is now, derived first if it was not yet asked for or a file has been edited."""
+        """Return a page as it is now; derive it first if it is new or a file has been edited."""
         with self._asking:
             if name not in self._last or name in self._stale:
                 self._renew(name)
@@ -70,14 +70,14 @@ class Pages:
         return self._good.get(name, "")
 
     def edited(self) -> None:
-        """Files have changed: what is looked at is made anew, what is not when it is looked at again."""
+        """Note that files have changed: pages in view are made again at once, others when they are viewed again."""
         with self._changed:
             self._edition += 1
             self._stale = set(self._last)
             self._changed.notify_all()
 
     def next(self, name: str, seen: int, timeout: float) -> tuple[int, Shown | None]:
-        """What there is to show after the edition that was seen last; nothing if nothing changed in that time."""
+        """Return what there is to show after the edition that was seen last; nothing if nothing changed meanwhile."""
         with self._changed:
             self._changed.wait_for(lambda: self._edition > seen, timeout)
             edition = self._edition
@@ -109,7 +109,7 @@ class Handler(BaseHTTPRequestHandler):
     """Answers to one browser."""
 
     pages: Pages
-    whole: Callable[[str, str], str]  # a page, by the name of its problem, around its main part
+    whole: Callable[[str, str], str]  # makes a page from a problem's name and its main part
     first: str
     protocol_version = "HTTP/1.1"
     server_version = "derive"
@@ -143,14 +143,14 @@ class Handler(BaseHTTPRequestHandler):
         if page and page[1] == "index":
             name = self.first
         if name not in self.pages.names:
-            self._plain(HTTPStatus.NOT_FOUND, "no problem of this set is called so")
+            self._plain(HTTPStatus.NOT_FOUND, "no problem of this set has this name")
         elif events:
             self._events(name)
         else:
             self._page(name)
 
     def _is_local(self) -> bool:
-        """A page of somewhere else that leads here by another name is not answered."""
+        """Return whether the request names this machine by a local name; pages from elsewhere that lead here do not."""
         return bool(_LOCAL.fullmatch(self.headers.get("Host") or ""))
 
     def _page(self, name: str) -> None:
@@ -160,7 +160,7 @@ class Handler(BaseHTTPRequestHandler):
         self._sent(HTTPStatus.OK, "text/html; charset=utf-8", whole(name, main).encode(), policy)
 
     def _events(self, name: str) -> None:
-        """One message after another for as long as the browser listens."""
+        """Send one message after another for as long as the browser listens."""
         self.close_connection = True
         self.send_response(HTTPStatus.OK)
         for header, value in (
@@ -204,11 +204,11 @@ class Handler(BaseHTTPRequestHandler):
         self.wfile.write(content)
 
     def log_message(self, format: str, *args: Any) -> None:
-        """Nobody reads who asked for what."""
+        """Write no log of requests, which nobody reads."""
 
 
 class _Prompt(RawIOBase):
-    """What a browser sends, each request whole within a time."""
+    """The bytes that a browser sends; each request must be complete within a time."""
 
     def __init__(self, connection: socket):
         self.connection, self.until = connection, 0.0
@@ -225,7 +225,7 @@ class _Prompt(RawIOBase):
 
 
 def policy_of(page: str) -> str:
-    """What a browser lets a page do: run the scripts that this one has, as they are, and ask for what has changed."""
+    """Return what a browser lets a page do: run exactly the scripts of this page, and ask for changes."""
     found = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
     scripts = " ".join(f"'sha256-{b64encode(sha256(each.encode()).digest()).decode()}'" for each in found)
     own = "connect-src 'self'; style-src 'unsafe-inline'; font-src data:; img-src data:"
@@ -233,7 +233,7 @@ def policy_of(page: str) -> str:
 
 
 class Server(ThreadingHTTPServer):
-    """Threads of browsers end with the program; there are so many at most."""
+    """A server whose threads end with the program; their number is limited."""
 
     daemon_threads = True
     allow_reuse_address = True
@@ -249,7 +249,7 @@ class Server(ThreadingHTTPServer):
             return
         try:
             super().process_request(request, client_address)
-        except BaseException:  # there is no thread for it
+        except BaseException:  # no thread could be started
             self._free.release()
             raise
 
@@ -262,12 +262,12 @@ class Server(ThreadingHTTPServer):
     def get_request(self) -> tuple[Any, Any]:
         try:
             return super().get_request()
-        except OSError:  # there are too few descriptors: whoever asks waits until some are free
+        except OSError:  # too few descriptors: the browser waits until some are free
             time.sleep(FULL)
             raise
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Say in a line what no answer foresaw; that a browser has gone is not worth one."""
+        """Report an unforeseen error in a line; a browser that has gone is not reported."""
         error = sys.exc_info()[1]
         if not isinstance(error, ConnectionError | TimeoutError):
             said = f"internal error: {type(error).__name__}: {error}"
@@ -275,7 +275,7 @@ class Server(ThreadingHTTPServer):
 
 
 def server(pages: Pages, whole: Callable[[str, str], str], first: str, port: int) -> Server:
-    """Ready to serve; `port` 0 takes any that is free."""
+    """Return a server that is ready; `port` 0 takes any that is free."""
     handler = type("Handler", (Handler,), {"pages": pages, "whole": staticmethod(whole), "first": first})
     try:
         return Server((HOST, port), handler)

@@ -1,12 +1,12 @@
-"""What derives the pages of a preview: a process that stays, asked for one page after another.
+"""The process that derives the pages of a preview: it stays, and is asked for one page after another.
 
-It keeps what it has loaded and printed, so that an edit of words costs little more than the words; and it can be killed
-at any moment, since it writes nothing but what builds keep of their work.
+It keeps what it has loaded and printed, so that an edit of words costs little more than the words. It can be killed at
+any instant, because it writes only what builds keep of their work.
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 
-MEMORY is the most that it may take, in bytes; the others are file descriptors: a question a line, an answer a line, and
-those of a build's worker.
+MEMORY is the most that it may take, in bytes; the others are file descriptors: for questions and answers, one a line,
+and those of a build's worker.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ def main(arguments: Sequence[str]) -> None:
     for descriptor in (questions, answers, trace, lifeline):
         os.set_inheritable(descriptor, False)  # no program that a script starts has them
     confine(lifeline, trace, memory)
-    os.dup2(2, 1)  # what a script prints is for the person at the terminal, and no answer
+    os.dup2(2, 1)  # output of a script is for the user at the terminal, not an answer
     told = os.fdopen(answers, "w", encoding="utf-8")
     for packages in (("sympy", "mpmath"), ("matplotlib",)):
-        engine_digest(*packages)  # of the modules as they are now, before they are loaded
+        engine_digest(*packages)  # the digest of the modules before they are loaded
     load(root, derives=True, draws=False)
     for question in os.fdopen(questions, encoding="utf-8"):
         asked = json.loads(question)
@@ -46,15 +46,15 @@ def main(arguments: Sequence[str]) -> None:
 
 @cache
 def _settle(root: Path) -> None:
-    """While the first page is read, load what draws; all that is loaded is not looked through for garbage again."""
+    """Load what draws while the first page is read; no later search for garbage looks at what is loaded."""
     load(root, derives=True, draws=True)
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
 
 
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
-    """The page of a problem, or what is wrong with it, as plain data; by which limit it was stopped, and where, it says
-    as a build's worker does."""
+    """Return the page of a problem, or what is wrong with it, as plain data; a limit and the place where it stopped are
+    reported as by a build's worker."""
     problem, limit = question["problem"], question["limit"]
     try:
         with limited(limit, trace):
@@ -66,12 +66,12 @@ def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, An
         return {"complaints": [each.shown() for each in stopped.complaints], "ends": True}
     except (MemoryError, RecursionError) as short:
         return {"limit": told_to(trace, short)}
-    except BaseException as bug:  # of a script too, which may well end its program
+    except BaseException as bug:  # also of a script, which may end its program
         return {"complaints": [f"internal error: {type(bug).__name__}: {bug}"], "trace": traceback.format_exc()}
 
 
 def main_part(root: Path, problem_id: str, detail: str | None) -> str:
-    """What a page for a browser has of a problem."""
+    """Return the main part of a problem's page for a browser."""
     from derive.building.cache import Cache
     from derive.building.named import set_folder
     from derive.building.set_document import problem_main

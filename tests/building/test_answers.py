@@ -23,7 +23,7 @@ def test_each_answer_is_told_with_what_it_is_and_its_value(tmp_path: Path) -> No
     assert ("equations_of_motion", "the equation of motion of each coordinate", "motion_r, motion_phi") in rows
     assert ("rate_phi_by_p_phi", "a step of `routhian`: rate by momenta", "φ̇ = p_φ/(m_1 r²)") in rows
     (made,) = (row for row in rows if row[0] == "radial_equation")
-    assert made[1] == "a result, made of `motion_r`, `rate_phi_by_p_phi`"
+    assert made[1] == "a result, computed from `motion_r`, `rate_phi_by_p_phi`"
     assert "multipliers" not in {name for name, *_ in rows}  # there are none in this system
 
 
@@ -51,4 +51,4 @@ def test_the_command_prints_the_list(tmp_path: Path, capfd: pytest.CaptureFixtur
 
 def test_the_command_needs_a_problem(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["--root", str(course_with(tmp_path, CONE)), "list", "trial", "--answers"]) == 2
-    assert "`--answers` lists those of one problem" in capfd.readouterr().err
+    assert "`--answers` lists the answers of one problem" in capfd.readouterr().err

@@ -120,7 +120,7 @@ def test_what_was_altered_or_is_no_file_counts_as_none(tmp_path: Path, cache: Ca
     cache.keep(TWO, b"1")
     (warning,) = cache.unkept
     assert (warning.code, warning.severity) == ("not-kept", "warning")
-    assert warning.message.endswith("a folder stands where a file should be")
+    assert warning.message.endswith("a folder is where a file should be")
 
 
 def test_a_cache_that_cannot_be_written_costs_a_warning_and_no_page(course: Course) -> None:
@@ -134,9 +134,9 @@ def test_a_cache_that_cannot_be_written_costs_a_warning_and_no_page(course: Cour
         assert {warning.code for warning in report.warnings} == {"not-kept"}
         assert [warning.message for warning in report.warnings] == [
             "nothing is kept for the next build: cannot write in `build/hw1/.derived`: "
-            "a file stands where a folder should be",
+            "a file is where a folder should be",
             "nothing is kept for the next build: cannot write `build/hw1/.manifest.json`: "
-            "a folder stands where a file should be",
+            "a folder is where a file should be",
         ]
         assert said in (course.outputs / "solutions.pdf").read_text()
 

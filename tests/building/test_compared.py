@@ -100,7 +100,7 @@ def test_a_problem_that_was_not_there_is_said(tmp_path: Path) -> None:
     file.unlink()
     committed(root)
     file.write_text(text, encoding="utf-8")
-    assert refusal(root, "HEAD").complaints[0].message == "there was no problem `hw9/block` at `HEAD`"
+    assert refusal(root, "HEAD").complaints[0].message == "no problem was called `hw9/block` at `HEAD`"
 
 
 def test_a_fault_of_then_is_told_as_one(tmp_path: Path) -> None:
@@ -109,7 +109,7 @@ def test_a_fault_of_then_is_told_as_one(tmp_path: Path) -> None:
     edited(root, "points: ten", "points: 10")
     error = refusal(root, "HEAD")
     assert isinstance(error, Rejected)
-    assert error.complaints[0].notes[-1] == "so it stands at `HEAD`, derived with the derive of today"
+    assert error.complaints[0].notes[-1] == "this is the state at `HEAD`, derived with the present derive"
     edited(root, "points: 10", "points: ten")
     assert refusal(root, "HEAD").complaints[0].notes == ()
 

@@ -108,11 +108,11 @@ def test_the_makefile_has_the_same_reserved_names() -> None:
     ("output", "code", "said"),
     [
         ("", 2, "`-o` needs the name of a file"),
-        ("problems/hw1/one.yaml", 2, "`problems/hw1/one.yaml` is a file that somebody wrote"),
-        ("problems/hw1/notes.txt", 2, "is a file that somebody wrote"),
-        ("script.py", 2, "is a file that somebody wrote"),
+        ("problems/hw1/one.yaml", 2, "`problems/hw1/one.yaml` is a file written by hand"),
+        ("problems/hw1/notes.txt", 2, "is a file written by hand"),
+        ("script.py", 2, "is a file written by hand"),
         ("link", 2, "`link` is a link"),
-        ("problems", 1, "a folder stands where a file should be"),
+        ("problems", 1, "a folder is where a file should be"),
         ("x" * 300, 1, "the name is too long"),
         ("/dev/full", 1, "the disk is full"),
     ],
@@ -158,7 +158,7 @@ def test_a_lock_that_is_a_link_leaves_alone_what_it_leads_to(course: Course) -> 
     (course.root / "victim").write_text("mine")
     course.outputs.mkdir(parents=True)
     (course.outputs / ".lock").symlink_to(course.root / "victim")
-    with pytest.raises(BuildFailed, match="a link stands where a file should be"):
+    with pytest.raises(BuildFailed, match="a link is where a file should be"):
         built(course)
     assert (course.root / "victim").read_text() == "mine"
 
@@ -197,7 +197,7 @@ COMMAND = (
         (
             "mkdir gone; cd gone; rmdir ../gone; exec {} list",
             2,
-            "error[no-root]: the folder that you are in is no more\n",
+            "error[no-root]: the folder that you are in does not exist any more\n",
         ),
     ],
 )

@@ -58,9 +58,9 @@ def test_what_stands_in_the_way_is_named(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.chdir(tmp_path)
     (tmp_path / "file").write_text("")
     (tmp_path / "page.txt").mkdir()
-    with pytest.raises(BuildFailed, match=r"cannot write `page\.txt`: a folder stands where a file should be"):
+    with pytest.raises(BuildFailed, match=r"cannot write `page\.txt`: a folder is where a file should be"):
         write(tmp_path / "page.txt", "1")
-    with pytest.raises(BuildFailed, match="cannot write `file`: a file stands where a folder should be"):
+    with pytest.raises(BuildFailed, match="cannot write `file`: a file is where a folder should be"):
         folder(tmp_path / "file")
     assert {path.name for path in tmp_path.iterdir()} == {"file", "page.txt"}, "nothing half written is left"
 

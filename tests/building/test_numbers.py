@@ -129,7 +129,7 @@ def test_a_form_may_wait_for_numbers(values: str, parts: str, said: list[str], t
 
 def test_a_number_that_the_sheet_does_not_tell(tmp_path: Path) -> None:
     found = warnings_of(tmp_path, "l: 1 m, m: 1 kg, g: 9.8 m/s^2", part("period"), "A thread <<length>>.")
-    assert told(found) == [("untold-number", "`g` has a number that the sheet does not tell", "9.8 m/s^2")]
+    assert told(found) == [("untold-number", "`g` has a number that the sheet does not state", "9.8 m/s^2")]
     assert found[0].help == "mention `<<gravity>>` in the statement"
 
 
@@ -137,4 +137,4 @@ def test_a_number_may_be_told_by_a_question_and_be_typed_in_place_of_its_letter(
     asked = part("period").replace("What is it?", "What is it at <<gravity>>?")
     assert warnings_of(tmp_path / "asked", "l: 1 m", asked, "A thread <<length>>.", "9.8 m/s^2") == []
     found = warnings_of(tmp_path / "not", "l: 1 m", part("period"), "A thread <<length>>.", "9.8 m/s^2")
-    assert told(found) == [("untold-number", "`g` has a number that the sheet does not tell", "9.8 m/s^2")]
+    assert told(found) == [("untold-number", "`g` has a number that the sheet does not state", "9.8 m/s^2")]

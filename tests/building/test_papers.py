@@ -42,5 +42,5 @@ def test_a_paper_that_the_set_names_later_is_its_own_from_then_on(tmp_path: Path
 
 
 def test_two_papers_of_one_name_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(Misused, match="two papers of `hw1` would be called `key`"):
+    with pytest.raises(Misused, match="two documents of `hw1` would be called `key`"):
         named_papers(heading(("solutions", "key")), Manifest(tmp_path), ["key"])

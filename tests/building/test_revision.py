@@ -84,7 +84,7 @@ def test_a_revision_that_is_none_is_said(tmp_path: Path, revision: str) -> None:
 
 
 def test_a_set_that_was_not_there_is_said(tmp_path: Path) -> None:
-    assert complaint(committed(course(tmp_path)), "HEAD", "hw2") == ("no-such-set", "there was no set `hw2` at `HEAD`")
+    assert complaint(committed(course(tmp_path)), "HEAD", "hw2") == ("no-such-set", "no set was called `hw2` at `HEAD`")
 
 
 def test_no_repository_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -336,9 +336,9 @@ def test_a_set_may_have_one_problem_without_points(tmp_path: Path) -> None:
     ("listed", "message"),
     [
         (("block", "block"), "`block` is listed twice"),
-        (("blok",), "there is no problem `blok` in this set"),
+        (("blok",), "no problem of this set is called `blok`"),
         (("hw8/top",), "`hw8/top` is a problem of another set"),
-        (("solutions",), "a problem cannot be called `solutions`, for a document of the set has that name"),
+        (("solutions",), "a problem cannot be called `solutions`, because a document of the set has that name"),
     ],
 )
 def test_a_problem_that_cannot_be_listed_is_told(tmp_path: Path, listed: tuple[str, ...], message: str) -> None:

@@ -219,7 +219,7 @@ def test_a_derivation_that_loops_is_stopped_and_named(course: Course) -> None:
 def test_a_worker_that_dies_is_a_complaint(course: Course) -> None:
     course.problem("one", "die")
     (complaint,) = build(course).complaints
-    assert (complaint.code, complaint.message) == ("worker-died", "`hw1/one` ended without a word: signal 9")
+    assert (complaint.code, complaint.message) == ("worker-died", "`hw1/one` ended without a message: signal 9")
 
 
 def test_a_bug_is_kept_apart_from_faults_of_the_user(course: Course) -> None:
@@ -251,7 +251,7 @@ def test_outputs_that_cannot_be_written_are_one_complaint(course: Course) -> Non
     with pytest.raises(BuildFailed) as caught:
         build(course)
     (complaint,) = caught.value.complaints
-    assert complaint.message == "cannot write `build/hw1`: a file stands where a folder should be"
+    assert complaint.message == "cannot write `build/hw1`: a file is where a folder should be"
 
 
 def test_make_is_told_the_outputs_and_the_options(course: Course) -> None:
@@ -273,7 +273,7 @@ def test_make_is_told_nothing_while_a_document_is_older_than_its_problem(course:
     report = build(course, Options(papers=("key",)))
     (warning,) = report.warnings
     assert warning.message == (
-        "older than the problems, and not made again: `solutions.pdf`, `problems.pdf`, `report.pdf` in `build/hw1`"
+        "older than the problems, but not made again: `solutions.pdf`, `problems.pdf`, `report.pdf` in `build/hw1`"
     )
     assert warning.help == "`derive build hw1` makes them again"
     assert not (course.outputs / ".built").exists()
@@ -334,7 +334,7 @@ def test_a_paper_that_the_set_calls_otherwise_leaves_no_older_file(course: Cours
 def test_two_papers_may_not_have_one_name(course: Course) -> None:
     file = course.folder / "set.yaml"
     file.write_text(file.read_text() + "papers: {solutions: key}\n")
-    with pytest.raises(Misused, match="two papers of `hw1` would be called `key`"):
+    with pytest.raises(Misused, match="two documents of `hw1` would be called `key`"):
         build(course, Options(papers=("key",)))
 
 

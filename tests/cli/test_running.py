@@ -17,7 +17,7 @@ def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
     course.problem("one", "bug")
     line = (
         "internal error: ZeroDivisionError: nobody thought of that (DERIVE_DEBUG=1 shows the traceback)\n"
-        "   = help: this is a fault of derive: report it with the traceback and the files of the problem\n"
+        "   = help: this is a bug in derive: report it with the traceback and the files of the problem\n"
     )
     for arguments in (["solve", "hw1/one"], ["build"], ["check", "hw1/one"]):
         assert main(arguments) == 1
@@ -32,26 +32,26 @@ def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
 @pytest.mark.parametrize(
     ("asked", "told"),
     [
-        ("solve hw1/onne", "there is no problem `hw1/onne`"),
+        ("solve hw1/onne", "no problem is called `hw1/onne`"),
         ("solve one", "did you mean `hw1/one`?"),
         ("solve hw1", "`hw1` is a set"),
         ("explain hw1", "name one of its problems: hw1/one"),
         ("solve hw1/one --format wodr", "derive solve: error: argument --format: invalid choice: 'wodr'"),
-        ("build hw1 --only hits", "argument --only: there is no paper `hits`: name some of solutions, problems,"),
-        ("build hw1 hw2", "there is no set `hw2`"),
-        ("check hw2", "there is no set `hw2`"),
-        ("check hw1/one hw1/onne", "there is no problem `hw1/onne`"),
+        ("build hw1 --only hits", "argument --only: `hits` is not a document: name some of solutions, problems,"),
+        ("build hw1 hw2", "no set is called `hw2`"),
+        ("check hw2", "no set is called `hw2`"),
+        ("check hw1/one hw1/onne", "no problem is called `hw1/onne`"),
         ("list --topic tops", "topics are folders within a set, and no set has any"),
         ("why nowhere.pdf", "no build makes `nowhere.pdf`"),
         ("why build", "no build makes `build`"),
-        ("why build/hw2/one.pdf", "there is no set `hw2`"),
+        ("why build/hw2/one.pdf", "no set is called `hw2`"),
         ("why /etc", "name a page such as `build/hw9/block.pdf`, a problem or a set"),
-        ("new hw1/one/two", "`hw1/one/two` is no name of a set and a problem"),
-        ("new one", "`one` is no name of a set and a problem"),
+        ("new hw1/one/two", "`hw1/one/two` is not a valid name of a set and a problem"),
+        ("new one", "`one` is not a valid name of a set and a problem"),
         ("new ../one", "a set cannot be called `..`"),
         ("new build/one", "`make` has a target of that name"),
-        ("new hw1/three --like hw1/onne", "there is no problem `hw1/onne`"),
-        ("clean hw2", "there is no set `hw2`"),
+        ("new hw1/three --like hw1/onne", "no problem is called `hw1/onne`"),
+        ("clean hw2", "no set is called `hw2`"),
     ],
 )
 def test_a_slip_is_met_with_one_message_and_nothing_is_done(

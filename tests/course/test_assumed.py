@@ -34,14 +34,14 @@ def test_a_relation_decides_whether_an_equilibrium_is_stable(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("relations", "said"),
     [
-        ("[a < b, b < a]", "8: `b < a` contradicts what is known of these letters"),
-        ("[a < b < c, c < a]", "8: `c < a` contradicts what is known of these letters"),
-        ("[v_0**2 < g*R, 2*g*R < v_0**2]", "8: `2*g*R < v_0**2` contradicts what is known of these letters"),
-        ("b < 0", "8: `b < 0` contradicts what is known of these letters"),
-        ("mu > 2", "8: `mu > 2` contradicts what is known of these letters"),
+        ("[a < b, b < a]", "8: `b < a` contradicts what is known about these letters"),
+        ("[a < b < c, c < a]", "8: `c < a` contradicts what is known about these letters"),
+        ("[v_0**2 < g*R, 2*g*R < v_0**2]", "8: `2*g*R < v_0**2` contradicts what is known about these letters"),
+        ("b < 0", "8: `b < 0` contradicts what is known about these letters"),
+        ("mu > 2", "8: `mu > 2` contradicts what is known about these letters"),
         ("a < v_0", "8: a length is compared with a speed"),
-        ("a = b", "8: `=` is not a mark of an order"),
-        ("a < b > c", "8: `a < b > c` turns round on its way"),
+        ("a = b", "8: `=` is not an order relation"),
+        ("a < b > c", "8: `a < b > c` changes its direction"),
         ("x < a", "8: `assume` is about constant letters, but `x` varies"),
         ("x_dot < v_0", "8: `assume` is about constant letters, but `x_dot` varies"),
         ("a <", "8: one side of this relation is missing"),
@@ -55,7 +55,7 @@ def test_a_relation_that_says_nothing_or_too_much_is_refused(relations: str, sai
 
 def test_a_relation_must_be_true_of_the_numbers(tmp_path: Path) -> None:
     text = edited(TWO_LENGTHS, ("statement: A", "values: {a: 2 m, b: 1 m}\nstatement: A"))
-    assert messages(tmp_path, text) == ["8: `a < b` is not true of the numbers that are given"]
+    assert messages(tmp_path, text) == ["8: `a < b` is not true for the given numbers"]
 
 
 def test_a_letter_is_bounded_by_a_number(tmp_path: Path) -> None:

@@ -56,9 +56,9 @@ def test_a_file_that_is_there_is_never_written_over(tmp_path: Path) -> None:
     [
         ("hw10/solutions", "body", "cannot be called"),
         ("hw10/index", "body", "cannot be called"),
-        ("hw10", "body", "no name"),
-        ("../x/y", "body", "no name"),
-        ("hw10/a b", "body", "no name"),
+        ("hw10", "body", "not a valid name"),
+        ("../x/y", "body", "not a valid name"),
+        ("hw10/a b", "body", "not a valid name"),
         ("hw10/wheel", "bdy", "did you mean `body`"),
         ("hw10/wheel", "hw9/blok", "did you mean `hw9/block`"),
     ],

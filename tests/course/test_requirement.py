@@ -57,7 +57,7 @@ def test_of_several_conditions_only_those_left_open_are_assumed() -> None:
 
 @pytest.mark.parametrize("condition", [(a < b) | (b < c), ~((a < b) & (b < c))])
 def test_a_choice_between_conditions_cannot_be_assumed(condition: Boolean) -> None:
-    with recorded() as run, pytest.raises(Rejected, match="takes comparisons that all must hold"):
+    with recorded() as run, pytest.raises(Rejected, match="takes comparisons that must all hold"):
         require(condition, "x", "must be less")
     assert run.assumed == []
 

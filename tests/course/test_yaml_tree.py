@@ -63,7 +63,7 @@ def test_what_stands_for_nothing_is_as_nothing() -> None:
 
 def test_a_question_mark_within_brackets_asks_for_quotes() -> None:
     (complaint,) = complaints("parts:\n- {ask: How fast?, answer: speed}\n")
-    assert (complaint.message, complaint.help) == ("a `?` ends what stands within brackets", "put the text in quotes")
+    assert (complaint.message, complaint.help) == ("a `?` ends the text within brackets", "put the text in quotes")
     assert complaint.place and (complaint.place.line, complaint.place.column) == (2, 17)
 
 
@@ -82,7 +82,7 @@ def test_every_node_knows_its_line_and_column() -> None:
 def test_a_tab_is_named_with_its_line() -> None:
     (tab,) = complaints("a:\n  b: 1\n\tc: 2\n \td: 3\n")
     assert (tab.code, tab.place and (tab.place.line, tab.place.column)) == ("tab", (3, 1))
-    assert tab.notes == ("2 lines are indented so",)
+    assert tab.notes == ("2 lines are indented by tabs",)
 
 
 def test_a_tab_inside_text_is_no_fault() -> None:

@@ -61,7 +61,7 @@ def test_one_process_answers_one_question_after_another(warm: Warm) -> None:
         (BUSY, "time-limit", "`hw9/block` took over 2 s of processor time"),
         (GREEDY, "memory-limit", "`hw9/block` took over 0.5 GiB of memory"),
         (DEEP, "script", "the script failed: RecursionError"),
-        (DYING, "worker-died", "`hw9/block` ended without a word: exit code 1"),
+        (DYING, "worker-died", "`hw9/block` ended without a message: exit code 1"),
     ],
 )
 def test_what_gives_no_answer_is_told_at_its_line_as_in_a_build_and_the_next_question_is_answered(
@@ -89,7 +89,7 @@ def test_a_script_that_reads_or_writes_whatever_is_open_disturbs_no_answer(warm:
 def test_what_a_script_writes_into_a_descriptor_is_no_answer(warm: Warm, garbage: str) -> None:
     write = "for each in range(3, 40):\n        try: os.write(each, b'" + garbage + "')\n        except OSError: pass"
     begins_with(warm, f"import os\n    {write}")
-    assert "`hw9/block` has written where its process gives its answers" in asked(warm).complaints[0]
+    assert "`hw9/block` has written into the file descriptor" in asked(warm).complaints[0]
     begins_with(warm, "")
     assert asked(warm).main
 
@@ -98,7 +98,7 @@ def test_half_an_answer_is_not_waited_for_without_end(warm: Warm) -> None:
     warm.limit = 2
     half = "for each in range(3, 40):\n        try: os.write(each, b'half')\n        except OSError: pass"
     begins_with(warm, f"import os\n    {half}\n    {ENDLESS}")
-    assert "`hw9/block` has written where its process gives its answers" in asked(warm).complaints[0]
+    assert "`hw9/block` has written into the file descriptor" in asked(warm).complaints[0]
 
 
 def test_after_its_end_there_is_no_worker_and_no_answer(warm: Warm) -> None:

@@ -46,6 +46,6 @@ def test_a_code_beside_its_message_is_told_of_whatever_function_takes_it(path: P
 
 def test_a_message_is_the_one_that_was_put_together_above() -> None:
     said = MADE["messages"]()
-    assert said["no-erratum"] == ["the document is right about `…`, so this is no erratum"]
+    assert said["no-erratum"] == ["the document is right about `…`, so this is not an erratum"]
     assert "unknown unit `…`…" in said["unknown-unit"]
     assert "… took over … GiB of memory" in said["memory-limit"]

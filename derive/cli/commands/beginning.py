@@ -1,4 +1,4 @@
-"""`derive new` and `derive schema`: files for whoever begins a problem, and for their editor."""
+"""`derive new` and `derive schema`: files for an author who begins a problem, and for the author's editor."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from derive.errors import Complaint, Misused
 
 
 def new(arguments: argparse.Namespace) -> int:
-    """Write the files of a problem that builds at once, and say what to do next."""
+    """Write the files of a problem that builds at once, and print what to do next."""
     from derive.building.files import shown_path, write
     from derive.building.named import wrong_set_name
     from derive.course.begun import begun
@@ -34,7 +34,7 @@ def new(arguments: argparse.Namespace) -> int:
 
 
 def schema(arguments: argparse.Namespace) -> int:
-    """Write the schemas by which editors complete and check the files of a course; or print one of them."""
+    """Write the schemas by which editors complete and check the files of a course, or print one of them."""
     from derive.building.files import shown_path, write
     from derive.course.editors import SCHEMAS, schema_folder
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Voice:
-    """How much is told besides what is wrong: with `quiet` nothing, with `verbose` each piece of work that is done."""
+    """How much is shown apart from errors: with `quiet` nothing, with `verbose` each piece of work that is done."""
 
     quiet: bool = False
     verbose: bool = False
@@ -57,7 +57,7 @@ def build(arguments: argparse.Namespace) -> int:
     asked = _sets_asked(arguments.sets or set_names(root))
     if not asked:
         raise Misused(
-            Complaint("no-such-set", "there is no set to build", help="a set is a folder of `problems` with a set.yaml")
+            Complaint("no-such-set", "no set was found", help="a set is a folder of `problems` with a set.yaml")
         )
     for name, only in asked.items():
         check_asked(root, name, only)
@@ -71,7 +71,7 @@ def build(arguments: argparse.Namespace) -> int:
 
 
 def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
-    """The sets by name, and those of their problems that are asked for; none if that is all of them."""
+    """Return the sets by name, with the problems that are asked for; empty for all problems of a set."""
     found: dict[str, dict[str, None]] = {}
     for set_id, _, name in (problem_id_of(each).partition("/") for each in asked):
         found.setdefault(set_id, {})[name] = None
@@ -79,11 +79,11 @@ def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
 
 
 def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, voice: Voice) -> int:
-    """Builds at each edit until somebody interrupts, which is its only end and no failure."""
+    """Build at each edit until the user interrupts it, which is its only end and not a failure."""
     from derive.building.files import shown_path
     from derive.building.watch import Shown, watch
 
-    failed: dict[str, bool] = {}  # if a set that failed is as it was before, that is news
+    failed: dict[str, bool] = {}  # a set that failed and is now up to date again is news
 
     def wrote(path: Path, seconds: float) -> None:
         tell("")
@@ -121,8 +121,8 @@ def _reported(report: Report, voice: Voice) -> int:
 
 
 def _listed(paths: Sequence[str], most: int = 12) -> str:
-    """The last ones, which are those of the whole set, and how many others."""
+    """Return the last paths, which are those of the whole set, and how many others."""
     if len(paths) <= most:
         return ", ".join(paths)
     last = paths[-3:]
-    return f"{', '.join(last)} and {len(paths) - len(last)} others beside {'them' if len(last) > 1 else 'it'}"
+    return f"{', '.join(last)} and {len(paths) - len(last)} others apart from {'them' if len(last) > 1 else 'it'}"

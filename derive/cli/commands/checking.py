@@ -75,13 +75,13 @@ def check(arguments: argparse.Namespace) -> int:
 
 
 def _selected(asked: list[str], known: list[str], sets: list[str]) -> list[str]:
-    """Every problem, or those named, where a set stands for its problems."""
+    """Return every problem, or those named; a set stands for its problems."""
     named = {name: [name] for name in asked} | {name: [p for p in known if p.startswith(f"{name}/")] for name in sets}
     return list(dict.fromkeys(problem for name in asked for problem in named[name])) if asked else known
 
 
 def _verdict_code(outcome: Outcome) -> int:
-    """The exit code that this problem asks for; says on standard error what was wrong."""
+    """Return the exit code for this problem, and report on standard error what was wrong."""
     if isinstance(outcome.error, DeriveError):
         complain(outcome.error.complaints)
         return outcome.error.exit_code

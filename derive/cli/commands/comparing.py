@@ -20,7 +20,7 @@ SAME, DIFFERS, TROUBLE = 0, 1, 2  # as of `diff`
 
 
 def diff(arguments: argparse.Namespace) -> int:
-    """Whether something changed, as the exit code; what, on standard output."""
+    """Print what changed, and return as the exit code whether something did."""
     from derive.building.compared_sets import ComparedSet
     from derive.building.workers import Bug
 
@@ -42,7 +42,7 @@ def diff(arguments: argparse.Namespace) -> int:
 
 
 def _compared(arguments: argparse.Namespace, asked: str) -> Compared | ComparedSet:
-    """A problem, or a set where no problem of it is named."""
+    """Return the changes of a problem, or of a set if no problem of it is named."""
     from derive.building import compared, compared_sets
 
     root, detail, limit = root_of(arguments), arguments.detail, arguments.time_limit

@@ -1,4 +1,4 @@
-"""`derive list`: the problems of a course, or all that the parts of one may ask for."""
+"""`derive list`: the problems of a course, or all names that the parts of one problem may ask for."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def list_problems(arguments: argparse.Namespace) -> int:
         known = sorted({topic for topic in topics.values() if topic})
         every = f"the topics are {', '.join(known)}" if known else "topics are folders within a set, and no set has any"
         help_line = did_you_mean(arguments.topic, known) or every
-        raise Misused(Complaint("no-such-topic", f"there is no topic `{arguments.topic}`", help=help_line))
+        raise Misused(Complaint("no-such-topic", f"no topic is called `{arguments.topic}`", help=help_line))
     ids = [problem for problem, topic in topics.items() if arguments.topic in (None, topic)]
     found = ((problem, topics[problem], *told) for problem, told in zip(ids, _headlines(root, ids, paths), strict=True))
     rows = [("problem", "topic", "points", "title"), *found]
@@ -42,7 +42,7 @@ def _list_answers(arguments: argparse.Namespace, root: Path) -> int:
     from derive.course.problem_set import path_of
 
     if not arguments.set or "/" not in (problem_id := problem_id_of(arguments.set)):
-        message = "`--answers` lists those of one problem"
+        message = "`--answers` lists the answers of one problem"
         raise Misused(Complaint("no-such-problem", message, help="name it, such as `derive list hw9/block --answers`"))
     path_of(root, problem_id)
     with waiting(f"deriving {problem_id}"):
@@ -53,7 +53,7 @@ def _list_answers(arguments: argparse.Namespace, root: Path) -> int:
 
 
 def _headlines(root: Path, ids: Sequence[str], paths: Mapping[str, str]) -> list[tuple[str, str]]:
-    """The points and title of each problem, read by one worker; if it comes to no end, each half by one of its own."""
+    """Return the points and title of each problem, read by one worker; if it does not end, by one for each half."""
     from derive.building.headline import headline
     from derive.building.workers import done, job_of
 

@@ -1,4 +1,4 @@
-"""`derive preview`: pages in the browser while they are written."""
+"""`derive preview`: pages in the browser while you write them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from derive.cli.streams import silence
 
 
 def preview_pages(arguments: argparse.Namespace) -> int:
-    """A page served until somebody interrupts, which is its only end and no failure."""
+    """Serve a page until the user interrupts it, which is its only end and not a failure."""
     from derive.preview.asking import Shown
     from derive.preview.preview import preview
 
@@ -30,7 +30,7 @@ def preview_pages(arguments: argparse.Namespace) -> int:
         said, why = ("shown", []) if shown.main else ("not shown", shown.complaints[:1])
         try:
             print(*[f"{set_id}/{of}: {said} ({shown.seconds:.2f} s)", *why], sep="\n", flush=True)
-        except (OSError, ValueError):  # nobody reads it any more; the page is still served
+        except (OSError, ValueError):  # the output is not read any more; the page is still served
             silence(1)
 
     with suppress(KeyboardInterrupt):

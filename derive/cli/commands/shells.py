@@ -1,4 +1,4 @@
-"""`derive completion`: what has a shell complete."""
+"""`derive completion`: the script by which a shell completes names and options."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 def completion(arguments: argparse.Namespace) -> int:
-    """Print the script of a shell; that of fish names the program: this one, where no other would be found."""
+    """Print the script of a shell; that of fish names this program, if no other would be found."""
     from argcomplete.shell_integration import shellcode
 
     own = None if arguments.shell != "fish" or shutil.which("derive") else str(Path(sys.argv[0]).absolute())

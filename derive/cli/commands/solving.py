@@ -53,7 +53,7 @@ def solve(arguments: argparse.Namespace) -> int:
 
 
 def _deliver_drawings(output: str, files: Files) -> None:
-    """What a page refers to, in its folder."""
+    """Write the drawings that a page refers to into its folder."""
     for name, content in files:
         deliver(content, str(Path(output).parent / name))
 

@@ -1,4 +1,4 @@
-"""`derive why`: what made an output stale."""
+"""`derive why`: the reasons why an output is stale."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from derive.cli.asked import problem_id_of, root_of
 
 
 def why(arguments: argparse.Namespace) -> int:
-    """Say what would be made again, because of what, and by which command; that is an answer and no failure."""
+    """Print what would be made again, why, and by which command; that is an answer and not a failure."""
     from derive.building.staleness import Asked, asked_about, staleness
 
     root = root_of(arguments)

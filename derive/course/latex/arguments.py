@@ -1,7 +1,7 @@
-r"""Letters and functions in a formula: what a name stands for, and how far the argument of a function reaches.
+r"""Letters and functions in a formula: what a name means, and how far the argument of a function reaches.
 
-Without brackets an argument is the shortest run of factors that has a letter and is an angle or a number:
-`\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. Where the next factor could as well belong to it, it is refused.
+Without brackets, an argument is the shortest run of factors that has a letter and is an angle or a number:
+`\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If the next factor could belong to it as well, the formula is refused.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from derive.errors import Complaint, did_you_mean
 
 
 class Functions(Grids):
-    """What `Formula` builds on; the grammar itself gives `factor`, `inside`, `script` and `atom`."""
+    """The base of `Formula` for letters and functions; the grammar gives `atom`, `script`, `inside`, `raised_to`."""
 
     def __init__(self, scalar: Scalar, letters: Letters, homogeneous: bool):
         super().__init__(scalar, homogeneous)
@@ -47,7 +47,7 @@ class Functions(Grids):
             return self.euler
         if letter.hat:
             what = self.text[letter.start : letter.end]
-            self.refuse("latex", f"`{what}` is a unit vector that is not read", letter.start, letter.end)
+            self.refuse("latex", f"`{what}` is a unit vector that cannot be read", letter.start, letter.end)
         self.check_not_a_function(letter, cursor)
         return self.value_of(letter)
 
@@ -59,7 +59,7 @@ class Functions(Grids):
         declared = self.letters.named(letter)
         if declared is None:
             self.undeclared.append(self.not_declared(letter))
-            self.homogeneous = False  # of its dimension nothing is known, so nothing more is said of dimensions
+            self.homogeneous = False  # its dimension is unknown, so dimensions are no longer compared
             return Term(Dummy(letter.name, real=True), NUMBER, letter.start, letter.end)
         if dots_of(letter, declared) > MOST_DOTS:
             message = f"a letter has at most {MOST_DOTS} dots"
@@ -75,7 +75,7 @@ class Functions(Grids):
         letter = letter_at(token)
         if token is None or letter is None:
             if token and token.kind == "command" and token.text in WORDS | FONTS:
-                self.refuse("latex", "words are no part of a formula", token.start, token.end)
+                self.refuse("latex", "words are not part of a formula", token.start, token.end)
             return None
         cursor.at += 1
         if cursor.written != "_" or letter.subscript:
@@ -83,31 +83,31 @@ class Functions(Grids):
         below = self.script(cursor)
         subscript = subscript_of(below.tokens)
         if subscript is None:
-            message = f"what stands below `{self.text[letter.start : letter.end]}` is not a name"
+            message = f"the subscript of `{self.text[letter.start : letter.end]}` is not a name"
             self.refuse("latex", message, below.start, below.end)
         return replace(letter, subscript=subscript, end=below.end)
 
     def not_declared(self, letter: Letter) -> Complaint:
         written = self.text[letter.start : letter.end]
         if len(letter.base) > 1 and written.startswith(tuple(f"\\{font}" for font in FONTS)):
-            message, help_line = f"`{letter.base}` is not declared", "the unit of a value stands under `in:`"
+            message, help_line = f"`{letter.base}` is not declared", "write the unit of a value under `in:`"
             return self.complaint("undeclared-symbol", message, letter.start, letter.end, help_line)
         name = letter.name.replace(",", "_")
         help_line = did_you_mean(name, self.letters.declared) or "declare it under `symbols:`"
         if letter.name in ("d", "e"):
-            help_line = f"declare it under `symbols:`, or give `{letter.name}` what it belongs to"
+            help_line = f"declare it under `symbols:`, or write what `{letter.name}` belongs to"
         return self.complaint("undeclared-symbol", f"`{name}` is not declared", letter.start, letter.end, help_line)
 
     def check_not_a_function(self, letter: Letter, cursor: Cursor) -> None:
-        r"""`U(\theta)` is a function to every reader, and `a(b)` nobody writes for a product."""
+        r"""Refuse `U(\theta)`, which every reader takes for a function; nobody writes `a(b)` for a product."""
         three = cursor.tokens[cursor.at : cursor.at + 3]
         if len(three) == 3 and three[0].text == "(" and three[2].text == ")" and letter_at(three[1]):
             whole = self.text[letter.start : three[2].end]
-            help_line = "leave the brackets away, whether it is a product or a function"
+            help_line = "leave out the brackets, whether it is a product or a function"
             self.refuse("ambiguous", f"`{whole}` could be a function", letter.start, three[2].end, help_line)
 
     def named_as_a_whole(self, cursor: Cursor, first: int) -> Term | None:
-        r"""`\left(I_z\right)_{disc}` is the letter `I_z_disc`; None where the subscript is a limit."""
+        r"""Read `\left(I_z\right)_{disc}` as the letter `I_z_disc`; return None where the subscript is a limit."""
         inner = Cursor(cursor.tokens[first : cursor.at - 1], cursor.before.start)
         letter = self.read_letter(inner)
         at = cursor.at
@@ -152,7 +152,7 @@ class Functions(Grids):
         if cursor.written == "^":
             token = cursor.token
             assert token is not None
-            message = "this power could be of the function or of its argument"
+            message = "this power could belong to the function or to its argument"
             self.refuse("ambiguous", message, inner.start, token.end, "write `\\sin^2 x` or `\\sin(x^2)`")
 
     def without_brackets(self, cursor: Cursor, function: Token, depth: int) -> Term:
@@ -173,7 +173,7 @@ class Functions(Grids):
         return argument
 
     def longer(self, argument: Term | None, cursor: Cursor, depth: int) -> tuple[Term, bool]:
-        """The argument with one factor more, and whether it is now complete."""
+        """Return the argument with one more factor, and whether it is now complete."""
         factor = self.scalar_in(self.atom(cursor, depth), "the argument of a function")
         degrees = cursor.written == "^" and [t.text for t in self.script_ahead(cursor).tokens] == ["circ"]
         if degrees:
@@ -191,7 +191,7 @@ class Functions(Grids):
         return script
 
     def is_plain(self, token: Token | None) -> bool:
-        """What an argument without brackets may be made of: numbers, letters and fractions."""
+        """Return whether a token may be part of an argument without brackets: a number, a letter or a fraction."""
         if token is None:
             return False
         return token.kind == "number" or token.text in FRACTIONS | {"pi"} or letter_at(token) is not None
@@ -200,7 +200,7 @@ class Functions(Grids):
         return bool(term.expr.is_number) and not term.expr.has(pi)
 
     def check_end(self, cursor: Cursor, argument: Term, depth: int) -> None:
-        """Whether the next factor could belong to the argument as well as not."""
+        """Refuse an argument if the next factor could belong to it."""
         token = cursor.token
         if token is None:
             return
@@ -219,16 +219,16 @@ class Functions(Grids):
 
     @abstractmethod
     def atom(self, cursor: Cursor, depth: int) -> TermOrGrid:
-        """The next factor."""
+        """Read the next factor."""
 
     @abstractmethod
     def script(self, cursor: Cursor) -> Argument:
-        """What stands behind `^` or `_`."""
+        """Read what follows `^` or `_`."""
 
     @abstractmethod
     def inside(self, argument: Argument | None, depth: int) -> TermOrGrid:
-        """What stands within an argument."""
+        """Read the contents of an argument."""
 
     @abstractmethod
     def raised_to(self, base: TermOrGrid, script: Argument, depth: int, cursor: Cursor) -> TermOrGrid:
-        """A value with its exponent."""
+        """Return a value with its exponent."""

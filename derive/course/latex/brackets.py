@@ -1,4 +1,4 @@
-"""What stands in brackets: values kept together, triples, antiderivatives between limits, matrices."""
+"""The contents of brackets: grouped values, triples, antiderivatives between limits, matrices."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ MAX_SIDE = 6
 
 
 class Brackets(Functions):
-    """What `Formula` builds on besides; the grammar itself gives `sum`, `closed_sum` and `unexpected`."""
+    """The base of `Formula` for brackets; the grammar defines `sum`, `closed_sum` and `unexpected`."""
 
     def bracketed(self, cursor: Cursor, opening: Token, depth: int) -> TermOrGrid:
-        """What stands in brackets: a value, a triple, an antiderivative between limits."""
+        """Read the contents of brackets: a value, a triple, an antiderivative between limits."""
         first = cursor.at
         bars = opening.kind == "bar"
         closing = "|" if bars else OPENING[opening.text]
@@ -49,7 +49,7 @@ class Brackets(Functions):
         return self.size_of(inner, opening.start, token.end) if closing == "|" else inner
 
     def both_scripts(self, cursor: Cursor) -> bool:
-        """Whether an upper limit and then a lower one follow."""
+        """Return whether both an upper and a lower limit follow."""
         at, found = cursor.at, []
         while cursor.token and cursor.token.kind == "script" and cursor.written not in found:
             found.append(cursor.written)
@@ -84,7 +84,7 @@ class Brackets(Functions):
             rows.pop()
         if not rows or len({len(row) for row in rows}) > 1 or len(rows) > MAX_SIDE or len(rows[0]) > MAX_SIDE:
             told = ", ".join(str(len(row)) for row in rows) or "no"
-            self.refuse("shape", f"rows of {told} entries make no matrix", token.start, token.end)
+            self.refuse("shape", f"rows of {told} entries do not make a matrix", token.start, token.end)
         entries = tuple(tuple(self.entry(cell, token, depth) for cell in row) for row in rows)
         return entries[0][0] if len(entries) == len(entries[0]) == 1 else Grid(entries, token.start, token.end)
 
@@ -97,7 +97,7 @@ class Brackets(Functions):
     # -- limits -------------------------------------------------------------------------------------------------------
 
     def limits(self, cursor: Cursor, depth: int, sign: Token) -> tuple[Term, Term, Term | None]:
-        """What stands below and above, and the variable if it is named there: `_{z=0}^{z=h}`."""
+        """Read the lower and the upper limit, and the variable if the lower limit names it: `_{z=0}^{z=h}`."""
         found: dict[str, tuple[Term, Term | None]] = {}
         while cursor.token and cursor.token.kind == "script" and cursor.token.text not in found:
             script = cursor.token.text
@@ -122,12 +122,12 @@ class Brackets(Functions):
 
     @abstractmethod
     def sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
-        """A sum of products."""
+        """Read a sum of products."""
 
     @abstractmethod
     def closed_sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
-        """A sum that nothing may follow."""
+        """Read a sum that nothing may follow."""
 
     @abstractmethod
     def unexpected(self, cursor: Cursor) -> NoReturn:
-        """Refuse what stands next."""
+        """Refuse the next token."""

@@ -1,4 +1,4 @@
-"""A run of tokens with the place that has been reached."""
+"""A run of tokens with the position that has been reached."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from derive.course.latex.tokens import Argument, Token
 
 
 class Cursor:
-    """Tokens side by side; `bars` says, of every bracket now open, whether it is a bar that the next bar closes."""
+    """Tokens in a row; `bars` states for each open bracket whether it is a bar, which the next bar closes."""
 
     def __init__(self, tokens: tuple[Token, ...], end: int):
         self.tokens = tokens
@@ -36,18 +36,18 @@ class Cursor:
 
     @property
     def written(self) -> str:
-        r"""The token as the tables have it: a mark as it is, a command with its `\`."""
+        r"""The token as the tables have it: a mark unchanged, a command with its `\`."""
         token = self.token
         if token is None:
             return ""
         return f"\\{token.text}" if token.kind == "command" else token.text
 
     def replace(self, tokens: tuple[Token, ...]) -> None:
-        """Other tokens in the place of the one that has been reached."""
+        """Replace the token at the current position by other tokens."""
         self.tokens = self.tokens[: self.at] + tokens + self.tokens[self.at + 1 :]
 
     def argument_after(self, mark: Token, text: str) -> Argument | None:
-        """The tokens of the group that follows a `^` or `_`, or the one token where there are no braces."""
+        """Return the tokens of the group that follows a `^` or `_`, or the one token if it has no braces."""
         token = self.token
         if token is None:
             return None

@@ -5,7 +5,7 @@ r"""The grammar of a formula: chains of sides, sums, products, factors.
     product  factor ((\cdot | \times)? factor)* ("/" factor)?    with integral signs and differentials among the factors
     factor   atom power?                             atom    number, letter, fraction, root, function, bracket, matrix
 
-Where paper leaves two readings open, the formula is refused and the help says how to write either: `a/2b`, `\sin a b`
+If paper leaves two readings open, the formula is refused and the help shows how to write either: `a/2b`, `\sin a b`
 of two numbers, `\sin x^2`, `2\frac12`, `U(\theta)`.
 """
 
@@ -32,7 +32,7 @@ _SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
 
 
 class _Parts:
-    """The factors of a product: what stands side by side first, then the dots and crosses from left to right."""
+    """The factors of a product: neighbours are multiplied first, then the dots and crosses from left to right."""
 
     def __init__(self, reader: Grids):
         self.reader = reader
@@ -62,7 +62,7 @@ class Formula(Brackets):
     # -- chains ---------------------------------------------------------------------------------------------------
 
     def chain(self, cursor: Cursor) -> tuple[list[tuple[list[TermOrGrid], int, Token, Token]], list[str]]:
-        """The sides, each with its alternatives, branches, first and last token; and the marks before them, or ""."""
+        """Return the sides, each with alternatives, branches, first and last token; and the marks before them or ""."""
         without_title(cursor)
         sides, marks = [], [self.relation(cursor) or ""]
         while True:
@@ -165,7 +165,7 @@ class Formula(Brackets):
         return cursor.before.text if cursor.before.kind == "mark" else f"\\{cursor.before.text}"
 
     def divided(self, cursor: Cursor, depth: int, above: TermOrGrid, signs: list[Sign]) -> TermOrGrid:
-        """`a/b`, where nothing may follow: `a/2b` is a/(2b) to one reader and (a/2)b to the next."""
+        """Read `a/b`, which nothing may follow: `a/2b` is a/(2b) to one reader and (a/2)b to the next."""
         slash = cursor.token
         assert slash is not None
         cursor.at += 1
@@ -180,12 +180,12 @@ class Formula(Brackets):
         return self.quotient_of(above, below)
 
     def check_side_by_side(self, before: Token | None, token: Token, factor: TermOrGrid) -> None:
-        """Two numbers side by side are one number, a mixed number or a slip; `a2` is half a subscript."""
+        """Refuse two numbers side by side (one number, a mixed number, a slip?) and `a2`, which is half a subscript."""
         if before is None:
             return
         if token.kind == "number" and before.kind == "number":
             help_line = "write `\\cdot` between them"
-            self.refuse("ambiguous", "two numbers stand side by side", before.start, token.end, help_line)
+            self.refuse("ambiguous", "two numbers are side by side", before.start, token.end, help_line)
         if token.kind == "number" and before.kind == "letter" and before.end == token.start:
             help_line = f"write `{token.text}{before.text}`, or `{before.text}_{token.text}` for a subscript"
             self.refuse("ambiguous", "a number follows this letter", before.start, token.end, help_line)
@@ -204,7 +204,7 @@ class Formula(Brackets):
         return Sign(lower, upper, sign.start, cursor.before.end, named)
 
     def is_differential(self, cursor: Cursor, signs: list[Sign]) -> bool:
-        """Whether a `d` and a letter stand here, and an integral waits for them; an upright d is no letter of ours."""
+        """Return whether a `d` and a letter follow, and an integral needs them; an upright d is never a letter."""
         token = cursor.token
         if token is None or all(sign.variable for sign in signs):
             return False
@@ -233,7 +233,7 @@ class Formula(Brackets):
         base = self.atom(cursor, depth)
         token = cursor.token
         if token and self.is_prime(cursor):
-            self.refuse("latex", "a prime is not read", token.start, help="transcribe what the derivative is equal to")
+            self.refuse("latex", "primes cannot be read", token.start, help="write what the derivative is equal to")
         if token is None or token.kind != "script":
             return base
         if token.text == "_":
@@ -261,18 +261,18 @@ class Formula(Brackets):
         return self.power_of(base, replace(exponent, start=script.start, end=script.end))
 
     def script(self, cursor: Cursor) -> Argument:
-        """What stands after `^` or `_`: a group, or the one thing that TeX would take."""
+        """Read what follows `^` or `_`: a group, or the one token that TeX would take."""
         mark = cursor.token
         assert mark is not None
         cursor.at += 1
         argument = cursor.argument_after(mark, self.text)
         if argument is None or not argument.tokens:
-            self.refuse("latex", f"nothing stands after `{mark.text}`", mark.start, mark.end)
+            self.refuse("latex", f"nothing follows `{mark.text}`", mark.start, mark.end)
         bare = self.text[argument.start] != "{" and len(argument.tokens) == 1
         if bare and argument.tokens[0].kind == "number" and len(argument.tokens[0].text) > 1:
             number = argument.tokens[0]
             help_line = f"write `{mark.text}{{{number.text}}}`"
-            self.refuse("ambiguous", "only the first digit would stand there", number.start, number.end, help_line)
+            self.refuse("ambiguous", "TeX would take only the first digit", number.start, number.end, help_line)
         return argument
 
     def atom(self, cursor: Cursor, depth: int) -> TermOrGrid:
@@ -300,7 +300,7 @@ class Formula(Brackets):
     def check_not_a_derivative(self, token: Token) -> None:
         if is_derivative(token) and not self.d_is_a_letter:
             help_line = "transcribe what it is equal to"
-            self.refuse("latex", "a derivative is not read", token.start, token.end, help_line)
+            self.refuse("latex", "a derivative cannot be read", token.start, token.end, help_line)
 
     def inside(self, argument: Argument | None, depth: int) -> TermOrGrid:
         assert argument is not None
@@ -308,7 +308,7 @@ class Formula(Brackets):
         return spanning(value, argument.start, argument.end)
 
     def closed_sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
-        """A sum that is all there is between two braces."""
+        """Read a sum that fills everything between two braces."""
         value = self.sum(cursor, depth)
         if cursor.token:
             self.unexpected(cursor)
@@ -316,12 +316,12 @@ class Formula(Brackets):
 
     def root(self, token: Token, depth: int) -> TermOrGrid:
         degree, radicand = token.arguments
-        inner = self.scalar_in(self.inside(radicand, depth), "what stands under a root")
+        inner = self.scalar_in(self.inside(radicand, depth), "a radicand")
         if degree is None:
             return self.applied("sqrt", sqrt, inner, token.start, token.end)
         number = self.scalar_in(self.closed_sum(Cursor.over(degree), depth + 1), "the degree of a root")
         if not number.expr.is_Integer or number.expr < 2:
-            self.refuse("latex", "the degree of a root is a whole number from 2", degree.start, degree.end)
+            self.refuse("latex", "the degree of a root must be a whole number, at least 2", degree.start, degree.end)
         exponent = replace(number, expr=Rational(1, number.expr))
         return spanning(self.raised(inner, exponent), token.start, token.end)
 
@@ -331,14 +331,14 @@ class Formula(Brackets):
         token = cursor.token
         assert token is not None
         if token.kind in ("cell", "row"):
-            self.refuse("latex", "one formula is read at a time", token.start, token.end)
+            self.refuse("latex", "only one formula can be read at a time", token.start, token.end)
         self.refuse("latex", f"`{self.text[token.start : token.end]}` is not expected here", token.start, token.end)
 
     def missing(self, cursor: Cursor) -> NoReturn:
         token = cursor.token
         if token and cursor.written == "\\partial":
             help_line = "transcribe what it is equal to"
-            self.refuse("latex", "a derivative is not read", token.start, token.end, help_line)
+            self.refuse("latex", "a derivative cannot be read", token.start, token.end, help_line)
         if token and token.kind in ("cell", "row", "word"):
             self.unexpected(cursor)
         where = f"before `{self.text[token.start : token.end]}`" if token else "at the end"

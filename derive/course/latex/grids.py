@@ -1,4 +1,4 @@
-"""Sums and products of what a formula may hold: scalars, columns and matrices, each entry with its own dimension."""
+"""Sums and products of the scalars, columns and matrices of a formula; each entry has its own dimension."""
 
 from __future__ import annotations
 
@@ -40,22 +40,22 @@ TermOrGrid: TypeAlias = Term | Grid
 
 
 def each(value: TermOrGrid, change: Callable[[Term], Term]) -> TermOrGrid:
-    """The same done to a scalar, or to every entry."""
+    """Apply the same change to a scalar, or to every entry."""
     if isinstance(value, Term):
         return change(value)
     return replace(value, rows=tuple(tuple(change(term) for term in row) for row in value.rows))
 
 
 def spanning(value: TermOrGrid, start: int, end: int) -> TermOrGrid:
-    """The value as it stands with what surrounds it; entries keep their places."""
+    """Return the value with the start and end of what surrounds it; entries keep their places."""
     return replace(value, start=start, end=end)
 
 
 class Grids(Arithmetic, ABC):
     """The operations of `Arithmetic`, also on columns and matrices.
 
-    Zero fits every dimension, for a document writes `0` in any matrix. Where numbers have been put in for letters, or
-    the document is known to be wrong, dimensions mean nothing and are not compared: `homogeneous` is then false.
+    Zero fits every dimension, because a document writes `0` in any matrix. `homogeneous` is false where numbers replace
+    letters, or the document is known to be wrong: dimensions are then not compared.
     """
 
     max_terms = 20_000
@@ -64,7 +64,7 @@ class Grids(Arithmetic, ABC):
         super().__init__(scalar)
         self.homogeneous = homogeneous
         self.d_is_a_letter = False
-        self.vectors: list[int] = []  # where letters stand that are printed as vectors
+        self.vectors: list[int] = []  # the positions of letters that are printed as vectors
         self.dimensions: dict[Expr, Dimension] = {}  # of the letters read so far
 
     def fits(self, left: Term, right: Term) -> bool:
@@ -96,11 +96,11 @@ class Grids(Arithmetic, ABC):
         return spanning(each(value, lambda term: self.negated(term, term.start)), start, value.end)
 
     def product_of(self, left: TermOrGrid, right: TermOrGrid, sign: str) -> TermOrGrid:
-        """Side by side, or with a dot or a cross between them."""
+        """Multiply two neighbours, or two values with a dot or a cross between them."""
         if isinstance(left, Term) and isinstance(right, Term):
             if sign and self.has_vector(left) and self.has_vector(right):
                 components = "write their components, `\\{a_1, a_2, a_3\\}`"
-                message = "the product of two vectors is read only from their components"
+                message = "the product of two vectors can be read only from their components"
                 self.refuse("shape", message, left.start, right.end, components)
             return self.multiplied(left, right)
         if isinstance(left, Term):
@@ -114,7 +114,7 @@ class Grids(Arithmetic, ABC):
         if sign != "\\times" and left.shape[1] == right.shape[0]:
             return self.matrix_product(left, right)
         help_line = "write `\\cdot` or `\\times` between vectors" if left.is_vector and right.is_vector else None
-        message = f"{_shape(left)} and {_shape(right)} cannot be multiplied so"
+        message = f"{_shape(left)} and {_shape(right)} cannot be multiplied in this way"
         self.refuse("shape", message, right.start, right.end, help_line)
 
     def has_vector(self, term: Term) -> bool:
@@ -152,7 +152,7 @@ class Grids(Arithmetic, ABC):
 
     def quotient_of(self, above: TermOrGrid, below: TermOrGrid) -> TermOrGrid:
         if isinstance(below, Grid):
-            self.refuse("shape", f"nothing is divided by {_shape(below)}", below.start, below.end)
+            self.refuse("shape", f"a value cannot be divided by {_shape(below)}", below.start, below.end)
         reciprocal = self.reciprocal(below)
         if isinstance(above, Term):
             return self.multiplied(above, reciprocal)
@@ -163,16 +163,16 @@ class Grids(Arithmetic, ABC):
             return self.raised(base, exponent)
         if base.is_vector and exponent.expr == 2:
             return replace(self.dot(base, base), end=exponent.end)
-        message = f"only the square of a vector is read, not this power of {_shape(base)}"
+        message = f"only the square of a vector can be read, not this power of {_shape(base)}"
         self.refuse("shape", message, exponent.start, exponent.end)
 
     def size_of(self, inner: TermOrGrid, start: int, end: int) -> Term:
-        """What stands between bars: the absolute value of a scalar, the length of a vector."""
+        """Return the value of bars: the absolute value of a scalar, the length of a vector."""
         self.vectors = [at for at in self.vectors if not start <= at < end]
         if isinstance(inner, Term):
             return replace(inner, expr=Abs(inner.expr), start=start, end=end, kind=None)
         if inner.shape[1] != 1:
-            self.refuse("shape", "a determinant is not read", start, end)
+            self.refuse("shape", "a determinant cannot be read", start, end)
         squares = self.matrix_product(Grid((inner.column,), start, end), inner)
         assert isinstance(squares, Term)
         return replace(self.raised(squares, Term(Integer(1) / 2, NUMBER, start, end)), start=start, end=end)

@@ -1,6 +1,6 @@
-"""Integrals as a document writes them: signs with their limits, differentials anywhere customary, brackets with limits.
+"""Integrals as a document writes them: signs with limits, differentials in any customary place, brackets with limits.
 
-Only integrals that are quick are read: of powers, sines and cosines, and over the roots that circles bring in.
+Only integrals that are quick to take are read: of powers, sines and cosines, and of the roots that circles bring in.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ MAX_WAVES = 24
 
 @dataclass
 class Sign:
-    r"""An integral sign of a product: its limits, what stood between it and its differential, the variable once known.
+    r"""An integral sign of a product: its limits, its place, and its variable once its differential has been read.
 
-    It reaches over all that follows in its product, for in `\int_0^h z dz \int_0^z dx` the second is inside the first.
+    Its range is everything that follows in its product: in `\int_0^h z dz \int_0^z dx` the second is inside the first.
     """
 
     lower: Term
@@ -49,14 +49,14 @@ def differential_of(reader: Grids, signs: list[Sign], variable: Term) -> None:
 
 
 def is_d(token: Token, d_is_a_letter: bool) -> bool:
-    """Whether a differential may begin here; an upright d is no letter of ours."""
+    """Return whether a differential may begin here; an upright d is never a letter."""
     if token.text == "mathrm" and token.arguments[0]:
         return [t.text for t in token.arguments[0].tokens] == ["d"]
     return token.kind == "letter" and token.text == "d" and not d_is_a_letter
 
 
 def differential_behind(token: Token, d_is_a_letter: bool) -> tuple[Token, ...]:
-    r"""`\frac{x\,dx}{2}` as `\frac{x}{2}\,dx`; any other token as it is."""
+    r"""Read `\frac{x\,dx}{2}` as `\frac{x}{2}\,dx`; return any other token unchanged."""
     if token.text not in FRACTIONS or token.arguments[0] is None:
         return (token,)
     above = token.arguments[0]
@@ -74,7 +74,7 @@ def _has(value: TermOrGrid, letter: Expr) -> bool:
 
 
 def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: list[TermOrGrid]) -> TermOrGrid:
-    """The integrals of a product, the one that was opened last taken first."""
+    """Take the integrals of a product, beginning with the one that was opened last."""
     for position in range(len(signs) - 1, -1, -1):
         sign = signs[position]
         if sign.variable is None:
@@ -84,19 +84,19 @@ def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: li
             reader.refuse("integral", "this integral has no differential", sign.start, sign.end, help_line)
         for part in outside:
             if _has(part, sign.variable.expr):
-                message = f"`{reader.shown(sign.variable)}` stands outside its integral"
+                message = f"`{reader.shown(sign.variable)}` appears outside its integral"
                 reader.refuse("integral", message, part.start, part.end)
         inner = {other.variable.expr for other in signs[position:] if other.variable}
         for limit in (sign.lower, sign.upper):
             if limit.expr.free_symbols & inner:
-                message = f"the limit `{reader.shown(limit)}` has a variable that is integrated inside"
+                message = f"the limit `{reader.shown(limit)}` contains a variable of this integral or of one inside it"
                 reader.refuse("integral", message, limit.start, limit.end)
         inside = _one(reader, inside, sign, sign.variable)
     return each(inside, lambda term: _checked(reader, term, signs))
 
 
 def _one(reader: Grids, inside: TermOrGrid, sign: Sign, variable: Term) -> TermOrGrid:
-    """One integral more around what is there; the variable becomes a letter of its own."""
+    """Put one more integral around the value; its variable becomes a letter of its own."""
     check_limits(reader, variable, sign.lower, sign.upper)
 
     def integral(term: Term) -> Term:
@@ -117,7 +117,7 @@ def _checked(reader: Grids, term: Term, signs: list[Sign]) -> Term:
     integral = term.expr.args[0]
     if not _is_elementary(explicit(integral.function), integral.limits):
         names = " and ".join(f"`{reader.shown(sign.variable)}`" for sign in signs if sign.variable)
-        reader.refuse("integral", f"this is more than powers, sines and cosines of {names}", term.start, term.end)
+        reader.refuse("integral", f"only powers, sines and cosines of {names} can be integrated", term.start, term.end)
     return term
 
 
@@ -129,9 +129,9 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 
 
 def _is_elementary(function: Expr, limits: Limits) -> bool:
-    """Whether the integral is of the kinds that are taken at once, or one that SymPy takes by the rules of a course.
+    """Return whether the integral is of a kind that is taken at once, or that SymPy takes by the rules of a course.
 
-    One over a root is read without more: where it is of no known kind it counts as undefined and agrees with nothing.
+    An integral over a root is always read: if its kind is unknown, it counts as undefined and agrees with nothing.
     """
     variables = {x for x, *_ in limits}
     ends = [end for _, *both in limits for end in both]
@@ -145,7 +145,7 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
 
 
 def _is_short(product: Expr, x: Symbol) -> bool:
-    """A power of x, or waves of one argument; of both, or of waves that differ, only a few: SymPy takes them slowly."""
+    """Return whether SymPy is quick: a power of x, or waves of one argument; only a few of both or of several."""
     power, waves, arguments = 0, 0, set()
     for factor in Mul.make_args(product):
         base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, Integer(1))
@@ -164,8 +164,8 @@ def _is_short(product: Expr, x: Symbol) -> bool:
 
 
 def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:
-    """An antiderivative between limits; its variable is the one letter that the limits can be put in for."""
-    term = reader.scalar_in(inner, "what stands before limits")
+    """Return an antiderivative between limits; its variable is the one letter for which limits can be substituted."""
+    term = reader.scalar_in(inner, "an antiderivative")
     limits = (lower.expr, upper.expr)
     x = variable.expr if variable else _only_letter(reader, term, lower, upper)
     if variable:
@@ -178,14 +178,14 @@ def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, varia
 
 
 def grown(term: Term, x: Expr, lower: Term, upper: Term) -> tuple[int, int]:
-    """How large the antiderivative of a value can become when limits are put in for x."""
+    """Return how large the antiderivative of a value can become when limits are substituted for x."""
     power = _degree(term.expr, x, term.size) + 1
     terms = term.terms * (lower.terms**power + upper.terms**power)
     return term.size * max(lower.size, upper.size) + 1, terms
 
 
 def _degree(expr: Expr, x: Expr, most: int) -> int:
-    """The highest power of x when multiplied out; `most`, its size, where that cannot be seen."""
+    """Return the highest power of x after multiplying out; `most`, its size, where that cannot be seen."""
     if not expr.has(x):
         return 0
     if expr.is_Add:
@@ -203,7 +203,7 @@ def _degree(expr: Expr, x: Expr, most: int) -> int:
 
 
 def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:
-    """The letter of the bracket that the limits do not have and whose dimension is theirs."""
+    """Return the one letter of the bracket that the limits do not contain and that has their dimension."""
     outside = lower.expr.free_symbols | upper.expr.free_symbols
     limit = upper if upper.expr != 0 else lower
     free = (s for s in term.expr.free_symbols - outside if s in reader.dimensions)
@@ -211,5 +211,5 @@ def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:
     if len(found) != 1:
         told = "no letter fits them" if not found else "it could be " + " or ".join(sorted(f"`{s}`" for s in found))
         help_line = "write the variable with the lower limit: `_{x=0}`"
-        reader.refuse("integral", f"it is not clear what the limits are for: {told}", term.start, term.end, help_line)
+        reader.refuse("integral", f"the variable of these limits is not clear: {told}", term.start, term.end, help_line)
     return found[0]

@@ -1,7 +1,7 @@
-"""Letters as a document writes them, and the declared names they stand for.
+"""Letters as a document writes them, and the declared names that they mean.
 
-A name is a letter, Greek or Latin, and what stands below it: `I_{zz}` is `I_zz`, `r_{C,x}` is `r_C_x`. A dot makes the
-letter's rate of change, as `derive.algebra.expressions.rate` names it: `theta_dot`.
+A name is a letter, Greek or Latin, with its subscript: `I_{zz}` is `I_zz`, `r_{C,x}` is `r_C_x`. A dot makes the
+letter's rate of change, which `derive.algebra.expressions.rate` names: `theta_dot`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ UNIT_VECTORS = {"i": 0, "j": 1, "k": 2, "x": 0, "y": 1, "z": 2}
 
 @dataclass(frozen=True)
 class Letter:
-    """A letter of the document before it is looked up; `hat` and `bold` are how it is decorated."""
+    """A letter of the document before it is looked up; `hat` and `vector` are its decoration."""
 
     base: str
     start: int
@@ -39,13 +39,13 @@ class Letter:
 
     @property
     def axis(self) -> int | None:
-        """Which unit vector it could be: i, j, k as a vector, x, y, z only under a hat."""
+        """The unit vector that it could be: i, j, k as a vector; x, y, z only under a hat."""
         marked = self.hat or (self.vector and self.base in "ijk")
         return UNIT_VECTORS.get(self.base) if marked and not self.subscript and not self.dots else None
 
 
 class Letters:
-    """The names that may be used, told apart by their letter and subscript without the marks between."""
+    """The names that may be used, identified by their letter and subscript without the marks between."""
 
     def __init__(self, declared: Mapping[str, Declared]):
         self.declared = declared
@@ -67,12 +67,12 @@ def _bare(subscript: str) -> str:
 
 
 def dots_of(letter: Letter, declared: Declared) -> int:
-    """Those that are written, and those of a letter that is declared as a rate."""
+    """Count the written dots and those of a letter that is declared as a rate; 0 if no dot is written."""
     return letter.dots and letter.dots + next(n for n in (3, 2, 1, 0) if declared.symbol.name.endswith(RATES[n]))
 
 
 def term_of(letter: Letter, declared: Declared) -> Term:
-    """The letter's value: its symbol, or the symbol of its rate."""
+    """Return the letter's value: its symbol, or the symbol of its rate."""
     symbol, dimension, kind = declared.symbol, declared.dimension, declared.kind
     if letter.dots:
         symbol, dimension = rate(symbol, letter.dots), dimension / dimension_of_kind("time") ** letter.dots
@@ -81,7 +81,7 @@ def term_of(letter: Letter, declared: Declared) -> Term:
 
 
 def letter_at(token: Token | None) -> Letter | None:
-    """The letter that a token is, with its decoration and dots, if it is one."""
+    """Return the letter that a token is, with its decoration and dots, if it is one."""
     if token is None:
         return None
     if token.kind == "letter":
@@ -118,14 +118,14 @@ def _decorated(token: Token) -> Letter | None:
 
 
 def _long_name(argument: Argument) -> Letter | None:
-    r"""A name of several letters, set upright or in italics: `\mathit{mass}`."""
+    r"""Read a name of several letters, set upright or in italics: `\mathit{mass}`."""
     if len(argument.tokens) > 1 and all(token.kind == "letter" for token in argument.tokens):
         return Letter("".join(token.text for token in argument.tokens), argument.start, argument.end)
     return None
 
 
 def _with_subscript(argument: Argument) -> Letter | None:
-    r"""`\dot{\omega_1}`: the subscript inside the braces."""
+    r"""Read `\dot{\omega_1}`, with the subscript inside the braces."""
     base, *rest = argument.tokens
     letter = letter_at(base)
     if letter is None or not rest or rest[0].text != "_" or rest[0].kind != "script":
@@ -135,7 +135,7 @@ def _with_subscript(argument: Argument) -> Letter | None:
 
 
 def subscript_of(tokens: tuple[Token, ...]) -> str | None:
-    """The text below a letter: letters, digits, words and commas, joined; nothing else is part of a name."""
+    """Return the text below a letter: letters, digits, words and commas, joined; None if it has anything else."""
     parts: list[str] = []
     for token in tokens:
         if token.kind in _SUBSCRIPT or token.text == "," or token.kind == "command" and token.text in GREEK_COMMANDS:

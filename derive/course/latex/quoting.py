@@ -1,8 +1,8 @@
-"""What a document prints, quoted in its own letters: prose with formulas between dollar signs.
+"""Quotations of a document in its own letters: prose with formulas between dollar signs.
 
-A quotation is data and never reaches TeX as it stands. Its formulas are cut into commands and signs, each of which must
-be of a list, must nest, and is written out anew; what is not known is refused where it stands. That is more than the
-grammar reads, for what is garbled must be quoted too, and less than TeX can do.
+A quotation is data and never reaches TeX unchanged. Its formulas are cut into commands and signs, each of which must
+be on a list and must nest, and are written out again; anything unknown is refused at its place. A quotation may contain
+more than the grammar reads, because a garbled formula must be quoted too, and less than TeX can do.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ _ARGUMENT = re.compile(r"\s*(?:\{|[A-Za-z0-9]|\\[A-Za-z])")
 
 @dataclass(frozen=True)
 class Quoted:
-    """A piece of a quotation: words, or a formula whose TeX may stand on a page."""
+    """A piece of a quotation: words, or a formula whose TeX is allowed on a page."""
 
     text: str
     is_formula: bool
 
 
 class Unquotable(ValueError):
-    """Why something cannot be quoted; `at` is where in the text."""
+    """The reason why something cannot be quoted; `at` is its position in the text."""
 
     def __init__(self, why: str, at: int):
         super().__init__(why)
@@ -51,7 +51,7 @@ class Unquotable(ValueError):
 
 
 def quoted(text: str) -> tuple[Quoted, ...]:
-    """Words and formulas in turn; raises `Unquotable`."""
+    """Return words and formulas in turn, or raise `Unquotable`."""
     if len(text) > LONGEST_QUOTATION:
         raise Unquotable(f"a quotation has at most {LONGEST_QUOTATION} characters", 0)
     if text.count("$") % 2:
@@ -65,7 +65,7 @@ def quoted(text: str) -> tuple[Quoted, ...]:
 
 
 def quoted_formula(text: str, offset: int = 0) -> str:
-    """The TeX of a formula, written anew from signs and commands that are known; rows are aligned."""
+    """Return the TeX of a formula, written again from known signs and commands; rows are aligned."""
     pieces, rows = "".join(_pieces(text, offset)).strip(), False
     depth = 0
     for word in re.findall(r"\\begin|\\end|\\\\|\\&|&", pieces):
@@ -85,7 +85,7 @@ def _pieces(text: str, offset: int) -> Iterator[str]:
         if name in {"begin", "end"}:
             environment = _ENVIRONMENT.match(text, at)
             if not environment or environment[1] not in MATRICES | ALIGNMENTS:
-                raise Unquotable(f"`\\{name}` needs an environment that is known", offset + here)
+                raise Unquotable(f"`\\{name}` needs a known environment", offset + here)
             at = environment.end()
             yield _environment(name, environment[1], environment[2], nesting, offset + here)
         elif name in WORDS:
@@ -130,7 +130,7 @@ def _environment(name: str, environment: str, columns: str | None, nesting: list
 
 
 def _shown(environment: str) -> str:
-    """What stands within a line in place of a display of its own."""
+    """Return the environment that replaces a display within a line."""
     return "aligned" if environment in ALIGNMENTS else environment
 
 

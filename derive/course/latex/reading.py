@@ -48,14 +48,14 @@ class ReadMath:
 
 
 def read_latex(scalar: Scalar, letters: Mapping[str, Declared], *, homogeneous: bool = True) -> ReadMath:
-    """The formula in the declared letters, or `Rejected` with what is wrong and where.
+    """Read the formula in the declared letters, or raise `Rejected` with what is wrong and where.
 
-    `homogeneous=False` is for a formula with numbers put in for letters, and for one that is known to be wrong.
+    `homogeneous=False` is for a formula with numbers in place of letters, and for one that is known to be wrong.
     """
     return _read(scalar, tuple(letters.items()), homogeneous)
 
 
-@lru_cache(maxsize=1024)  # for a process that is asked again
+@lru_cache(maxsize=1024)  # for a process that reads more than once
 def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneous: bool) -> ReadMath:
     letters = dict(declared)
     plus = Formula(scalar, Letters(letters), homogeneous)
@@ -74,7 +74,7 @@ ReadSide: TypeAlias = tuple[list[TermOrGrid], int, Token, Token]
 
 
 def _chain(formula: Formula, tokens: tuple[Token, ...]) -> tuple[list[ReadSide], list[str]]:
-    """Every side; undeclared letters are all told at once, and before what else is wrong."""
+    """Read every side; undeclared letters are all reported at once, before other errors."""
     cursor = Cursor(_in_one_line(tokens), len(formula.text.rstrip()))
     try:
         found = formula.chain(cursor)
@@ -88,7 +88,7 @@ def _chain(formula: Formula, tokens: tuple[Token, ...]) -> tuple[list[ReadSide],
 
 
 def _in_one_line(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
-    """An aligned chain without its marks: a row that begins with a relation or a sign goes on with the row before."""
+    """Join the rows of an aligned chain: a row that begins with a relation or a sign continues the row before."""
     aligned = [token for token in tokens if token.kind != "cell"]
     kept: list[Token] = []
     for i, token in enumerate(aligned):
@@ -109,7 +109,7 @@ def _side(formula: Formula, plus: ReadSide, minus: ReadSide) -> Side:
     shapes = {_shape(value) for value in values}
     start, end = first.start, last.end
     if len(shapes) > 1:
-        formula.refuse("shape", "the two branches are not of one shape", start, end)
+        formula.refuse("shape", "the two branches have different shapes", start, end)
     text = " ".join(formula.text[start:end].split())
     place = formula.scalar.place_within(start, end - start)
     return Side(tuple(_entries(value) for value in values), shapes.pop(), text, place)

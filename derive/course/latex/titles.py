@@ -1,6 +1,6 @@
-r"""Left sides that only say what is meant: `U(\theta) =`, `U^{\prime\prime} =`, `\frac{\partial L}{\partial\theta} =`.
+r"""Left sides that only name what follows: `U(\theta) =`, `U^{\prime\prime} =`, `\frac{\partial L}{\partial\theta} =`.
 
-Such a name has no value that could be compared; the answer of the entry says what it is.
+Such a name has no value that could be compared; the answer of the entry states what it is.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def without_title(cursor: Cursor) -> None:
 
 
 def is_derivative(token: Token) -> bool:
-    r"""`\frac{d}{dt}`, `\frac{dU}{d\theta}`, `\frac{\partial L}{\partial\theta}`."""
+    r"""Return whether a token is `\frac{d}{dt}`, `\frac{dU}{d\theta}` or `\frac{\partial L}{\partial\theta}`."""
     if token.kind != "command" or token.text not in FRACTIONS:
         return False
     firsts = [a.tokens[0].text for a in token.arguments if a and a.tokens]
@@ -41,13 +41,13 @@ def _written(token: Token) -> str:
 
 
 def _within(tokens: tuple[Token, ...], i: int) -> bool:
-    """Whether a bracket is open there: the `=` of `U(\\theta=0)` is not that of the chain."""
+    """Return whether a bracket is open there: the `=` of `U(\\theta=0)` does not belong to the chain."""
     kinds = [token.kind for token in tokens[:i]]
     return kinds.count("open") > kinds.count("close")
 
 
 def _is_function(tokens: tuple[Token, ...], differentiated: bool) -> bool:
-    """A letter, with primes or with brackets behind it; after a derivative it may stand alone."""
+    """Return whether this is a letter with primes or with arguments; after a derivative, the letter may be alone."""
     if not tokens or letter_at(tokens[0]) is None:
         return False
     at = 1
@@ -58,7 +58,7 @@ def _is_function(tokens: tuple[Token, ...], differentiated: bool) -> bool:
 
 
 def _are_arguments(tokens: tuple[Token, ...]) -> bool:
-    """Letters in brackets, `(\\theta, t)` or `(\\theta=0)`; anything else could be a factor."""
+    """Return whether these are letters in brackets, `(\\theta, t)` or `(\\theta=0)`; others could be a factor."""
     if len(tokens) < 3 or (tokens[0].text, tokens[-1].text) != ("(", ")"):
         return False
     kinds = "".join("L" if letter_at(t) else "N" if t.kind == "number" else t.text for t in tokens[1:-1])

@@ -1,4 +1,4 @@
-"""What stands in a formula and where: the nodes of pylatexenc as a flat run of tokens, groups opened up.
+"""The tokens of a formula and their places: the nodes of pylatexenc as a flat run, with groups opened.
 
 A brace that only groups prints nothing, so it means nothing here either: `{ab}^2` is `ab^2`, as on paper.
 """
@@ -45,7 +45,7 @@ MAX_TOKENS = 1500
 _PIECE = re.compile(r"(?P<number>\d+(?:\.\d+)?|\.\d+)|(?P<letter>[A-Za-z])|(?P<space>[\s~]+)|(?P<mark>.)", re.DOTALL)
 _STRUT = re.compile(
     r"\\rule\s*(\[[^]]*\])?\s*\{0(pt|em|ex|mm|cm|in)?\}\s*\{[^{}]*\}"
-)  # a rule without width is not seen
+)  # a rule without width is invisible
 _LENGTH = re.compile(r"\[\s*-?(\d+\.?\d*|\.\d+)\s*(pt|em|ex|mm|cm|in)\s*\]")
 _MARKS = {
     **dict.fromkeys("+-*/=<>,.'", "mark"),
@@ -59,7 +59,7 @@ _MARKS = {
 
 @dataclass(frozen=True)
 class Token:
-    """One thing in a formula: number, letter, mark, script, open, close, bar, cell, row, command or matrix.
+    """One token of a formula: number, letter, mark, script, open, close, bar, cell, row, command or matrix.
 
     Only a command has arguments, and only a matrix and an argument have something inside.
     """
@@ -74,7 +74,7 @@ class Token:
 
 @dataclass(frozen=True)
 class Argument:
-    """What a command is applied to."""
+    """The argument of a command."""
 
     tokens: tuple[Token, ...]
     start: int
@@ -95,12 +95,12 @@ def _known_to_the_walker() -> LatexContextDb:
 
 
 def tokens_of(reader: Arithmetic) -> tuple[Token, ...]:
-    """Every token of the reader's text, or a refusal at the first one that cannot be told."""
+    """Return every token of the reader's text, or refuse the first one that cannot be recognized."""
     text = reader.text
     if not text.strip():
         reader.refuse("latex", "a formula is missing", 0)
     if len(text) > LONGEST_FORMULA:
-        reader.refuse("too-large", f"this formula has {len(text)} characters, and {LONGEST_FORMULA} are allowed", 0)
+        reader.refuse("too-large", f"this formula has {len(text)} characters; {LONGEST_FORMULA} are allowed", 0)
     _check_depth(reader)
     walker = LatexWalker(text, latex_context=_known_to_the_walker(), tolerant_parsing=False)
     try:
@@ -120,7 +120,7 @@ def tokens_of(reader: Arithmetic) -> tuple[Token, ...]:
 
 
 def _check_depth(reader: Arithmetic) -> None:
-    """The walker recurses, so what is nested is counted before it begins."""
+    """Count the nesting before the walker begins, because the walker recurses."""
     depth = 0
     for found in re.finditer(r"\\begin|\\end|\\?[{}\[\]]", reader.text):
         depth += 1 if found[0][-1] in "{[n" else -1
@@ -199,13 +199,13 @@ class _Tokens:
             yield Token("command", name, start, end, self.arguments(node, name, start))
 
     def space_below(self, node: Any) -> None:
-        """A row may end with a length in brackets, the space below it."""
+        """Accept a length in brackets at the end of a row: the space below the row."""
         for argument in (node.nodeargd.argnlist if node.nodeargd else None) or ():
             if argument is None:
                 continue
             end = argument.pos + argument.len
             if not _LENGTH.fullmatch(self.reader.text[argument.pos : end]):
-                message = "what stands in brackets behind the end of a row is a length, such as `[3pt]`"
+                message = "brackets after the end of a row must contain a length, such as `[3pt]`"
                 self.reader.refuse("latex", message, argument.pos, end)
 
     def unknown(self, name: str, start: int) -> None:
@@ -227,7 +227,7 @@ class _Tokens:
         return Argument(tokens, node.pos, node.pos + node.len)
 
     def word(self, node: Any) -> Argument:
-        """Text as it is, one token."""
+        """Return text unchanged, as one token."""
         found = tuple(node.nodeargd.argnlist or ()) if node.nodeargd else ()
         if len(found) != 1 or found[0] is None:
             self.reader.refuse("latex", f"`\\{node.macroname}` needs a value in braces", node.pos)
@@ -243,18 +243,18 @@ class _Tokens:
             inside = tuple(_joined(self.reader, list(self.of(node.nodelist))))
             yield Token("matrix", name, start, start + node.len, inside=inside)
         else:
-            message = "a determinant is not read" if name in ("vmatrix", "Vmatrix") else f"`{name}` is not known"
+            message = "a determinant cannot be read" if name in ("vmatrix", "Vmatrix") else f"`{name}` is not known"
             help_line = did_you_mean(name, (*MATRICES, *ALIGNMENTS)) if "known" in message else None
             self.reader.refuse("latex", message, start, start + len(f"\\begin{{{name}}}"), help_line)
 
     def foreign(self, node: Any) -> None:
         if node.latex_verbatim().startswith("%"):
-            self.reader.refuse("latex", "a comment is no part of a formula", node.pos, help="leave it out")
+            self.reader.refuse("latex", "a comment is not part of a formula", node.pos, help="leave it out")
         self.reader.refuse("latex", "the whole text is a formula", node.pos, help="leave out the `$`")
 
 
 def _joined(reader: Arithmetic, tokens: list[Token]) -> Iterator[Token]:
-    r"""`\left` and `\right` taken together with their brackets."""
+    r"""Join `\left` and `\right` with their brackets."""
     at = 0
     while at < len(tokens):
         token = tokens[at]
@@ -263,7 +263,7 @@ def _joined(reader: Arithmetic, tokens: list[Token]) -> Iterator[Token]:
             bracket = tokens[at] if at < len(tokens) else None
             table, kind = (OPENING, "open") if token.text == "left" else (CLOSING, "close")
             if bracket is None or bracket.text not in table:
-                found = f"`{bracket.text}` does not stand" if bracket else "a bracket is missing"
+                found = f"`{bracket.text}` is not allowed" if bracket else "a bracket is missing"
                 reader.refuse("latex", f"{found} after `\\{token.text}`", token.start, token.end)
             at += 1
             yield Token(kind, bracket.text, token.start, bracket.end)

@@ -1,4 +1,4 @@
-"""The commands of LaTeX that are known, by what they are for; every other one is refused."""
+"""The known commands of LaTeX, by their purpose; every other command is refused."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ WORDS = frozenset(["text", "textrm", "textit", "mbox"])
 MATRICES = frozenset(["pmatrix", "bmatrix", "matrix", "array", "Bmatrix", "smallmatrix"])
 ALIGNMENTS = frozenset(["aligned", "align", "align*", "split", "equation", "equation*", "gathered", "alignedat"])
 
-# What only moves things apart or makes them larger.
+# Commands that only add space or change a size.
 SPACES = frozenset(
     [",", "!", ";", ":", " ", ">", "quad", "qquad", "thinspace", "enspace", "limits", "nolimits", "displaystyle"]
     + ["textstyle", "scriptstyle", "mathopen", "mathclose", "mathord", "nonumber", "notag", "rm", "it", "\n", "/"]
@@ -86,22 +86,22 @@ INSTEAD: Mapping[str, str] = {
 }
 REFUSED: Mapping[str, tuple[str, str | None]] = {
     "log": ("the base of `\\log` is not clear", "write `\\ln`"),
-    "tag": ("a number of an equation is no part of it", "leave it out"),
-    "label": ("a label of an equation is no part of it", "leave it out"),
-    "sec": ("`\\sec` is not read", "write `1/\\cos`"),
-    "csc": ("`\\csc` is not read", "write `1/\\sin`"),
-    "iint": ("an integral sign stands for one integral", "write `\\int` with limits for each"),
-    "iiint": ("an integral sign stands for one integral", "write `\\int` with limits for each"),
-    "oint": ("an integral without limits is not read", None),
-    "sum": ("a sum over an index is not read", "write its terms"),
-    "Rightarrow": ("one formula is read at a time", None),
-    "implies": ("one formula is read at a time", None),
-    "ldots": ("an ellipsis is not read", "write what it stands for"),
-    "cdots": ("an ellipsis is not read", "write what it stands for"),
-    "dots": ("an ellipsis is not read", "write what it stands for"),
+    "tag": ("a number of an equation is not part of it", "leave it out"),
+    "label": ("a label of an equation is not part of it", "leave it out"),
+    "sec": ("`\\sec` cannot be read", "write `1/\\cos`"),
+    "csc": ("`\\csc` cannot be read", "write `1/\\sin`"),
+    "iint": ("a multiple integral sign cannot be read", "write `\\int` with limits for each"),
+    "iiint": ("a multiple integral sign cannot be read", "write `\\int` with limits for each"),
+    "oint": ("an integral without limits cannot be read", None),
+    "sum": ("a sum over an index cannot be read", "write its terms"),
+    "Rightarrow": ("only one formula can be read at a time", None),
+    "implies": ("only one formula can be read at a time", None),
+    "ldots": ("an ellipsis cannot be read", "write what it stands for"),
+    "cdots": ("an ellipsis cannot be read", "write what it stands for"),
+    "dots": ("an ellipsis cannot be read", "write what it stands for"),
 }
 
-# How many arguments in braces, `[` for one in brackets that may be left out.
+# The arguments of a command: `{` is one in braces, `[` is an optional one in brackets.
 ARGUMENTS: Mapping[str, str] = {
     "sqrt": "[{",
     **dict.fromkeys(FRACTIONS, "{{"),

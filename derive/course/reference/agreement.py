@@ -1,6 +1,6 @@
-"""Whether what a document states is what was derived.
+"""The comparison of one statement of a document with what was derived.
 
-A letter that the step's value lacks stands for what the steps before it found: `rho`, `J_xx`, or `omega_x` of a spin.
+A letter that the step's value lacks means a result of the steps before it: `rho`, `J_xx`, or `omega_x` of a spin.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from derive.course.units import read_unit
 from derive.steps.derivation import with_ancestors
 from derive.steps.step import Quantity
 
-NOT_MULTIPLIED = "only an equation is multiplied by a factor"
+NOT_MULTIPLIED = "only an equation can be multiplied by a factor"
 
 
 def given_values(problem: Problem) -> dict[str, Any]:
@@ -33,7 +33,7 @@ def given_values(problem: Problem) -> dict[str, Any]:
 
 
 def verdict_on(statement: Statement, step: Quantity, entry: Entry, pinned: Problem) -> Verdict:
-    """Entry by entry, branch by branch; as sure as the least sure of them."""
+    """Compare entry by entry and branch by branch; the verdict is as sure as the least sure of them."""
     derived = explicit(step.value)
     meanings = _meanings(statement, entry.times, step, derived, pinned)
     if entry.times is not None and not isinstance(derived, Relation):
@@ -77,7 +77,7 @@ def _of_value(
                 worst = verdict
         return worst
 
-    # The order of two branches means nothing, and one branch alone may be stated.
+    # The order of two branches has no meaning, and one branch alone may be stated.
     orders = [[0], [1]] if len(stated.branches) < len(branches) else [list(range(len(branches)))]
     if len(stated.branches) == 2:
         orders.append([1, 0])
@@ -109,13 +109,13 @@ def _least_sure(verdicts: Iterable[Verdict]) -> Verdict:
 def _of_relation(
     statement: Statement, derived: Relation, entry: Entry, pinned: Problem, meanings: Table[Symbol, Expr]
 ) -> Verdict:
-    """The document's equation against ours, or against ours times a factor that it says it has multiplied by."""
+    """Compare the document's equation with ours, or with ours times the factor that the entry states."""
     sides = statement.sides
     if any(side.shape for side in sides):
         return Verdict(Grade.REFUTED, f"{_named_shape(sides[0].shape)} against a relation")
     if len(sides) > 2 or statement.marks[-1] == "~" or any(len(side.branches) > 1 for side in sides):
         return Verdict(Grade.REFUTED, "this is not one relation")
-    if len(sides) == 1:  # an equation may be stated by what vanishes in it
+    if len(sides) == 1:  # an equation may be stated by an expression that vanishes
         sides = (sides[0], replace(sides[0], branches=(((Integer(0), sides[0].entries[0][1]),),)))
     mark = statement.marks[1] if len(statement.sides) == 2 else "="
     left, right = (_in_its_unit(side.entries[0][0].xreplace(meanings), side.entries[0][1], entry) for side in sides)
@@ -126,7 +126,7 @@ def _of_relation(
     stated = explicit(Relation(left[0], mark, right[0]).xreplace(numbers))
     ours = explicit(derived.xreplace(numbers))
     if ours != derived and vanishes(ours.residual) and not vanishes(derived.residual):
-        return Verdict(Grade.REFUTED, "with these numbers both sides are the same, whatever is stated")
+        return Verdict(Grade.REFUTED, "with these numbers both sides are equal, so any statement would agree")
     if entry.figures:
         return _bound_to_figures(stated, ours, entry)
     if entry.times is None:
@@ -135,23 +135,23 @@ def _of_relation(
         return Verdict(Grade.REFUTED, NOT_MULTIPLIED)
     factor = explicit(entry.times.sides[0].entries[0][0].xreplace(meanings).xreplace(numbers))
     if vanishes(factor) or is_zero_everywhere(factor) is not False:
-        return Verdict(Grade.REFUTED, "`times` is zero, and zero times anything is the same")
+        return Verdict(Grade.REFUTED, "`times` is zero, so any statement would agree")
     verdict = equal(stated.residual, factor * ours.residual)
     if not verdict:
-        turned = equal(stated.residual, -factor * ours.residual)  # the sides may be the other way round
+        turned = equal(stated.residual, -factor * ours.residual)  # the sides may be exchanged
         verdict = turned if turned else verdict
     return verdict
 
 
 def _in_its_unit(expr: Expr, dimension: Dimension, entry: Entry) -> tuple[Expr, Dimension]:
-    """A number that a relation has on one side is in the unit of the entry."""
+    """Give a number that a relation has on one side the unit of the entry."""
     if entry.unit is None or not expr.is_number or expr == 0:
         return expr, dimension
     return expr * entry.unit.factor, dimension * entry.unit.dimension
 
 
 def _bound_to_figures(stated: Relation, ours: Relation, entry: Entry) -> Verdict:
-    """Whether `S > 28` has the decimal that is derived, the rest being the same."""
+    """Return whether the decimal of `S > 28` agrees with the derived one, if all else is the same."""
     if stated.left != ours.left or stated.mark != ours.mark or stated.right.free_symbols:
         return Verdict(Grade.REFUTED, f"`{stated}` against `{ours}`")
     factor = entry.unit.factor if entry.unit else Integer(1)
@@ -167,7 +167,7 @@ def _entries_of(value: Any) -> list[Expr]:
 
 
 def _numbers(pinned: Problem, kept: set[Symbol], entry: Entry) -> dict[Symbol, Expr]:
-    """The numbers that go in for letters: those that the statement lacks, and those it says it has put in."""
+    """Return numbers to substitute for letters: those that the statement lacks, and those that it has substituted."""
     return {m.symbol: m.si for m in pinned.measured if m.symbol not in kept or m.symbol.name in entry.put_in}
 
 
@@ -187,9 +187,9 @@ def _named_entry(i: int, shape: tuple[int, ...]) -> str:
 def _meanings(
     stated: Statement, times: Statement | None, step: Quantity, derived: Any, pinned: Problem
 ) -> dict[Symbol, Expr]:
-    """What each letter of a stated value is in the derivation: the same letter, or what an earlier step found.
+    """Return the meaning of each letter of a statement: the same letter, or the result of an earlier step.
 
-    Of a letter that the derivation does not have no more is known than that it is real, whatever its kind.
+    A letter that the derivation does not have is only known to be real, whatever its kind.
     """
     own = {letter.name: letter for letter in derived.free_symbols}
     given = {
@@ -201,7 +201,7 @@ def _meanings(
     known = {**{m.symbol.name: m.symbol for m in pinned.measured}, **given, **own}
     if any(letter.name not in known and len(found.get(letter.name, ())) != 1 for letter in wanted):
         known = {**_letters_of(behind), **known}
-    # A name that stands for two things among the steps before (the tensors of two bodies, say) stands for none here.
+    # A name with two meanings among the steps before (the inertia tensors of two bodies, say) has none here.
     return {
         letter: values[0] if len(values := found.get(letter.name, [])) == 1 else known.get(letter.name, letter)
         for letter in wanted
@@ -209,7 +209,7 @@ def _meanings(
 
 
 def _letters_of(steps: Iterable[Quantity]) -> dict[str, Symbol]:
-    """The letters of the values of steps, by name; of two of one name that of which less is known."""
+    """Return the letters of the values of steps, by name; of two with one name, the one about which less is known."""
     letters = {letter for step in steps for letter in getattr(explicit(step.value), "free_symbols", ())}
     return {letter.name: letter for letter in sorted(letters, key=lambda x: (not x.is_nonzero, x.name))}
 
@@ -219,7 +219,7 @@ def _expressions(values: Any) -> list[Expr]:
 
 
 def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
-    """Name -> the different values that it has among these steps; those of general vectors left out."""
+    """Map each name to its different values among these steps; components of general vectors are left out."""
     found: dict[str, list[Any]] = {}
     for quantity in steps:
         names: tuple[Symbol, ...] = (quantity.symbol,) if isinstance(quantity.symbol, Symbol) else ()
@@ -233,14 +233,14 @@ def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
 
 
 def _of_kind(dimension: Dimension, value: Expr, kind: str | None) -> Verdict | None:
-    """The refutation that a unit or a letter too many gives at once."""
+    """Return the refutation that a wrong dimension gives at once, as from a wrong unit or an extra letter."""
     if kind is None or value == 0 or dimension == dimension_of_kind(kind):
         return None
     return Verdict(Grade.REFUTED, f"{named(dimension)} against {kind_with_article(kind)}")
 
 
 def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
-    """Whether each printed decimal is within half a unit of its last place; letters behind it must be the same."""
+    """Return whether each printed decimal is within half a unit of its last place; its letters must be the same."""
     printed, exact = _coefficients(stated), _coefficients(derived)
     if printed.keys() != exact.keys():
         return Verdict(Grade.REFUTED, f"{stated} against {derived}")
@@ -252,7 +252,7 @@ def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
 
 
 def _coefficients(expr: Expr) -> dict[Expr, Expr]:
-    """Letters -> the number in front of them; those that a root has in every term are drawn out of it."""
+    """Map letters to the number in front of them; letters that a root has in every term are taken out of the root."""
     found: dict[Expr, Expr] = {}
     opened = expr.replace(
         lambda e: isinstance(e, Pow) and not e.exp.is_Integer, lambda e: factor_terms(e.base) ** e.exp

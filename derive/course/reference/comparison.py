@@ -1,15 +1,15 @@
-"""What a document states, compared with what is derived: `problems/<set>/reference.yaml`.
+"""The comparison of what a document states with what is derived: `problems/<set>/reference.yaml`.
 
 The file is a list of groups. A group names a problem and pins it by `symbols:`, `given:` and `values:` of its own, so
-that an edit of the problem neither breaks the comparison nor has wrong numbers compared. Each of its entries states a
-value of one step:
+that an edit of the problem does not break the comparison and wrong numbers are never compared. Each of its entries
+states a value of one step:
 
     agrees               equal, with the grade of the evidence
-    agrees to n figures  decimals, `to` so many of them
+    agrees to n figures  decimals, equal to that many figures
     erratum              the document is wrong: `states` is refuted and `right` agrees; or it is quoted
-    differs              refuted, at a point; or an erratum that is none
+    differs              refuted, at a point; or a stated erratum where the document is right
     unknown step         no step has that key
-    remark               nothing is compared: what the document claims is quoted, with what there is to say of it
+    remark               nothing is compared: a claim of the document is quoted, with a comment
 
 Each side of a chain is compared, and counts as one comparison.
 """
@@ -40,7 +40,7 @@ from derive.steps.step import Quantity
 
 @dataclass(frozen=True)
 class Told:
-    """What a page and its JSON say of a comparison."""
+    """The contents of a comparison, for a page and its JSON."""
 
     facts: dict[str, Any]
     here: bool
@@ -54,7 +54,7 @@ class Told:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What became of one entry; `complaint` says what is wrong if it counts as a failure."""
+    """The outcome of one entry; `complaint` says what is wrong if it counts as a failure."""
 
     problem: str
     entry: Entry
@@ -63,13 +63,13 @@ class Comparison:
     detail: str
     complaint: Complaint | None = None
     erratum: Erratum | None = None
-    here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
+    here: bool = True  # pinned to what the problem now gives, so that its page may mention it
 
     def told(self) -> Told:
         return Told(self.facts(), self.here, self.erratum, self.entry.remark)
 
     def facts(self) -> dict[str, Any]:
-        """The entry in the JSON of a solution."""
+        """Return the entry of the JSON of a solution."""
         return {
             "problem": self.problem,
             "part": self.entry.part,
@@ -88,8 +88,8 @@ Steps = Table[str, Quantity]
 
 
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
-    """Every entry about this problem, compared; `known` are its steps for what its own file gives. What a group pins
-    otherwise is derived for it, with the calls of the `memory`."""
+    """Compare every entry about this problem; `known` are its steps for what its own file gives. If a group pins other
+    values, its steps are derived with the calls of the `memory`."""
     with within(problem.ranges):
         return _comparisons(problem, known, memory)
 
@@ -110,13 +110,13 @@ def _comparisons(problem: Problem, known: Steps, memory: Memory | None) -> tuple
 
 
 def _what_is_given(problem: Problem) -> object:
-    """What its steps are derived from: the system that it describes, or the values that its script asks for."""
+    """Return the input of its derivation: the system that it describes, or the values that its script asks for."""
     return problem.described or given_values(problem)
 
 
 def _pinned_steps(pinned: Problem, problem: Problem, memory: Memory | None) -> Steps:
-    """As they were found before in this process, where all that they depend on is the same: a preview asks again and
-    again, and an edit of what is given leaves alone what a document pins."""
+    """Return the steps, from earlier in this process if all that they depend on is the same: a preview asks again and
+    again, and an edit of the givens does not change what a document pins."""
     depends = (_text_of(pinned.script), _what_is_given(pinned), pinned.symbols, pinned.ranges, problem.ranges)
     found = next((steps for other, steps in _pinned_before if other == depends), None)
     if found is None:
@@ -148,11 +148,11 @@ def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
 
 
 def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
-    """The sides of a chain as entries of their own; what states a relation stays whole."""
+    """Return the sides of a chain as entries of their own; an entry that states a relation stays whole."""
     step = steps.get(entry.answer)
     if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]
-    again = replace(entry, remark=None)  # of a chain the first side brings the remark
+    again = replace(entry, remark=None)  # only the first side of a chain brings the remark
     sides = zip(entry.states.sides, entry.states.marks, strict=True)
     return [
         replace(again if i else entry, states=Statement((side,), (mark,), side.text, side.place))
@@ -174,7 +174,7 @@ def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
     if entry.right is None:
         return _agreement(entry, step, verdict, pinned, entry.states.place)
     if verdict:
-        message = f"the document is right about `{entry.answer}`, so this is no erratum"
+        message = f"the document is right about `{entry.answer}`, so this is not an erratum"
         fault = _fault("no-erratum", message, entry.states.place, verdict.detail)
         return Comparison(pinned.id, entry, "differs", verdict.grade, message, fault)
     right = verdict_on(entry.right, step, entry, pinned)
@@ -200,7 +200,7 @@ def _difference(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem,
 
 
 def _fault(code: str, message: str, place: Place, *notes: str, help: str | None = None) -> Complaint:
-    """A warning, for the derivation is right by its own evidence; `derive check` fails on it all the same."""
+    """Return a warning, because the derivation is right by its own evidence; `derive check` fails on it anyway."""
     return Complaint(code, message, place, notes, help, severity="warning")
 
 

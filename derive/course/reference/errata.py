@@ -1,4 +1,4 @@
-"""An erratum of the source document as a page prints it: what the document has, why that is wrong, what is right."""
+"""An erratum of the source document as a page prints it: what the document has, why it is wrong, and what is right."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class Erratum:
     """`printed` and `right` are two values of the step `answer`; decimals keep the figures they are printed with.
 
     `quote` and `instead` are the same in the document's own letters, prose with formulas between dollar signs; they are
-    empty where it was not transcribed as it stands. `line` is where it stands. A formula that is garbled as printed is
-    no value of a step: of it there are only these.
+    empty if the document was not transcribed unchanged. `line` is its line. A formula that is garbled as printed is not
+    a value of a step, so it has only these fields.
     """
 
     answer: str
@@ -33,7 +33,7 @@ class Erratum:
     instead: str = ""
 
     def encoded(self) -> dict[str, Any]:
-        """As data, for the steps that are kept between builds."""
+        """Return it as data, for the steps that are kept between builds."""
         words: dict[str, Any] = {"answer": self.answer, "part": self.part, "why": self.why}
         words |= {"line": self.line, "quote": self.quote, "instead": self.instead}
         return {**words, "printed": encoded(self.printed), "right": encoded(self.right)}
@@ -46,19 +46,19 @@ class Erratum:
 
 
 def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
-    """The erratum that an entry of the reference states, in the letters of the problem, by their names."""
+    """Return the erratum that an entry of the reference states, in the letters of the problem, by their names."""
     assert entry.right is not None and entry.states is not None
     printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
     return Erratum(entry.answer, entry.part, entry.why, printed, right, entry.line, entry.quote, entry.instead)
 
 
 def quoted_erratum(entry: Entry) -> Erratum:
-    """One that is quoted and put right, and was not compared."""
+    """Return an erratum that is quoted and corrected, and was not compared."""
     return Erratum("", entry.part, entry.why, None, None, entry.line, entry.quote, entry.instead)
 
 
 def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
-    """A value, a relation, or both branches of a value in one."""
+    """Return a value, a relation, or both branches of a value in one expression."""
     if len(statement.sides) == 2:  # only a number is in the unit of the entry
         bare = replace(entry, unit=None)
         numbers = [not side.letters for side in statement.sides]
@@ -84,13 +84,13 @@ def _value(stated: Stated, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
 
 
 def _renamed(expr: Expr, letters: Mapping[str, Symbol]) -> Expr:
-    """In the problem's own letters; integrals and their variables as they are printed."""
+    """Rewrite an expression in the problem's own letters; integrals and their variables stay as printed."""
     opened = expr.replace(lambda e: isinstance(e, Group) and isinstance(e.args[0], Integral), lambda e: e.args[0])
     return opened.xreplace({x: letters.get(x.name) or Symbol(x.name, real=True) for x in opened.atoms(Symbol)})
 
 
 def _with_figures(expr: Expr, i: int, entry: Entry) -> Expr:
-    """The decimals of an entry that is stated to so many figures: 21.64, not 541/25."""
+    """Return the decimals of an entry with the figures to which it is stated: 21.64, not 541/25."""
     if not entry.figures:
         return expr
     figures = Integer(entry.figures[i % len(entry.figures)])

@@ -29,7 +29,7 @@ _ANY_VALUE = as_written(
     {"anyOf": [SCALAR.schema, {"type": "array", "items": _ENTRY_OR_ROW, "minItems": 3, "maxItems": 3}]},
     "an expression, a list of 3, or 3 rows of 3",
 )
-_OUR_LETTERS = mapping_of(as_written(TEXT.schema, "one of our letters"), "a mapping such as `I_1: I_xx`")
+_OUR_LETTERS = mapping_of(as_written(TEXT.schema, "a letter of the problem"), "a mapping such as `I_1: I_xx`")
 
 
 @dataclass(frozen=True)
@@ -49,23 +49,23 @@ class EntryKeys(Record):
     answer: Word | None = key("the key of the step that has this value", TEXT)
     states: Tree | None = key("the value: an expression, 3 of them, or 3 rows of 3", _ANY_VALUE)
     latex: Tree | None = key(
-        "the value as the document prints it, in LaTeX; of a chain `a = b` every side is compared",
+        "the value as the document prints it, in LaTeX; every side of a chain `a = b` is compared",
         as_written(SCALAR.schema, "a formula in LaTeX"),
     )
     to: Tree | None = key(
-        "decimals agree to so many figures; a list has one number for each entry, or for each of two branches",
+        "figures to which decimals agree; a list has one number for each entry, or for each of two branches",
         as_written(one_or_more(FIGURES.schema), f"a whole number from 1 to {MAX_FIGURES}, or a list of them"),
     )
     unit: Word | None = key("the unit of the stated value", Reader(UNIT, TEXT.read), called="in")
     put_in: Tree | None = key(
-        "letters for which the document has put in numbers; those of `values` are put in on both sides",
+        "letters that the document has replaced by numbers; those of `values` are replaced on both sides",
         as_written(one_or_more(TEXT.schema), "letters that have numbers"),
         called="with",
     )
-    times: Tree | None = key("the document's equation is the derived one multiplied by this", SCALAR)
+    times: Tree | None = key("the factor by which the document has multiplied the derived equation", SCALAR)
     quote: Word | None = key("what the document prints, words with formulas between `$`", QUOTATION)
     remark: Word | None = key(
-        "what there is to say of a claim that is wrong, right by luck, incomplete or no formula", QUOTATION
+        "a comment on a claim that is wrong, right by luck, incomplete or not a formula", QUOTATION
     )
     erratum: ErratumKeys | None = key(
         "the document is wrong here", record_of(ErratumKeys, "an erratum", "a mapping with `why` and `right`", "`{}`")
@@ -81,14 +81,14 @@ class GroupKeys(Record):
 
     problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
     symbols: dict[Word, SortOfLetter] = key(
-        "letters of the document and their kinds, also those that steps bring in", SYMBOLS
+        "letters of the document and their kinds, including those that steps introduce", SYMBOLS
     )
     given: Mapping | None = key("what the document starts from, as in the problem's file", GIVEN, required=True)
     letters: dict[Word, Tree] = key(
-        "letters of the document that are called otherwise here: `I_1: I_xx`",
+        "letters of the document that have another name here: `I_1: I_xx`",
         _OUR_LETTERS,
     )
-    values: dict[Word, Tree] = key("numbers for letters, put in where a stated value lacks the letter", VALUES)
+    values: dict[Word, Tree] = key("numbers for letters, substituted where a stated value lacks the letter", VALUES)
     entries: tuple[EntryKeys, ...] = key(
         "the values that the document states", list_of(_ENTRY, "a list of entries"), required=True
     )
@@ -96,7 +96,7 @@ class GroupKeys(Record):
 
 @dataclass(frozen=True)
 class DocumentKeys(Record):
-    """The first item of the list, where the document is named, whose lines errata and remarks then tell."""
+    """The first item of the list if it names the document; errata and remarks then show its lines."""
 
     document: Word | None = key("the document that the groups below are about", TEXT, required=True)
 
@@ -106,9 +106,9 @@ class OwnKeys(Record):
     """The keys of `reference:` in a problem's own file, whose letters and givens are those of the problem."""
 
     source: Word | None = key("the book and its section, or the document", TEXT, required=True)
-    symbols: dict[Word, SortOfLetter] = key("letters that steps bring in, and their kinds", SYMBOLS)
+    symbols: dict[Word, SortOfLetter] = key("letters that steps introduce, and their kinds", SYMBOLS)
     letters: dict[Word, Tree] = key(
-        "letters of the source that are called otherwise here: `I_1: I_xx`",
+        "letters of the source that have another name here: `I_1: I_xx`",
         _OUR_LETTERS,
     )
     entries: tuple[EntryKeys, ...] = key("the values that the source states", list_of(_ENTRY, "a list of entries"))

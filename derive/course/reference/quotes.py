@@ -1,4 +1,4 @@
-"""What a document prints, in its own letters, and what there is to remark on it where no formula can be compared."""
+"""Quotations of a document in its own letters, and remarks on claims that cannot be compared as formulas."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LAST_LINE = 99_999
 
 @dataclass(frozen=True)
 class Remark:
-    """A claim of the document that is wrong, right by luck, incomplete or no formula: as printed at a line, and why.
+    """A claim of the document that is wrong, right by luck, incomplete or not a formula: its text, its line, and why.
 
     Both texts are prose with formulas between dollar signs.
     """
@@ -47,8 +47,8 @@ def _quotation(node: Tree, name: str, faults: Faults) -> Word | None:
 
 
 def unquotable(text: str) -> str | None:
-    """Why a text cannot be quoted; nothing if it can."""
-    from derive.course.latex.quoting import Unquotable, quoted  # which few files need
+    """Return why a text cannot be quoted; nothing if it can."""
+    from derive.course.latex.quoting import Unquotable, quoted  # needed by few files
 
     try:
         quoted(text)

@@ -1,4 +1,4 @@
-"""What a document states, as `problems/<set>/reference.yaml` has it: groups of entries, each pinned to what is given.
+"""The statements of a document in `problems/<set>/reference.yaml`: groups of entries, each pinned to what is given.
 
 A value is an expression in the grammar of the problem files (`states:`), or a formula as the document prints it
 (`latex:`): a chain whose sides are each compared, or a relation.
@@ -42,7 +42,7 @@ _VALUE = "an expression, a list of 3, or 3 rows of 3"
 class Stated:
     """A value as the document has it: its entries with their dimensions, and how it was written.
 
-    A value with `\\pm` has two branches. Where it is not `homogeneous` its dimensions mean nothing.
+    A value with `\\pm` has two branches. If it is not `homogeneous`, its dimensions have no meaning.
     """
 
     branches: tuple[tuple[tuple[Expr, Dimension], ...], ...]
@@ -62,7 +62,7 @@ class Stated:
 
 @dataclass(frozen=True)
 class Statement:
-    """A value, a chain of them, or a relation: the sides, and the mark before each, "" before the first as a rule."""
+    """A value, a chain of values, or a relation: the sides, and the mark before each, usually "" before the first."""
 
     sides: tuple[Stated, ...]
     marks: tuple[str, ...]
@@ -80,10 +80,10 @@ class Statement:
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry of the file; `figures` has one number for each entry of the value, `unit` is of all of them.
+    """One entry of the file; `figures` has one number for each entry of the value, `unit` holds for all of them.
 
-    `quote` is what the document prints and `instead` what it should, in its own letters; `states` is missing
-    where there is only a remark.
+    `quote` is what the document prints and `instead` what it should print, in its own letters; `states` is missing
+    if there is only a remark.
     """
 
     answer: str
@@ -104,20 +104,20 @@ class Entry:
 
 
 def reference_path(problem: Problem) -> str:
-    """Where the references of its set are, whether or not there are any; relative to the root."""
+    """Return the path of the references of its set, relative to the root, whether or not the file exists."""
     return f"problems/{problem.set_id}/reference.yaml"
 
 
 def reference_of_set(root: Path, set_id: str) -> Tree | None:
-    """What the documents of a set state, if there is such a file."""
+    """Return what the documents of a set state, if there is such a file."""
     path = f"problems/{set_id}/reference.yaml"
     return read_yaml(root / path, path) if (root / path).exists() else None
 
 
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
-    """The groups about this problem, each as the problem with what it pins, or `Rejected` with every fault.
+    """Return the groups about this problem, each as the problem with what it pins; raise `Rejected` with every error.
 
-    Groups of other problems are read when those are derived: their faults are not faults of this one.
+    Groups of other problems are read when those problems are derived: their errors do not belong to this one.
     """
     faults = Faults()
     own = [_own_group(problem, faults)] if problem.reference else []
@@ -139,7 +139,7 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
 
 
 def _own_group(problem: Problem, faults: Faults) -> tuple[Problem, list[Entry]]:
-    """What the problem's own file says that a source states, of what that file gives."""
+    """Return what a source states in the problem's own file, pinned to what that file gives."""
     node = mapping_in(problem.root, problem.path, "a problem").get("reference")
     assert isinstance(node, Mapping)
     group = read_record(OwnKeys, node, "`reference`", faults)
@@ -161,7 +161,7 @@ def _group(
         check_keys(node, keys_of(GroupKeys), "a group", faults)
     elif f"{problem.set_id}/{name}" not in ids:
         help_line = did_you_mean(name, (i.partition("/")[2] for i in ids if i.startswith(f"{problem.set_id}/")))
-        faults.error("no-such-problem", f"there is no problem `{name}` in this set", name.place, help=help_line)
+        faults.error("no-such-problem", f"no problem of this set is called `{name}`", name.place, help=help_line)
     elif f"{problem.set_id}/{name}" == problem.id:
         group = read_record(GroupKeys, node, "a group", faults)
         # Its parts and its words do not matter here.
@@ -175,8 +175,8 @@ def _group(
 def _entries(
     group: GroupKeys | OwnKeys, pinned: Problem, document: str, faults: Faults, has_lines: bool = True
 ) -> list[Entry]:
-    # No more is assumed of a letter than that it is real, for a component that steps bring in may be negative; what
-    # the derivation knows of it comes back when the two are compared.
+    # A letter is assumed only to be real, because a component that steps introduce may be negative. What the derivation
+    # knows about it comes back when the two are compared.
     known_to_all = {TIME.name: Declared(TIME.name, TIME, "time"), **pinned.symbols}
     letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in known_to_all.items()}
     numbers = {measured.symbol.name for measured in pinned.measured}
@@ -184,24 +184,24 @@ def _entries(
     reader = _EntryReader(letters, printed, numbers, faults)
     for written in group.entries:
         if document and has_lines and written.line is None and (written.erratum or written.remark):
-            faults.error("missing-key", f"this needs `line`: where `{document}` has it", written.places[""])
+            faults.error("missing-key", f"errata and remarks need `line`: a line of `{document}`", written.places[""])
     return [replace(entry, document=document) for written in group.entries if (entry := reader.entry(written))]
 
 
 def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
-    """The letters that the document has for ours: `I_1: I_xx`."""
+    """Return the letters that the document uses for ours: `I_1: I_xx`."""
     found: dict[str, Declared] = {}
     for name, value in written.items():
         ours = value.text if isinstance(value, Scalar) else ""
         if not _LETTER.fullmatch(name):
             faults.error("letter", f"`{name}` is not a letter or a name such as `omega_1`", name.place)
         elif (twice := next((other for other, known in found.items() if known is letters.get(ours)), None)) is not None:
-            message = f"`{twice}` and `{name}` both stand for `{ours}`, so that one could be taken for the other"
+            message = f"`{twice}` and `{name}` both stand for `{ours}`, so one could be taken for the other"
             faults.error("letter-clash", message, value.place)
         elif ours in letters:
             found[str(name)] = letters[ours]
         elif not ours:
-            wrong_type(faults, f"`{name}`", "one of our letters", value)
+            wrong_type(faults, f"`{name}`", "a letter of the problem", value)
         else:
             help_line = did_you_mean(ours, letters) or "declare it under `symbols:`"
             faults.error("undeclared-symbol", f"`{ours}` is not declared", value.place, help=help_line)
@@ -209,13 +209,13 @@ def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared],
 
 
 def is_quoted_only(written: EntryKeys) -> bool:
-    """Whether it quotes a slip without stating a value, so that there is nothing to compare."""
+    """Return whether an entry quotes a slip without stating a value, so that there is nothing to compare."""
     states = (written.answer, written.latex, written.states, written.remark)
     return written.erratum is not None and written.quote is not None and all(each is None for each in states)
 
 
 class _EntryReader:
-    """Reads the entries of one group: `letters` are ours, `printed` those that the document's formulas may use."""
+    """Reads the entries of one group: `letters` are ours, `printed` are those that the document's formulas may use."""
 
     def __init__(self, letters: Table[str, Declared], printed: Table[str, Declared], numbers: set[str], faults: Faults):
         self.letters = letters
@@ -252,11 +252,11 @@ class _EntryReader:
         return replace(entry, line=written.line, quote=quote, instead=instead, remark=remark)
 
     def slip(self, written: EntryKeys) -> Entry | None:
-        """An erratum that is quoted and put right, but is no value of a step: a formula that is garbled as printed."""
+        """Read an erratum that is quoted and corrected, but is not a value of a step: a formula garbled in print."""
         assert written.erratum is not None
         right, place = written.erratum.right, written.places["quote"]
         instead = right.text if isinstance(right, Scalar) else ""
-        if right is not None and (why := unquotable(instead) if instead else "it is no text") is not None:
+        if right is not None and (why := unquotable(instead) if instead else "it is not text") is not None:
             self.faults.error("quotation", f"`right`: {why}", right.place)
             return None
         quote, told = str(written.quote), written.erratum.why or ""
@@ -265,7 +265,7 @@ class _EntryReader:
         )
 
     def quotes(self, entry: EntryKeys) -> tuple[str, str]:
-        """What the document prints and what it should, in its own letters, where it was transcribed as it stands."""
+        """Return what the document prints and what it should print, in its own letters, if transcribed unchanged."""
         should = entry.erratum.right if entry.erratum else None
         told = [entry.latex, should if entry.latex is not None else None]
         printed, right = (f"${' '.join(x.text.split())}$" if isinstance(x, Scalar) else "" for x in told)
@@ -275,7 +275,7 @@ class _EntryReader:
             if (why := unquotable(text)) is not None:
                 self.faults.error("quotation", f"this cannot be quoted: {why}", entry.places[""])
                 return "", ""
-        unit = f" {entry.unit}" if entry.unit and right else ""  # which the transcribed number has beside it
+        unit = f" {entry.unit}" if entry.unit and right else ""  # the transcribed number is followed by its unit
         return str(entry.quote or printed), f"{right}{unit}"
 
     def factor(self, entry: EntryKeys) -> Statement | None:
@@ -288,12 +288,12 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...]) -> Statement | None:
-        """What the entry states, in the one notation or the other; a slip of the document need not be homogeneous."""
+        """Read what the entry states, in either notation; a statement that is an erratum need not be homogeneous."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         if plain is not None and printed is not None:
             self.faults.error("two-values", "an entry has `states` or `latex`, not both", entry.places["latex"])
         elif plain is None and printed is None and entry.remark is None:
-            if entry.values_at.keys() <= keys.keys() - {"states", "latex"}:  # a fault of a key is not told twice
+            if entry.values_at.keys() <= keys.keys() - {"states", "latex"}:  # an error of a key is not reported twice
                 message = f"an entry needs `states` or `latex`: {keys['states'].meaning}"
                 self.faults.error("missing-key", message, entry.places[""])
         elif printed is not None:
@@ -322,7 +322,7 @@ class _EntryReader:
         return written.why or "", self.one(written.right, "`right`", entry.latex is not None, not put_in)
 
     def put_in(self, node: Tree | None) -> tuple[str, ...]:
-        """The letters whose numbers the document has put in; each must have a number of its own."""
+        """Return the letters whose numbers the document has substituted; each must have a number of its own."""
         names = []
         for item in _items(node) if node is not None else ():
             name = item.text.strip() if isinstance(item, Scalar) else ""
@@ -330,8 +330,8 @@ class _EntryReader:
             if not name:
                 wrong_type(self.faults, "`with`", "letters that have numbers", item)
             elif known is None or known.symbol.name not in self.numbers:
-                help_line = "numbers stand under `values:` or `given:`"
-                self.faults.error("no-number", f"`{name}` has no number to be put in", item.place, help=help_line)
+                help_line = "give its number under `values:` or `given:`"
+                self.faults.error("no-number", f"`{name}` has no number to substitute", item.place, help=help_line)
             else:
                 names.append(known.symbol.name)
         return tuple(names)
@@ -385,5 +385,5 @@ def _figures(node: Tree | None, states: Statement | None, faults: Faults) -> tup
 
 
 def _values(value: Stated) -> tuple[tuple[Expr, Dimension], ...]:
-    """What a list of figures counts: the entries of a vector or tensor, the branches of a scalar."""
+    """Return what a list of figures counts: the entries of a vector or tensor, the branches of a scalar."""
     return value.entries if value.shape else tuple(entries[0] for entries in value.branches)

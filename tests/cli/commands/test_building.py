@@ -45,7 +45,7 @@ def test_an_up_to_date_build_imports_no_sympy(course: Course) -> None:
 
 def test_an_unknown_set_is_exit_code_2(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["build", "hw2"]) == 2
-    assert capfd.readouterr().err == "error[no-such-set]: there is no set `hw2`\n   = help: did you mean `hw1`?\n"
+    assert capfd.readouterr().err == "error[no-such-set]: no set is called `hw2`\n   = help: did you mean `hw1`?\n"
 
 
 @pytest.mark.parametrize(

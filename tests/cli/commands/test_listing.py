@@ -35,7 +35,7 @@ def test_a_problem_that_ends_its_reader_costs_the_list_nothing_else(
     assert [line.split(maxsplit=1)[1] for line in lines] == [
         "3  A block",
         "3  A cone",
-        "(does not read: `hw1/two` ended without a word: signal 9)",
+        "(does not read: `hw1/two` ended without a message: signal 9)",
     ]
 
 
@@ -63,7 +63,7 @@ def test_a_list_may_be_of_one_set(course: Course, capfd: pytest.CaptureFixture[s
     assert main(["list", "problems/hw2/"]) == 0
     assert [line.split()[0] for line in capfd.readouterr().out.splitlines()] == ["problem", "hw2/two"]
     assert main(["list", "hw3"]) == 2
-    assert "there is no set `hw3`" in capfd.readouterr().err
+    assert "no set is called `hw3`" in capfd.readouterr().err
 
 
 def test_a_list_loads_no_mathematics_for_titles_that_have_none(tmp_path: Path) -> None:

@@ -36,7 +36,7 @@ def test_what_stands_in_brackets_is_one_value(text: str, meant: object) -> None:
         (r"\{a,b\}", "a vector has 3 components, but this has 2"),
         (r"(\{a,b,h\},b,h)", "a component must be a scalar, but this is a column of 3"),
         (r"\left.a\right|", "limits are missing after this bar"),
-        (r"\begin{pmatrix} a & b \\ h \end{pmatrix}", "rows of 2, 1 entries make no matrix"),
+        (r"\begin{pmatrix} a & b \\ h \end{pmatrix}", "rows of 2, 1 entries do not make a matrix"),
         (r"\begin{pmatrix} a & \\ b & h \end{pmatrix}", "an entry of this matrix is empty"),
         (r"\left[z+a\right]_0", "the limit after `^` is missing"),
     ],

@@ -35,9 +35,9 @@ def test_an_integral_is_what_it_would_be_on_paper(text: str, meant: object) -> N
         (r"\int_0^h z^2", r"\int_0^h", "this integral has no differential"),
         (r"\int_{x=0}^h dz", "z", "the limits are those of `x`, not of `z`"),
         (r"\int_0^h dz \int_0^a dz", "z", "`z` is already the variable of another integral here"),
-        (r"\int_0^h \int_0^z dz\, dx", "z", "the limit `z` has a variable that is integrated inside"),
+        (r"\int_0^h \int_0^z dz\, dx", "z", "the limit `z` contains a variable of this integral or of one inside it"),
         (r"\int^h z dz", r"\int", "the limit after `_` is missing"),
-        (r"\int_0^h \frac{1}{z}\, dz", r"\frac{1}{z}", "this is more than powers, sines and cosines of `z`"),
+        (r"\int_0^h \frac{1}{z}\, dz", r"\frac{1}{z}", "only powers, sines and cosines of `z` can be integrated"),
     ],
 )
 def test_an_integral_that_cannot_be_meant_is_told_at_its_place(text: str, under_the_caret: str, message: str) -> None:

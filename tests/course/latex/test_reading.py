@@ -24,7 +24,7 @@ def test_a_row_that_begins_with_a_mark_goes_on_with_the_row_before() -> None:
 
 
 def test_both_branches_are_of_one_shape() -> None:
-    assert complaint(r"a \text{ or } \{a,b,h\}").message == "the two branches are not of one shape"
+    assert complaint(r"a \text{ or } \{a,b,h\}").message == "the two branches have different shapes"
     plus, minus = read(r"a \pm b").sides[0].branches
     assert (plus[0][0], minus[0][0]) == (a + b, a - b)
 

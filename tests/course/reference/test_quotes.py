@@ -50,7 +50,7 @@ def test_where_the_document_is_named_errata_and_remarks_have_their_lines(compare
     entry = "    - {remark: odd, quote: 'cube'}\n"
     with pytest.raises(Rejected) as refused:
         compared(whole=NAMED + HEAD + entry)
-    assert refused.value.complaints[0].message == "this needs `line`: where `hw9.md` has it"
+    assert refused.value.complaints[0].message == "errata and remarks need `line`: a line of `hw9.md`"
     found = one(compared(whole=NAMED + HEAD + entry.replace("remark", "line: 3, remark")))
     assert found.facts()["document"] == "hw9.md"
 
@@ -62,7 +62,7 @@ def test_where_the_document_is_named_errata_and_remarks_have_their_lines(compare
         ("line: x, remark: odd, quote: cube", "`line` must be the number of a line, from 1 to 99999, but it is `x`"),
         (r"remark: odd, quote: '$\input{x}$'", r"`quote`: `\input` cannot be quoted"),
         (r"quote: x, erratum: {why: bad, right: '$\input{x}$'}", r"`right`: `\input` cannot be quoted"),
-        ("quote: x, erratum: {why: bad, right: [1, 2, 3]}", "`right`: it is no text"),
+        ("quote: x, erratum: {why: bad, right: [1, 2, 3]}", "`right`: it is not text"),
         ("states: M*a**2", "an entry needs `answer`: the key of the step that has this value"),
         ("answer: kinetic_energy", "an entry needs `states` or `latex`: the value"),
     ],

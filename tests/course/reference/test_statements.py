@@ -22,7 +22,7 @@ def test_two_letters_of_the_document_are_not_one_of_ours(compared: Compared) -> 
         compared(whole=PRINTED.replace("I_2: I_yy", "I_2: I_xx") + "    - {answer: cosine, latex: '1'}\n")
     (complaint,) = refused.value.complaints
     assert complaint.code == "letter-clash"
-    assert complaint.message == "`I_1` and `I_2` both stand for `I_xx`, so that one could be taken for the other"
+    assert complaint.message == "`I_1` and `I_2` both stand for `I_xx`, so one could be taken for the other"
 
 
 @pytest.mark.parametrize("name", BAD)
@@ -87,7 +87,7 @@ def test_only_a_letter_with_a_number_has_it_put_in(tmp_path: Path) -> None:
     head = HEAD.replace("  entries:\n", "  values: {a: 10 cm}\n  entries:\n")
     (entry,) = stated(tmp_path, "answer: x, states: M, with: [a]", head=head)
     assert entry.put_in == ("a",)
-    with pytest.raises(Rejected, match="`M` has no number to be put in"):
+    with pytest.raises(Rejected, match="`M` has no number to substitute"):
         stated(tmp_path / "odd", "answer: x, states: M, with: M", head=head)
 
 
