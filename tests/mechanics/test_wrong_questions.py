@@ -154,7 +154,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: components(point(l, b), names=("x", "y", "z")),
         "needs 2 names, not 3",
     ),
-    "a way in space that is turned in a plane": (lambda: point(l, b, a).turned(k), "turns a way in a plane"),
+    "a way in space that is turned in a plane": (lambda: point(l, b, a).turned(k), "rotates a displacement in a plane"),
     "a border that is none": (
         lambda: leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a)),
         "not its border",
