@@ -146,7 +146,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "the moment of another mass": (
         lambda: slab(mass=m, inertia=moment_of_inertia(Cylinder(R, h, M))),
-        "the moment of a mass M, not of m",
+        "the moment of the mass M, not of m",
     ),
     "a mass that changes": (lambda: slab(mass=M + m * TIME), "depends on the time t"),
     "rolling on a cylinder that grows": (lambda: slab(R + l * TIME), "the body cannot roll there"),
