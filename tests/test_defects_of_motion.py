@@ -194,7 +194,7 @@ REFUSED: dict[str, list[tuple[str, int, str]]] = {
     "approx_becomes_exact_numbers": [("name-clash", 14, "`period` is already the name of an answer")],
     "con_put_dot": [("letter-clash", 11, "`m` is already a symbol of this problem")],
     "doubleCover": [("folded", 5, "covers places twice")],
-    "f02_friction_reaction_missing": [("which-body", 11, "not stated which body exerts it")],
+    "f02_friction_reaction_missing": [("which-body", 11, "the body that exerts it is not stated")],
     "f03_friction_no_torque": [("which-body", 9, "the force at (x, 0) acts on no particle")],
     "f06_hole_outside": [("no-such-body", 6, "some of it lies outside of the body")],
     "fr_rest": [("friction-at-rest", 14, "sliding friction does not act at rest")],
@@ -213,7 +213,7 @@ REFUSED: dict[str, list[tuple[str, int, str]]] = {
     "shadow": [("letter-clash", 9, "`p_x` is already a symbol of this problem")],
     "singular_q": [("singular-coordinates", 11, "the mass matrix has no inverse there")],
     "sph_lin": [("singular-coordinates", 12, "the mass matrix has no inverse there")],
-    "sq_constraint": [("constrained", 8, "so no force can keep it at zero")],
+    "sq_constraint": [("constrained", 8, "so no force can keep it")],
 }
 
 # By the problem: how its author answers the complaint, and what its answers then are, by hand.

@@ -30,8 +30,8 @@ _BEGINNING = """\
 
 Made by `tools/gallery.py`; do not edit it. Each picture is the beginning of a page that a build has written for a
 browser. The YAML below it is the whole problem. All problems of `problems/library` are in YAML alone. `make library`
-builds its 79 problems, `derive list` lists them, and `derive new hw10/mine --like library/torus` begins a problem of your
-own with a copy of one.
+builds its 79 problems, `derive list` lists them, and `derive new hw10/mine --like library/torus` begins a problem of
+your own with a copy of one.
 """
 
 

@@ -82,7 +82,7 @@ def test_a_component_of_a_force_of_constraint_is_refused_where_it_is_none() -> N
             constraint_force(forces, {X: 1})
         with pytest.raises(Rejected, match="lambda_v does work in this displacement too"):
             constraint_force(forces[:1], {V: 1})
-        with pytest.raises(Rejected, match="the forces of one system"):
+        with pytest.raises(Rejected, match="forces of the same system"):
             constraint_force([], {V: 1})
         with pytest.raises(Rejected, match="is not the force of a constraint"):
             constraint_force([motion(l * sin(q), -l * cos(q), THETA)], {V: 1})

@@ -133,14 +133,14 @@ def test_a_volume_of_the_wrong_sense_is_refused(monkeypatch: pytest.MonkeyPatch)
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Sheet((x, y), {x: (a, 0), y: (0, b)}, mass=M), "leaves nothing between"),
-        (lambda: Sheet((x, y), {x: (0, a), y: (b, b)}, mass=M), "leaves nothing between"),
-        (lambda: Sheet((x, y), {x: (0, y), y: (0, b)}, mass=M), "not further out"),
+        (lambda: Sheet((x, y), {x: (a, 0), y: (0, b)}, mass=M), "which is an empty interval"),
+        (lambda: Sheet((x, y), {x: (0, a), y: (b, b)}, mass=M), "which is an empty interval"),
+        (lambda: Sheet((x, y), {x: (0, y), y: (0, b)}, mass=M), "is not an outer variable"),
         (lambda: Sheet((x, x), {x: (0, a), y: (0, b)}, mass=M), "does not depend on all of its variables"),
         (lambda: Solid((x, y), {x: (0, a), y: (0, b)}, mass=M), "needs three variables"),
         (lambda: Sheet((x, y), {x: (0, a), y: (0, b)}), "needs a mass or a density"),
         (lambda: Sheet((r * cos(phi), r * sin(phi)), {r: (-R, R), phi: (0, pi)}, mass=M), "covers some places twice"),
-        (lambda: Wire((x, exp(x / a) * a), {x: (0, a)}, mass=M).extent, "no antiderivative that is known here"),
+        (lambda: Wire((x, exp(x / a) * a), {x: (0, a)}, mass=M).extent, "an integral without a known antiderivative"),
         (lambda: Sheet((x, y), {x: (1 - a, a - 1), y: (a - 1, 1 - a)}, mass=M), "not in order"),
     ],
 )

@@ -102,5 +102,5 @@ def test_three_different_moments_are_refused() -> None:
 
 
 def test_a_letter_that_decides_nothing_is_refused() -> None:
-    with pytest.raises(Rejected, match="cannot be told from M alone"):
+    with pytest.raises(Rejected, match="does not have exactly one positive root for M"):
         isotropic_where(moments_of(Cone(R, h, M)), M)

@@ -167,13 +167,13 @@ def test_a_wrong_size_is_refused() -> None:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Annulus(2 * a, a, M), "has nothing between them"),
-        (lambda: ThickShell(a, a, M), "has nothing between them"),
-        (lambda: Torus(a, 2 * a, M), "has nothing between them"),
-        (lambda: Arc(R, 2 * pi, M), "is not a piece of a circle"),
+        (lambda: Annulus(2 * a, a, M), "has no volume or area"),
+        (lambda: ThickShell(a, a, M), "has no volume or area"),
+        (lambda: Torus(a, 2 * a, M), "has no volume or area"),
+        (lambda: Arc(R, 2 * pi, M), "is not a part of a circle"),
         (lambda: Triangle(((ZERO, ZERO), (a, a), (2 * a, 2 * a)), M), "on one line"),
         (lambda: Tetrahedron(((0, 0, 0), (a, 0, 0), (0, b, 0), (a, b, 0)), M), "not in one plane"),
-        (lambda: inertia_tensor(Triangle(((ZERO, ZERO), (a, b), (c, 2 * b)), M)), "leave open whether"),
+        (lambda: inertia_tensor(Triangle(((ZERO, ZERO), (a, b), (c, 2 * b)), M)), "do not determine whether"),
         (lambda: inertia_tensor(HalfDisc(R, M), "rim"), 'has no point "rim"'),
     ],
 )

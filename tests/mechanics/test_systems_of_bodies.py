@@ -180,12 +180,12 @@ def test_a_ball_rolls_on_a_plane_with_two_conditions() -> None:
     turning = theta.rate * sin(phi) - psi.rate * sin(theta) * cos(phi)
     assert equal(first.value, Relation(x.rate, "=", R * turning))
     assert equal(second.value, Relation(y.rate, "=", -R * (theta.rate * cos(phi) + psi.rate * sin(theta) * sin(phi))))
-    with pytest.raises(Rejected, match="does not give a coordinate by others"):
+    with pytest.raises(Rejected, match="does not express a coordinate by others"):
         System(ball, first)
 
 
 def test_a_slab_rocks_on_a_cylinder() -> None:
-    """The slab of problems/hw9 by the general model: its place is that of axes that turn."""
+    """The slab of problems/hw9 by the general model: its place is that of rotating axes."""
     q = coordinate("theta")
     centre = point((R + a / 2) * sin(q) - R * q * cos(q), (R + a / 2) * cos(q) + R * q * sin(q))
     slab = RigidBody(M, I_0).placed(-q, centre=centre)
@@ -281,25 +281,31 @@ def held_rod(**more: Any) -> Any:
     ("wrong", "said"),
     [
         (lambda: System(Rod(l, m)), "not of Rod"),
-        (lambda: Rod(l, m).placed(coordinate("theta"), (1, 2)), "a place that `point` or `place` gives"),
-        (lambda: Rod(l, m).placed(coordinate("theta"), point(0, 0, 0)), "one turned by an angle a place in the plane"),
-        (lambda: Rod(l, m).held("up", at="end"), "as axes are, or by an angle"),
+        (lambda: Rod(l, m).placed(coordinate("theta"), (1, 2)), "a value of `point` or `place`"),
+        (
+            lambda: Rod(l, m).placed(coordinate("theta"), point(0, 0, 0)),
+            "a body turned by an angle needs a place in the plane",
+        ),
+        (lambda: Rod(l, m).held("up", at="end"), "by axes, or by an angle"),
         (lambda: Rod(l, m).held(coordinate("theta"), at="corner"), "has no point"),
         (lambda: Rod(l, m).held(coordinate("theta"), at=(1, 2)), "three components along its axes"),
-        (lambda: held_rod(across="w"), "no axis of a body is called"),
-        (lambda: Cuboid((a, l, h), m).placed(coordinate("theta"), point(0, 0)), "is not clear"),
-        (lambda: Cylinder(a, h, m).placed(coordinate("theta"), point(0, 0)), "is not clear"),
+        (lambda: held_rod(across="w"), "a body has no axis"),
+        (lambda: Cuboid((a, l, h), m).placed(coordinate("theta"), point(0, 0)), "turns in the plane is ambiguous"),
+        (lambda: Cylinder(a, h, m).placed(coordinate("theta"), point(0, 0)), "turns in the plane is ambiguous"),
         (lambda: RigidBody(m, I_0).held(space.turned(Z, coordinate("phi")), at="centre"), "only move in a plane"),
         (lambda: RigidBody(m, (A, A, C)).held(coordinate("phi"), at="edge", across="z"), "has no point"),
         (lambda: RigidBody(m, (A, C)), "needs three moments"),
         (lambda: RigidBody(m, (A, A, C), about="corner"), "are about"),
         (lambda: System(RigidBody(moments=(A, A, C)).placed(coordinate("p"), point(0, 0), across="z")), "the mass of"),
         (lambda: System(held_rod(), name="No. 1"), "not a name for a system"),
-        (lambda: angular_velocity(space), "axes that turn"),
-        (lambda: angular_velocity(space.turned(Z, coordinate("a")), space.turned(X, alpha)), "components along axes"),
+        (lambda: angular_velocity(space), "rotating axes"),
+        (
+            lambda: angular_velocity(space.turned(Z, coordinate("a")), space.turned(X, alpha)),
+            "an intermediate stage of these axes",
+        ),
         (lambda: no_slip(Rod(l, m), at=point(0, 0)), "needs a `PlacedBody`"),
-        (lambda: no_slip(held_rod(), at=point(0, 0)), "at rest in any case"),
-        (lambda: no_slip(held_rod(), at=point(0, 0, 0)), "as many components"),
+        (lambda: no_slip(held_rod(), at=point(0, 0)), "always at rest"),
+        (lambda: no_slip(held_rod(), at=point(0, 0, 0)), "in the plane or space of the body"),
     ],
 )
 def test_what_cannot_be_is_refused(wrong: Callable[[], Any], said: str) -> None:
@@ -310,9 +316,9 @@ def test_what_cannot_be_is_refused(wrong: Callable[[], Any], said: str) -> None:
 def test_moments_about_the_pivot_do_not_serve_a_body_that_moves_freely() -> None:
     q = coordinate("theta")
     body = RigidBody(M, (A, A, C), centre=(0, 0, l))
-    with pytest.raises(Rejected, match="are about its pivot, but it moves freely"):
+    with pytest.raises(Rejected, match="are about its pivot, but the body moves freely"):
         kinetic_energy_of(System(body.placed(q, centre=point(q, 0), across="z")))
-    with pytest.raises(Rejected, match="are about its pivot, but it is held at its centre"):
+    with pytest.raises(Rejected, match="are about its pivot, but the body is held at its centre"):
         kinetic_energy_of(System(body.held(space.turned(X, q), at="centre")))
 
 

@@ -266,7 +266,7 @@ def two() -> System:
     [
         (lambda: force((1, 2, 3), point(0, 0)), "needs 2 components"),
         (lambda: force((1, 2), "here"), "acts at a place|needs a `Location`"),
-        (lambda: couple(tau, alpha), "does not move"),
+        (lambda: couple(tau, alpha), "is constant"),
         (lambda: damping(c * t, point(*lengths("x", "y"))), "needs a constant constant"),
         (lambda: damping(c, alpha), "against the rate of a coordinate"),
         (lambda: potential(k * l), "needs an energy of coordinates"),
@@ -279,11 +279,11 @@ def two() -> System:
         (lambda: System(Particle(m, point(*lengths("x", "y"))), couple(tau, coordinate("phi"))), "depends on phi"),
         (
             lambda: System(Particle(m, point(*(p := lengths("x", "y")))), constraint(p[0]), constraint(p[1])),
-            "one letter",
+            "the same symbol",
         ),
         (lambda: accelerations(equations_of_motion(lagrangian(two()))[0]), "that of y is missing"),
         (lambda: multipliers(*falling()), "but this system has none"),
-        (lambda: constraint_rate(lagrangian(two()), 3), "the number of a constraint"),
+        (lambda: constraint_rate(lagrangian(two()), 3), "the index of a constraint"),
         (lambda: dissipation_function(System(Particle(m, point(*lengths("x", "y"))))), "a system with `damping`"),
     ],
 )

@@ -146,7 +146,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "the moment of another mass": (
         lambda: slab(mass=m, inertia=moment_of_inertia(Cylinder(R, h, M))),
-        "the moment of a mass M, not of m",
+        "the moment of the mass M, not of m",
     ),
     "a mass that changes": (lambda: slab(mass=M + m * TIME), "depends on the time t"),
     "rolling on a cylinder that grows": (lambda: slab(R + l * TIME), "the body cannot roll there"),
@@ -154,7 +154,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: components(point(l, b), names=("x", "y", "z")),
         "needs 2 names, not 3",
     ),
-    "a way in space that is turned in a plane": (lambda: point(l, b, a).turned(k), "turns a way in a plane"),
+    "a way in space that is turned in a plane": (lambda: point(l, b, a).turned(k), "rotates a displacement in a plane"),
     "a border that is none": (
         lambda: leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a)),
         "not its border",

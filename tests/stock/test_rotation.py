@@ -154,7 +154,10 @@ def test_the_body_is_drawn_with_its_axis(tmp_path: Path) -> None:
         (("  rate: omega\n", ""), "6: a rotation along an axis needs its `rate`"),
         ((BLOCK_IS, f"{BLOCK_IS}\n  moments: [A, B, C]"), "5: `moments` and `body` are both given"),
         ((BLOCK_IS, "moments: [A, B]"), "5: `moments` must be three moments of inertia, `[A, B, C]`, but it is a list"),
-        ((BLOCK_IS, "moments: [A, A, 3*A]"), "5: no body has such moments: that about z is more than the other two"),
+        (
+            (BLOCK_IS, "moments: [A, A, 3*A]"),
+            "5: no body has such moments: the one about z is greater than the sum of the other two",
+        ),
         ((BLOCK_IS, "moments: [A, B, C]"), "5: a body specified by its moments has no diagonal"),
         ((f"  {BLOCK_IS}\n", ""), "5: `given` needs `body` or `moments`"),
         (("along: diagonal", "about: edge"), "7: a cuboid has no point `edge`"),

@@ -1,7 +1,7 @@
 """Bodies: a region filled with mass, its density, its centre of mass, its named points and directions.
 
-Every body has axes of its own; lengths in the unit of its sizes. What has edges has its axes along them, where they are
-at right angles, and the origin at a corner; a body that is round has its axis of symmetry along z.
+Every body has body axes, and lengths are in the unit of its sizes. A body with perpendicular edges has its axes along
+them and the origin at a corner; a round body has its axis of symmetry along z.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ __all__ = ["centre_of_mass", "density"]
 ZERO = Integer(0)
 ORIGIN = column(0, 0, 0)
 
-# what is filled with mass -> letter and kind of the density
+# where the mass is -> symbol and kind of the density
 _DENSITIES = {
     "volume": ("rho", "density"),
     "area": ("sigma", "surface density"),
@@ -51,29 +51,29 @@ _DENSITIES = {
 
 
 class Body(Placeable, OfParticles):
-    """What all uniform bodies share.
+    """The common base of all uniform bodies.
 
-    A kind of body says which points it has, over which region one integrates, how large it is, and which few
-    particles have its mass, its centre of mass and its second moments.
+    A subclass says which points it has, the region of integration, its size, and a few particles that have its mass,
+    its centre of mass and its second moments.
     """
 
     mass: Expr
     name: ClassVar[str] = "a body"
-    seen_as: ClassVar[str] = ""  # what the words for a drawing call it, where that is not its name
+    seen_as: ClassVar[str] = ""  # its name in the words for a drawing, if different from its name
     filling: ClassVar[str] = "volume"
-    reference: ClassVar[str] = "centre"  # the point where its own axes begin
-    other_centre: ClassVar[str] = ""  # the point that one may call its centre too, where that is not its centre of mass
-    called: str = ""  # what the page calls it where there are others, "upper rod"
-    names_given: tuple[str, ...] = ()  # by somebody to points of it, so that they do not say where these are
-    is_lopsided: ClassVar[bool] = False  # not its own image about its centre, although its particles are
-    is_round: ClassVar[bool] = False  # every axis perpendicular to z, through one of its points, is like every other
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which its limits are known
+    reference: ClassVar[str] = "centre"  # the point at the origin of its body axes
+    other_centre: ClassVar[str] = ""  # another point called "centre", if that is not its centre of mass
+    called: str = ""  # its name on the page when there are several bodies, "upper rod"
+    names_given: tuple[str, ...] = ()  # names of points from the author: these do not define where the points are
+    is_lopsided: ClassVar[bool] = False  # not symmetric under inversion through its centre, although its particles are
+    is_round: ClassVar[bool] = False  # all axes perpendicular to z through one of its points are equivalent
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinate systems in which its limits are known
 
     def __post_init__(self) -> None:
         self.check_sizes()
 
     def check_sizes(self) -> None:
-        """Refuse a mass or a size that is not positive."""
+        """Reject a mass or a size that is not positive."""
         require_positive(self.name, "mass", self.mass)
         for role, size in self.measures.items():
             for each in size if isinstance(size, tuple) else (size,):
@@ -81,9 +81,9 @@ class Body(Placeable, OfParticles):
                     require_positive(self.name, role.replace("_", " "), each)
 
     def named(self, called: str) -> Self:
-        """The same body under a name of its own, for a page that has another: its steps, letters and words have it too.
+        """The same body with a name, for a page with several bodies: its steps, symbols and words include the name.
 
-        called   "upper rod": keys begin with `upper_rod_`, letters have the index `upper`
+        called   "upper rod": keys begin with `upper_rod_`, symbols have the index `upper`
         """
         twin = copy(self)
         for known in [name for name in vars(twin) if isinstance(getattr(type(self), name, None), cached_property)]:
@@ -92,61 +92,61 @@ class Body(Placeable, OfParticles):
         return twin
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """It as a part of another body, with one of its points at a place, (x, y), (x, y, z) or what `point` gives."""
+        """This body as a part of another, with one of its points at a place: (x, y), (x, y, z) or a `point`."""
         return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """It as a part of another body, turned right-handed by an angle about "x", "y" or "z", through its centre."""
+        """This body as a part of another, rotated right-handed by an angle about "x", "y" or "z" through its centre."""
         return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
     def map(self) -> Map:
-        """The position in its own axes, and the limits of its variables, outermost first."""
+        """The position along its body axes, and the limits of its variables, outermost first."""
         raise AttributeError(f"{type(self).__name__} must say where its points are")
 
     @property
     def profile(self) -> Expr:
-        """Its density but for a constant, as a function of the variables."""
+        """Its density up to a constant factor, as a function of the variables."""
         return Integer(1)
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
-        """What it fills, seen from a point; coordinates are its first system unless they are named."""
+        """The region that it fills, relative to a point; coordinates are its first system by default."""
         position, limits = self.map()
         sizes = (each if isinstance(each, tuple) else (each,) for each in self.measures.values())
         return from_point(point, position, limits, cell(position, limits, tuple(size for own in sizes for size in own)))
 
     def points(self) -> Mapping[str, Point]:
-        """The points that it has by name, apart from its centre of mass."""
+        """Its named points, except its centre of mass."""
         return {self.reference: Point(self.reference, ORIGIN)}
 
     @property
     def flat_across(self) -> str | None:
-        """The axis along which it does not reach, if there is one; "x" of what is all on one of the others."""
+        """The axis along which it has no extent, if there is one; "x" for a body that lies on another axis."""
         return next((axis for axis, x in zip("xyz", self.map()[0], strict=True) if x == 0), None)
 
     @property
     def extent(self) -> Expr | Quantity:
-        """Its volume (area, length) as it is known; a body for which it must be derived gives the step."""
+        """Its volume (area, length); a step if this must be derived."""
         raise AttributeError(f"{type(self).__name__} must say how large it is")
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """The lengths that say how large it is, by what one calls them; several of one sort as a tuple."""
+        """The lengths that define its size, by their names; several of one sort as a tuple."""
         own: Any = self
         return {each.name: getattr(self, each.name) for each in fields(own) if each.name != "mass"}
 
     @property
     def letters(self) -> set[Symbol]:
-        """Those of its sizes, so that no variable looks like them."""
+        """The symbols in its sizes, which no variable may resemble."""
         own: Any = self
         return _letters_of([getattr(own, each.name) for each in fields(own) if each.name != "mass"])
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
-        """The step that says what a radius in the limits of a region stands for, where there is one."""
+        """The step for the radius in the limits of a region, if there is one."""
         return []
 
     @cached_property
     def middle(self) -> Point:
-        """Its centre of mass, as its particles have it."""
+        """Its centre of mass, from its particles."""
         total = summed(self.particles(), lambda r: r)
         return Point("centre", ImmutableDenseMatrix((total / self.mass).applyfunc(lambda x: x.cancel())))
 
@@ -163,11 +163,11 @@ class Body(Placeable, OfParticles):
 
     @cached_property
     def _points_seen(self) -> set[str]:
-        """The points that were found to be where their names say."""
+        """The points already checked to be where their names say."""
         return set()
 
     def within(self, point: Point, coordinates: str | None = None) -> Region:
-        """What it fills, in coordinates that it has."""
+        """The region that it fills, in coordinates in which its limits are known."""
         if coordinates is not None and coordinates not in self.systems:
             raise no_such_coordinates(self.name, coordinates, self.systems)
         return self.region(point, coordinates)
@@ -182,12 +182,12 @@ class Body(Placeable, OfParticles):
 
     @property
     def mass_as_found(self) -> Quantity | Expr:
-        """The step that found its mass, or the mass that is given."""
+        """The step that derives its mass, or the given mass."""
         return self.mass
 
     @property
     def front(self) -> Expr:
-        """What stands before the integral of what varies, so that the whole is the density: its letter, once found."""
+        """The constant factor of the density, in front of the integral: the density's symbol, if a step gives it."""
         letter: Expr = self.density.symbol
         return letter
 
@@ -202,7 +202,7 @@ class Body(Placeable, OfParticles):
         return extent.value if isinstance(extent, Quantity) else explicit(extent)
 
     def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
-        """The integral of a function of the position from a point, times dm, carried out."""
+        """The evaluated integral of a function of the position from a point, times dm."""
         region = self.region(point).with_section_put_in()
         values, density = explicit(integrand(region.position)), self.mass / self.size
         if hasattr(values, "applyfunc"):
@@ -210,7 +210,7 @@ class Body(Placeable, OfParticles):
         return density * explicit(region.integral(values))
 
     def direction(self, axis: Direction, symbol: str = "d", key: str = "axis_vector") -> Quantity:
-        """A vector along the axis: a named one, or given components."""
+        """A vector along the axis: a named axis, or given components."""
         named = self.axes_by_name()
         if axis.name is not None and axis.name not in named:
             known = list(named)
@@ -220,15 +220,15 @@ class Body(Placeable, OfParticles):
         return axis_vector(self, along, axis.name or "components", symbol, key)
 
     def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity | None:
-        """Its centre of mass from a point, where it is not found by one integral over a region."""
+        """Its centre of mass from a point, if that does not come from one integral over a region."""
         return None
 
     def derived_tensor(self, point: Point, symbol: str, key: str) -> Quantity | None:
-        """Its inertia tensor about a point, where that is found in a way of its own."""
+        """Its inertia tensor about a point, if the body has a special derivation."""
         return None
 
     def derived_moment(self, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
-        """Its moment of inertia about an axis through a point, where that is found in a way of its own."""
+        """Its moment of inertia about an axis through a point, if the body has a special derivation."""
         return None
 
     def axes_by_name(self) -> Mapping[str, ImmutableMatrix]:
@@ -236,21 +236,21 @@ class Body(Placeable, OfParticles):
 
 
 class RoundBody(Body):
-    """A body that is round about the z axis: its profile is how far it reaches from there, between two ends."""
+    """A body that is round about the z axis: its profile is the radius as a function of z, between two ends."""
 
     is_round: ClassVar[bool] = True
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
-        """Between which z of its own axes it lies."""
+        """The least and the largest z of the body, along its body axes."""
         raise AttributeError(f"{type(self).__name__} must say where it ends")
 
     def radius_at(self, z: Expr) -> Expr:
-        """How far from the axis it reaches at its own z."""
+        """Its radius at z of its body axes."""
         raise AttributeError(f"{type(self).__name__} must say how far it reaches")
 
     def map(self) -> Map:
-        """Over its height, round, and out to its radius; of a thin one at the radius, or on the axis."""
+        """Over its height, the angle, and the radius; for a thin body, r is the radius or zero."""
         low, high = self.ends
         z = low if low == high else (low, high)
         if self.filling == ("area" if z != low else "length"):
@@ -259,14 +259,14 @@ class RoundBody(Body):
 
     @property
     def is_straight(self) -> bool:
-        """Whether its side has no curve along the axis."""
+        """Whether its radius is a linear function of z."""
         z = Symbol("z_along", real=True)
         return bool(self.radius_at(z).diff(z, 2) == 0)
 
 
 @dataclass(frozen=True)
 class OfRadius(Body):
-    """A body told by one radius."""
+    """A body defined by one radius."""
 
     radius: Expr
     mass: Expr
@@ -274,7 +274,7 @@ class OfRadius(Body):
 
 @dataclass(frozen=True)
 class OfHeight(Body):
-    """A body about the z axis told by a radius and a height, from z = 0."""
+    """A body about the z axis, defined by a radius and a height, from z = 0."""
 
     radius: Expr
     height: Expr
@@ -287,9 +287,9 @@ class OfHeight(Body):
 
 @dataclass(frozen=True)
 class Hollow(Body):
-    """A body told by the radii of what it fills and of what is left out.
+    """A body defined by an outer radius and the radius of its cavity.
 
-    Errors: a hole is smaller than what it is in, as far as the sizes show.
+    Errors: the inner radius is not smaller than the outer one, as far as the sizes show.
     """
 
     inner: Expr
@@ -307,8 +307,8 @@ class Hollow(Body):
 
 def require_order(body: str, inner: Expr, outer: Expr) -> None:
     if sign_known(outer - inner) in (0, -1):
-        message = f"{body} of the inner radius {inner} and the outer radius {outer} has nothing between them"
-        raise Rejected(Complaint("sizes", message, help="the inner radius stands first"))
+        message = f"{body} with the inner radius {inner} and the outer radius {outer} has no volume or area"
+        raise Rejected(Complaint("sizes", message, help="give the inner radius first, then the larger outer radius"))
 
 
 def _letters_of(size: Any) -> set[Symbol]:
@@ -329,7 +329,7 @@ AXIS_VECTOR = Rule(
 def axis_vector(
     body: Body | None, along: ImmutableMatrix, name: str, symbol: str = "d", key: str = "axis_vector"
 ) -> Quantity:
-    """A vector d along the axis of rotation, in the axes of the body: a definition.
+    """A vector d along the axis of rotation, by its components along the body axes: a definition.
 
     Outcomes: diagonal (from corner to opposite corner), edge, components.
     Source: none needed.
@@ -365,10 +365,9 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
     """Density of a uniform body, rho = M/V; of a thin one, sigma = M/A or lambda = M/l.
 
     body    mass M; volume V, area A or length l
-    part    what the page calls the body where it is one of several
+    part    the name of the body on the page, if there are several
     Check: the integral of the density over the body gives M back.
-    Outcomes: along_edges (of a cuboid); volume, area, length (what the mass is spread over); derived, where that was a
-    step of its own.
+    Outcomes: along_edges (of a cuboid); volume, area, length (where the mass is); derived, if the volume has a step.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     extent = body.extent
@@ -390,7 +389,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
 
 
 def _density_outcome(body: Body, extent: Expr | Quantity) -> str:
-    """A block's density is the first that is said of it, so that its axes are described there."""
+    """The first sentence about a block is that of its density, so the axes of the block are described there."""
     if body.reference == "corner" and body.filling == "volume":
         return "along_edges"
     if isinstance(extent, Quantity):
@@ -423,13 +422,13 @@ def centre_of_mass(
     """Centre of mass, r_C = (1/M) integral of r dm, from a named point of the body.
 
     body         mass, region
-    origin       the point, by default where the body's own axes begin
-    coordinates  "cartesian" or "cylindrical", where the body has both
-    Of a round body the one component that is not zero by symmetry is worked out as a step of its own; of a body that is
-    not its own image about its centre, each that does not vanish.
-    Second route: the mean position of the body's equimomental particles; of a body told by a map, the sum over cells in
-    numbers.
-    Outcomes: round; generic (the middle of a body that is its own image there); by_components; there (at the point).
+    origin       the point, by default the origin of the body axes
+    coordinates  "cartesian" or "cylindrical", if the body has both
+    A step derives each component that is not zero by symmetry: one for a round body, possibly several for a body
+    that is not symmetric under inversion through its centre.
+    Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
+    numerical sum over cells.
+    Outcomes: round; generic (the centre of a body with inversion symmetry); by_components; there (at the point).
     Errors: no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """

@@ -1,4 +1,4 @@
-"""Position maps of bodies in numbers: places from variables, and variables from places by Newton's method."""
+"""Position maps of bodies, numerically: places from variables, and variables from places by Newton's method."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from derive.algebra.ranges import rational_in_range
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.known_numbers import with_numbers
 
-DRAWS = 3  # of one letter; of several, so many times more for each further one
+DRAWS = 3  # draws for one symbol; for several, further draws for each further symbol
 FURTHER, MOST = 12, 48
 SCALES = (Rational(1, 60), Rational(1, 8), Integer(1), Integer(8), Integer(60))
-NEAR = 160  # points of a body, of which those closest to a place are where Newton's method starts
-STARTS, TURNS = 10, 30  # of it
-FAR = 1e6  # where it is given up
-BEYOND = 0.1  # of its width, by which a body may reach further than the points that were looked at
+NEAR = 160  # sampled points of a body; Newton's method starts at those closest to the sought place
+STARTS, TURNS = 10, 30  # starts and iterations of Newton's method
+FAR = 1e6  # distance at which an iteration is given up
+BEYOND = 0.1  # fraction of its width by which a body may extend beyond the sampled points
 CLOSE = 1e-9
 
 Place = tuple[float, ...]
@@ -29,12 +29,12 @@ Place = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Chart:
-    """A position map in numbers.
+    """A numerical position map.
 
     names    the variables
     place    the variables -> the place
-    slopes   the variables -> how the place changes with each of them
-    ends     for each variable its limits, by the variables before it
+    slopes   the variables -> the derivatives of the place by each of them
+    ends     the limits of each variable, as functions of the variables before it
     """
 
     names: tuple[Symbol, ...]
@@ -57,7 +57,7 @@ class Chart:
         )
 
     def points(self, count: int, source: Random, margin: float = 0.04) -> Iterator[Place]:
-        """Values of the variables between their limits, some of them close to a limit."""
+        """Random values of the variables between their limits, some of them close to a limit."""
         for _ in range(count):
             at: Place = ()
             for ends in self.ends:
@@ -70,7 +70,7 @@ class Chart:
 
     @cached_property
     def known(self) -> list[tuple[list[float], Place]]:
-        """Some of its places, with their variables."""
+        """Sampled places of the body, with their variables."""
         return [(self.place(*at), at) for at in self.points(NEAR, Random(5))]
 
     @cached_property
@@ -80,7 +80,7 @@ class Chart:
 
     @cached_property
     def box(self) -> list[tuple[float, float]]:
-        """Between which coordinates it lies, and somewhat more."""
+        """The range of each coordinate of its places, with a margin."""
         found = []
         for across in zip(*(place for place, _ in self.known), strict=True):
             low, high = min(across), max(across)
@@ -88,7 +88,7 @@ class Chart:
         return found
 
     def sought(self, target: Sequence[float]) -> Iterator[Place]:
-        """Values of the variables within their limits at which the map gives a place."""
+        """Values of the variables within their limits whose place is the target."""
         slack = CLOSE * self.size
         if any(x < low - slack or x > high + slack for x, (low, high) in zip(target, self.box, strict=True)):
             return
@@ -113,7 +113,7 @@ class Chart:
         return None
 
     def _within(self, at: Place) -> Place | None:
-        """The same place by variables within their limits, where an angle may be a turn more or less."""
+        """The same place with its variables within their limits; an angle may differ by full turns."""
         found: Place = ()
         for i, ends in enumerate(self.ends):
             low, high = ends(*found)
@@ -132,7 +132,7 @@ class Chart:
 
 
 def _solved(slopes: Sequence[Sequence[float]], left: Sequence[float]) -> list[float] | None:
-    """The step that takes away what is left, by least squares: Cramer's rule for the normal equations."""
+    """A Newton step that removes the remaining difference, by least squares: Cramer's rule for the normal equations."""
     count = len(slopes[0])
     normal = [[sum(row[i] * row[j] for row in slopes) for j in range(count)] for i in range(count)]
     right = [sum(row[i] * x for row, x in zip(slopes, left, strict=True)) for i in range(count)]
@@ -156,7 +156,7 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 
 
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
-    """Numbers for the letters for which all limits are in order: those of the problem, else some of different sizes."""
+    """Values of the symbols for which all limits are in order: the numbers of the problem, or else several scales."""
     source = Random(len(letters))
     ordered = sorted(letters, key=str)
     given = {s: number for s in ordered if not (number := with_numbers(s)).free_symbols}
@@ -172,7 +172,7 @@ def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbo
 
 
 def _are_in_order(limits: Bounds, at: Mapping[Symbol, Expr]) -> bool:
-    """Whether each variable has its lower limit below the upper one, in the middle of those before it."""
+    """Whether the lower limit of each variable is below the upper one, with earlier variables at their midpoints."""
     known = dict(at)
     for x, lower, upper in limits:
         low, high = (explicit(end).xreplace(known).evalf() for end in (lower, upper))

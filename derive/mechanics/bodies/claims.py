@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of bodies: conditions under which an outcome, or a fact that its sentence names, is correct."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def dimensions_of_filling(n: int) -> Predicate:
 
 
 def has_edges(facts: Judged) -> bool:
-    """Whether every coordinate has limits of its own, from zero: a box whose origin is at a corner."""
+    """Whether all limits are constant and start at zero: a box whose origin is at a corner."""
     body = facts.subject.body
     region = body.region(body.point(body.reference))
     names = set(region.names)
@@ -42,13 +42,13 @@ def has_edges(facts: Judged) -> bool:
 
 
 def is_symmetric_about_its_centre(facts: Judged) -> bool:
-    """No third moment about the centre of mass is left along a direction of no symmetry, by integration."""
+    """By integration, no third moment about the centre of mass remains along a direction without symmetry."""
     body = facts.subject.body
     return is_zero(body.over_mass(lambda r: (71 * r[0] + 113 * r[1] + 29 * r[2]) ** 3, body.middle))
 
 
 def is_by_integration(facts: Judged) -> bool:
-    """Seen from there, the mass has no first moment."""
+    """The first moment of the mass about the result is zero."""
     subject = facts.subject
     return is_zero(subject.body.over_mass(lambda r: r - facts.result, subject.point))
 
@@ -62,7 +62,7 @@ def on_the_axis(facts: Judged) -> bool:
 
 
 def is_of_a_ball(facts: Judged) -> bool:
-    """The square of the radius is R^2 less the square of the distance from some place on the axis."""
+    """The square of the radius is R^2 minus the square of the distance from a point on the axis."""
     square = explicit(facts.result) ** 2
     along = facts.inputs["along"]
     in_powers = square.as_poly(along)
@@ -75,14 +75,14 @@ def along_the_edge(facts: Judged) -> bool:
 
 
 def joins_corners(facts: Judged) -> bool:
-    """From the corner at the origin through the centre, as far again: by the region's limits."""
+    """From the corner at the origin through the centre to the opposite corner, by the region's limits."""
     body = facts.subject.body
     limits = body.region(body.point(body.reference)).limits
     return len(limits) == 3 and all(is_zero(x - (b - a)) for x, (_, a, b) in zip(facts.result, limits, strict=True))
 
 
 def is_round(facts: Judged) -> bool:
-    """Whether the particles of the body have the same moment about x and y, and no product, seen from its centre."""
+    """Whether the particles have equal moments about x and y, and no product of inertia, about the centre."""
     body = facts.subject.body
     centre = body.middle
     places = [(m, counted_from(centre, r)) for m, r in body.particles()]
@@ -92,18 +92,18 @@ def is_round(facts: Judged) -> bool:
 
 
 def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
-    """The point that the sentence names is the one from which later steps count."""
+    """The point in the sentence is the point from which later steps measure."""
     return facts.words.get("start", fact.start.name) == fact.start.name
 
 
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
-    """It is not negative, and its square is the determinant of what the result has."""
+    """The size is not negative, and its square is the determinant in the result."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
     return is_zero(explicit(size) ** 2 - square) and sign_known(explicit(size)) != -1
 
 
 def mapped_to(facts: Judged, place: Any) -> bool:
-    """The scalar products of its derivatives by the variables have the determinant that the result has."""
+    """The scalar products of its derivatives by the variables have the determinant in the result."""
     names = [x for x, _, _ in facts.inputs["limits"]]
     slopes = Matrix([[diff(c, x) for x in names] for c in explicit(place)])
     square = explicit(facts.result) ** 2 if len(names) == 3 else explicit(facts.result)
@@ -126,7 +126,7 @@ def with_variables(n: int) -> Predicate:
 
 
 def cell_is_positive(facts: Judged, outcome: str) -> bool:
-    """The cell that is told has the square that was found, or is the product or its opposite, and has one sign."""
+    """The stated cell is positive, and its square is the result, or for a solid the square of the result."""
     size, limits = facts.inputs["cell"], facts.inputs["limits"]
     found = explicit(facts.result)
     squares = (found**2 if outcome == "solid" else found, size**2)
@@ -139,14 +139,14 @@ def of_filling(filling: str) -> Predicate:
 
 
 def volume_of_its_sections(facts: Judged, outcome: str) -> bool:
-    """The areas of the cross-sections, added up over the height, give the volume."""
+    """The areas of the cross-sections, integrated over the height, give the volume."""
     body, z = facts.subject.body, Symbol("z_along", real=True)
     sections = integrate(pi * body.radius_at(z) ** 2, (z, *body.ends))
     return is_zero(sections - explicit(facts.result))
 
 
 def section_as_told(facts: Judged, outcome: str) -> bool:
-    """x = s cos, y = s sin, where they are told: their area element is that of the integral, and x is s at the first
+    """x = s cos, y = s sin, if they are stated: their area element is that of the integral, and x is s at the first
     direction."""
     if ("polar" in facts.words) != ("x_is" in facts.inputs):
         return False
@@ -159,7 +159,7 @@ def section_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def counted_from_its_point(facts: Judged, outcome: str) -> bool:
-    """A length or a position is counted from the point that it is about."""
+    """A length or a position is measured from the point that the result is about."""
     return facts.words["start"] == getattr(facts.subject.point, "name", facts.words["start"])
 
 

@@ -1,4 +1,4 @@
-"""Integrals over the mass of a body, step by step; with them a component of its centre of mass."""
+"""Integrals over the mass of a body, step by step; they give components of its centre of mass."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = ["centre_component"]
 
 @dataclass(frozen=True)
 class OverMass:
-    """How an integral over the mass of a body is written, and how it is worked."""
+    """The form and the evaluation of an integral over the mass of a body."""
 
     law: Callable[..., Any]
     inputs: dict[str, Any]
@@ -34,10 +34,10 @@ class OverMass:
 
 
 def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> OverMass:
-    """The integral of a function of the place times dm; with the step of a uniform density in it, or any other.
+    """The integral of a function of the place times dm, for a density that is a step or a formula.
 
-    weight   what is integrated
-    mean     whether it is divided by the mass
+    weight   the integrand
+    mean     whether the integral is divided by the mass
     """
     rho = body.density
     if weight == 0:
@@ -83,11 +83,11 @@ def centre_component(
     """A component of the centre of mass, x_C = (rho/M) integral of x dV; sigma and dA, lambda and dl of a thin body.
 
     body         of mass M
-    axis         "x", "y" or "z": along which of the body's axes
-    origin       the point from which it is counted, by default where the body's own axes begin
-    coordinates  "cartesian" or "cylindrical", where the body has both
-    Second route: the mean position of the body's equimomental particles; of a body told by a map, the sum over cells in
-    numbers.
+    axis         "x", "y" or "z": the body axis of the component
+    origin       the point from which it is measured, by default the origin of the body axes
+    coordinates  "cartesian" or "cylindrical", if the body has both
+    Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
+    numerical sum over cells.
     Outcomes: on_axis (of a solid that is round about that axis), generic.
     Errors: no such axis, no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
@@ -115,12 +115,12 @@ def centre_component(
 
 
 def is_round_solid(body: Any) -> bool:
-    """Round about the z axis: of its centre of mass one component is left."""
+    """Round about the z axis: only one component of its centre of mass is not zero by symmetry."""
     return bool(body.is_round and body.filling == "volume")
 
 
 def is_its_own_image(body: Any) -> bool:
-    """Whether each particle has its like on the other side of the centre."""
+    """Whether the body has inversion symmetry: each particle has a partner on the opposite side of the centre."""
     if body.is_lopsided:
         return False
     centre = body.middle.position

@@ -24,23 +24,23 @@ __all__ = ["Cuboid", "Plate", "Tetrahedron", "Triangle", "Wedge"]
 
 
 class EdgedBody(Body):
-    """A body with flat faces, or of one face alone."""
+    """A body with flat faces, or a single flat face."""
 
     corners_called: ClassVar[tuple[str, ...]] = ("corner",)  # the first ones
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
-        """In its own axes."""
+        """The positions of the corners along the body axes."""
         raise AttributeError(f"{type(self).__name__} must say where its corners are")
 
     @property
     def faces(self) -> tuple[tuple[int, ...], ...]:
-        """Each face by its corners in order, from either side; none if they are those of one face alone."""
+        """The corners of each face in order, from either side; empty for a body with a single face."""
         return ()
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The lengths that a drawing tells, each with the edges that have it."""
+        """The lengths that a drawing shows, each with the edges of that length."""
         return ()
 
     def points(self) -> Mapping[str, Point]:
@@ -80,7 +80,7 @@ class Plate(EdgedBody):
         return cartesian(self.letters, *((0, side) for side in self.sides), ZERO)
 
     def particles(self) -> Particles:
-        """A sixth of the mass in the middle of each edge and a third at the centre."""
+        """A sixth of the mass at each edge midpoint and a third at the centre."""
         a, b = self.sides
         middles = ((a / 2, 0), (a / 2, b), (0, b / 2), (a, b / 2))
         return [(self.mass / 3, column(a / 2, b / 2, 0)), *((self.mass / 6, column(x, y, 0)) for x, y in middles)]
@@ -117,7 +117,7 @@ class Cuboid(EdgedBody):
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
-        """Their numbers in binary say which of x, y and z are not zero."""
+        """Bits of a corner's index show which of x, y and z are not zero."""
         at = (zip(ends, self.sides, strict=True) for ends in product((0, 1), repeat=3))
         return tuple(column(*(end * side for end, side in corner)) for corner in at)
 
@@ -156,7 +156,7 @@ class Cuboid(EdgedBody):
 
 
 class Cornered(EdgedBody):
-    """A body told by where its corners are."""
+    """A body defined by the positions of its corners."""
 
     corners_called: ClassVar[tuple[str, ...]] = ("first corner", "second corner", "third corner", "fourth corner")
     reference = "first corner"
@@ -172,8 +172,8 @@ class Triangle(Cornered):
 
     corners   three places (x, y), lengths
     mass      mass
-    `Triangle.on_base(b, h, mass)` has its base from the origin along x, its top at the height h over the middle of the
-    base, or at x = foot; `Triangle.equilateral(a, mass)` has three sides a.
+    `Triangle.on_base(b, h, mass)` has its base along x from the origin, and its top at the height h over the middle
+    of the base, or over x = foot; `Triangle.equilateral(a, mass)` has three sides a.
     Points: first corner, second corner, third corner; centre.
     """
 
@@ -188,10 +188,10 @@ class Triangle(Cornered):
 
     @classmethod
     def on_base(cls, base: Expr, height: Expr, mass: Expr, foot: Expr | None = None) -> Self:
-        """Its top is over the middle of its base, or over x = foot."""
+        """A triangle whose top is over the middle of its base, or over x = foot."""
         made = cls(((ZERO, ZERO), (base, ZERO), (base / 2 if foot is None else foot + ZERO, height)), mass)
         if tidied(made._signed_area - base * height / 2) != 0:
-            raise Unverified(Complaint("unverified", f"{made.name} on a base has another area than half of b h"))
+            raise Unverified(Complaint("unverified", f"{made.name} on a base does not have the area b h/2"))
         left, right = (top.dot(top) for top in (made.corners[2] - corner for corner in made.corners[:2]))
         if foot is None and tidied(left - right) != 0:
             raise Unverified(Complaint("unverified", f"the top of {made.name} is not over the middle of its base"))
@@ -211,7 +211,7 @@ class Triangle(Cornered):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The sides that are letters, or multiples of one: each length once, beside the first that has it."""
+        """The sides that are symbols, or multiples of one: each length once, next to the first side of that length."""
         found: dict[Expr, tuple[int, int]] = {}
         for i, k in ((0, 1), (0, 2), (1, 2)):
             x, y, _ = self.corners[k] - self.corners[i]
@@ -222,7 +222,7 @@ class Triangle(Cornered):
 
     @property
     def _signed_area(self) -> Expr:
-        """Half the products of neighbouring places, round the edge."""
+        """The shoelace formula: half the sum of cross products of neighbouring corners."""
         (x1, y1), (x2, y2), (x3, y3) = self.corners_at
         return (x1 * (y2 - y3) + x2 * (y3 - y1) + x3 * (y1 - y2)) / 2
 
@@ -239,7 +239,7 @@ class Triangle(Cornered):
         return -area if area.could_extract_minus_sign() or area.is_negative else area
 
     def map(self) -> Map:
-        """With the base on the x axis by x and y; any other by parts u and v of two of its sides."""
+        """With the base on the x axis, by x and y; otherwise by fractions u and v of two sides."""
         if self._stands_on_x:
             (_, (x2, _), (x3, y3)), (x, y) = self.corners_at, coordinates("xy", self.letters)
             return column(x, y, 0), ((y, ZERO, y3), (x, x3 * y / y3, x2 + (x3 - x2) * y / y3))
@@ -248,7 +248,7 @@ class Triangle(Cornered):
         return ImmutableDenseMatrix(a + u * (b - a) + v * (c - a)), ((u, ZERO, Integer(1)), (v, ZERO, 1 - u))
 
     def particles(self) -> Particles:
-        """A third of the mass in the middle of each side."""
+        """A third of the mass at the midpoint of each side."""
         a, b, c = self.corners
         return [(self.mass / 3, ImmutableDenseMatrix((p + q) / 2)) for p, q in ((a, b), (b, c), (c, a))]
 
@@ -293,7 +293,7 @@ class Tetrahedron(Cornered):
         return (-sixfold if sixfold.could_extract_minus_sign() or sixfold.is_negative else sixfold) / 6
 
     def map(self) -> Map:
-        """By parts u, v and s of the three edges from its first corner; along the axes by x, y and z."""
+        """By fractions u, v and s of the three edges from the first corner; along the axes by x, y and z."""
         first, edges = self.corners[0], self._edges_from_first
         if first == ORIGIN and all(e == column(*(e[i] * int(i == k) for i in range(3))) for k, e in enumerate(edges)):
             (a, b, c), (x, y, z) = (e[k] for k, e in enumerate(edges)), coordinates("xyz", self.letters)
@@ -312,9 +312,9 @@ class Tetrahedron(Cornered):
 
 @dataclass(frozen=True)
 class Wedge(Cornered):
-    """A uniform right prism on a triangle: the triangle in the plane of x and y, drawn out along z.
+    """A uniform right prism with a triangular base: the triangle in the plane of x and y, extended along z.
 
-    face     the triangle, as `Triangle` has it
+    face     the triangle, as for `Triangle`
     length   along z, from the origin
     mass     mass
     Points: first corner, second corner, third corner (of the face at z = 0); centre.
@@ -347,5 +347,5 @@ class Wedge(Cornered):
         return ImmutableDenseMatrix(place + column(0, 0, z)), ((z, ZERO, self.length), *limits)
 
     def particles(self) -> Particles:
-        """Triangles of equal mass at equal heights."""
+        """Triangles spread evenly along z."""
         return drawn_out(Triangle(self.face.corners_at, self.mass).particles(), (ZERO, self.length))

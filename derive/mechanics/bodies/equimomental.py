@@ -1,6 +1,6 @@
-"""Particles that stand for bodies, with their mass, centre of mass and second moments, found by no integral.
+"""Equimomental particles: they have the mass, centre of mass and second moments of a body, without an integral.
 
-Slices weighed by a rule that is exact for their powers; or particles made from the second moments themselves.
+They come from slices weighted by a quadrature rule that is exact for these powers, or from the second moments.
 """
 
 from __future__ import annotations
@@ -28,32 +28,32 @@ BOOLE = tuple((Rational(k, 4), Rational(w, 90)) for k, w in enumerate((7, 32, 12
 
 
 def summed(particles: Iterable[tuple[Expr, ImmutableMatrix]], of: Callable[[ImmutableMatrix], Any]) -> Any:
-    """The sum of mass times a function of the place, a number, a vector or a tensor."""
+    """The sum of mass times a function of the place: a number, a vector or a tensor."""
     return reduce(add, (mass * of(place) for mass, place in particles))
 
 
 def counted_from(point: Point, place: ImmutableMatrix) -> ImmutableMatrix:
-    """A place by its projections on the axes of a point: told otherwise than where one integrates, as a check of it."""
+    """A place by its projections on the axes of a point: independent of the code that integrates, as a check of it."""
     way = [place[j] - point.position[j] for j in range(3)]
     return column(*(sum(point.axes[j, k] * way[j] for j in range(3)) for k in range(3)))
 
 
 class OfParticles:
-    """What has particles that stand for it."""
+    """A base class of bodies with equimomental particles."""
 
-    is_of_particles: ClassVar[bool] = True  # which are found without an integral
+    is_of_particles: ClassVar[bool] = True  # whether the particles come without an integral
 
     def particles(self) -> Particles:
-        """Particles with the mass, centre of mass and second moments of the body. No integral is used, so what is
-        computed from them checks what is computed by integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
+        """Particles with the mass, centre of mass and second moments of the body. They need no integral, so they check
+        results of integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
         raise AttributeError(f"{type(self).__name__} must say which particles stand for it")
 
     def another_way(
         self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
     ) -> dict[str, Route]:
-        """A second route to the integral of what is at most quadratic in the position from a point, times dm.
+        """A second route to the integral, times dm, of an integrand at most quadratic in the position from a point.
 
-        of   what of a result is that integral
+        of   a function that extracts this integral from a result
         """
 
         def by_particles(found: Any) -> tuple[Any, Any]:
@@ -63,30 +63,30 @@ class OfParticles:
 
 
 def squared_distance(r: Any, n: Any) -> Any:
-    """|n x r|^2, of a place from the axis through the point along n."""
+    """|n x r|^2: the squared distance of a place from the axis along n through the point."""
     arm = Cross(n, r)
     return Dot(arm, arm)
 
 
 def tensor_at(r: Any) -> ImmutableMatrix:
-    """r.r 1 - r r, of a unit mass at r."""
+    """r.r 1 - r r: the inertia tensor of a unit mass at r."""
     square = sum((x**2 for x in r), Integer(0))
     return ImmutableDenseMatrix(3, 3, lambda i, j: square * int(i == j) - r[i] * r[j])
 
 
 def disc_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
-    """A disc across the z axis: half of its mass at its centre and an eighth at each end of two diameters."""
+    """A disc perpendicular to the z axis: half of its mass at its centre, an eighth at each end of two diameters."""
     return [(mass / 2, column(0, 0, height)), *ring_of_particles(mass / 2, radius, height)]
 
 
 def ring_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
-    """A ring across the z axis: a quarter of its mass at each end of two diameters."""
+    """A ring perpendicular to the z axis: a quarter of its mass at each end of two diameters."""
     rim = ((radius, 0), (-radius, 0), (0, radius), (0, -radius))
     return [(mass / 4, column(x, y, height)) for x, y in rim]
 
 
 def on_diameters(mass: Expr, radius: Expr) -> Particles:
-    """Six equal particles, at the ends of three diameters of a sphere about the origin."""
+    """Six equal particles at the ends of three perpendicular diameters of a sphere about the origin."""
     along = ([radius * int(k == axis) for k in range(3)] for axis in range(3))
     return [(mass / 6, ImmutableDenseMatrix(sign * column(*end))) for end in along for sign in (1, -1)]
 
@@ -98,10 +98,10 @@ def sliced(
     weight: Callable[[Expr], Expr],
     slice_of: Callable[[Expr, Expr, Expr], Particles] = disc_of_particles,
 ) -> Particles:
-    """Slices across the z axis at the places of Boole's rule, with masses as the weight of each.
+    """Slices perpendicular to the z axis at the nodes of Boole's rule, with its weights for their masses.
 
     radius   of the slice at z
-    weight   its mass per length, but for a factor: of a solid the squared radius
+    weight   its mass per length, up to a factor: for a solid, the squared radius
     """
     low, high = ends
     at = [(low + part * (high - low), share) for part, share in BOOLE]
@@ -115,7 +115,7 @@ def sliced(
 
 
 def drawn_out(flat: Particles, ends: tuple[Expr, Expr]) -> Particles:
-    """What is spread evenly along z from a thin body across it: Simpson's rule, exact for squares."""
+    """A thin body across the z axis, spread evenly along z: Simpson's rule, exact for squares."""
     low, high = ends
     return [
         (share * mass, column(place[0], place[1], low + part * (high - low)))
@@ -125,12 +125,12 @@ def drawn_out(flat: Particles, ends: tuple[Expr, Expr]) -> Particles:
 
 
 def stretched(particles: Iterable[tuple[Expr, ImmutableMatrix]], by: tuple[Expr, Expr, Expr]) -> Particles:
-    """The same particles where lengths along each axis are so many times as large."""
+    """The same particles with lengths along each axis scaled by these factors."""
     return [(mass, column(*(x * s for x, s in zip(place, by, strict=True)))) for mass, place in particles]
 
 
 def without(whole: Particles, removed: Particles) -> Particles:
-    """What is left of a body: that which is taken out has negative mass."""
+    """The rest of a body after a removal: removed particles have negative mass."""
     return [*whole, *((-mass, place) for mass, place in removed)]
 
 
@@ -142,10 +142,10 @@ def from_moments(
 ) -> Particles:
     """Pairs of particles about the centre of mass with given second moments, S_ij = sum of m x_i x_j about the centre.
 
-    about_origin   or the sums of m x^2, m y^2 and m z^2 about the origin, where those of products vanish
+    about_origin   or the sums of m x^2, m y^2 and m z^2 about the origin, if the sums of products vanish
 
     With S = sum of D_k l_k l_k^T, each l_k from a Cholesky decomposition, a pair of mass D_k/L^2 is at +-L l_k, where
-    L^2 is the trace of S over the mass; what mass is left is at the centre, and is never negative.
+    L^2 is the trace of S over the mass; the rest of the mass is at the centre, and is never negative.
     Source: Routh, *Elementary Rigid Dynamics*, chapter 1.
     """
     left = Matrix(second) if second is not None else Matrix.diag(*about_origin) - mass * centre * centre.T

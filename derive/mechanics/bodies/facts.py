@@ -1,4 +1,4 @@
-"""What a quantity says of the body and the points that it belongs to."""
+"""Facts that link a quantity to a body and its points."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class OfBody(Fact):
-    """The body that a tensor belongs to: whatever has mass points and integrates over its mass."""
+    """The body that a tensor belongs to: it has particles and integrates over its mass."""
 
     missing = "belongs to no body"
     body: Any
@@ -21,7 +21,7 @@ class OfBody(Fact):
 
 @dataclass(frozen=True)
 class AboutPoint(Fact):
-    """The point that a tensor or an angular momentum is about."""
+    """The point of reference of a tensor or an angular momentum."""
 
     missing = "is about no point"
     point: Point
@@ -29,14 +29,14 @@ class AboutPoint(Fact):
 
 @dataclass(frozen=True)
 class CountedFrom(Fact):
-    """The point that a place is counted from."""
+    """The point from which a place is measured."""
 
     start: Point
 
 
 @dataclass(frozen=True)
 class Integrated(Fact):
-    """The variables of an integral that is carried out: the radius of a section depends on z, the volume does not."""
+    """The variables of an evaluated integral: the radius of a section depends on z, the volume does not."""
 
     missing = "is no integral over a body"
     eliminates: tuple[Symbol, ...]

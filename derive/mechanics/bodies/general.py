@@ -1,7 +1,6 @@
-"""Any body: where its points are, as formulas in variables between limits; its cells, its mass, its centre of mass.
+"""Bodies defined by a position map, formulas in variables between limits: cells, size, mass, density.
 
-A curve has one variable, a surface two, a solid three. What is spread over them is uniform, or a density that is a
-formula in the same variables.
+A curve has one variable, a surface two, a solid three. The density is uniform, or a formula in the same variables.
 """
 
 from __future__ import annotations
@@ -61,15 +60,15 @@ FILLED = {1: "line density", 2: "surface density", 3: "density"}
 
 
 def variables(*names: str) -> tuple[Symbol, ...]:
-    """Letters for the variables of a body, real: `r, theta = variables("r", "theta")`."""
+    """Real symbols for the variables of a body: `r, theta = variables("r", "theta")`."""
     return tuple(scalar(name) for name in names)
 
 
 class GeneralBody(Body):
-    """What any body has that is told by its position map."""
+    """The common base of bodies defined by their position map."""
 
     reference: ClassVar[str] = "origin"
-    is_lopsided: ClassVar[bool] = True  # as far as is known
+    is_lopsided: ClassVar[bool] = True  # assumed, since symmetry is not decided
     is_of_particles: ClassVar[bool] = False
     count: ClassVar[int] = 3
 
@@ -86,7 +85,7 @@ class GeneralBody(Body):
         fresh = {u: scalar(u.name) for u in limits}
         outside, self._profile = given.xreplace(fresh).as_independent(*fresh.values(), as_Add=False)
         self.given_mass, self.given_density = mass, None if density is None else outside
-        next(inside(self._limits, looks=1))  # which says so, where the limits are never in order
+        next(inside(self._limits, looks=1))  # raises an error where the limits are never in order
         self._mapped = cell(self._position, self._limits)
         if self._mapped == 0:
             message = f"the position of this `{type(self).__name__}` does not depend on all of its variables"
@@ -108,7 +107,7 @@ class GeneralBody(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """Its map says how large it is."""
+        """Empty: the map defines its size."""
         return {}
 
     @property
@@ -119,12 +118,12 @@ class GeneralBody(Body):
         return self._position, self._limits
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
-        """Its cells, each weighed by its share of the density."""
+        """Its region: cells, weighted by the density up to a constant."""
         return from_point(point, self._position, self._limits, tidied(self._mapped * self._profile))
 
     @property
     def size(self) -> Expr:
-        """The integral over it of the density but for a constant: where that is uniform, its volume, area or length."""
+        """The integral of the density up to a constant: for a uniform body, its volume, area or length."""
         return exact(self, self._profile * self._mapped, "size")
 
     @cached_property
@@ -137,7 +136,7 @@ class GeneralBody(Body):
 
     @cached_property
     def density(self) -> Quantity:
-        """The step that its density, or its mass, comes from."""
+        """The step that gives its density or its mass."""
         if self.given_mass is None:
             return mass_by_integration(self)
         return density(self) if self.is_uniform else normalised_density(self)
@@ -152,7 +151,7 @@ class GeneralBody(Body):
         return Point("centre", ImmutableDenseMatrix(3, 1, [tidied(x) for x in first]))
 
     def particles(self) -> Particles:
-        """Made of its moments, which are integrals: they check nothing that was integrated."""
+        """Particles from its moments, which are integrals: so they check no integral."""
         return self._equimomental
 
     @cached_property
@@ -166,7 +165,7 @@ class GeneralBody(Body):
     def another_way(
         self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
     ) -> dict[str, Route]:
-        """The sum over cells in numbers: its particles are made of integrals."""
+        """A numerical sum over cells, since its particles come from integrals."""
         position, limits = self.map()
 
         def by_cells(found: Any) -> Verdict:
@@ -182,7 +181,7 @@ class Wire(GeneralBody):
     position   two or three formulas in the variable, lengths
     limits     the variable with its lower and its upper limit
     mass       mass; or
-    density    mass per length, a formula in the variable; with both it is what the density is proportional to
+    density    mass per length, a formula in the variable; if the mass is given too, the density is proportional to it
     """
 
     name: ClassVar[str] = "a wire"
@@ -196,7 +195,7 @@ class Sheet(GeneralBody):
     position   two or three formulas in the variables, lengths
     limits     each variable with its lower and its upper limit, which may depend on those named before it
     mass       mass; or
-    density    mass per area, a formula in the variables; with both it is what the density is proportional to
+    density    mass per area, a formula in the variables; if the mass is given too, the density is proportional to it
     """
 
     name: ClassVar[str] = "a sheet"
@@ -210,7 +209,7 @@ class Solid(GeneralBody):
     position   three formulas in the variables, lengths
     limits     each variable with its lower and its upper limit, which may depend on those named before it
     mass       mass; or
-    density    mass per volume, a formula in the variables; with both it is what the density is proportional to
+    density    mass per volume, a formula in the variables; if the mass is given too, the density is proportional to it
     """
 
     name: ClassVar[str] = "a solid"
@@ -232,12 +231,12 @@ def _check_map(name: str, count: int, position: Any, limits: Any, mass: Any, den
 
 
 def exact(body: GeneralBody, integrand: Expr, what: str) -> Expr:
-    """An integral over the variables, by what can be integrated term by term."""
+    """An integral over the variables, by term-by-term antiderivatives."""
     _, limits = body.map()
     found = definite(integrand, list(reversed(limits)))
     if found is None or found.has(nan, zoo, oo):
-        message = f"an integral over {body.name} that its {what} needs has no antiderivative that is known here"
-        help_line = "choose variables in which it is made of powers, sines and cosines"
+        message = f"the {what} of {body.name} needs an integral without a known antiderivative"
+        help_line = "choose variables in which the integrand consists of powers, sines and cosines"
         raise Rejected(Complaint("no-antiderivative", message, help=help_line))
     return tidied(found)
 
@@ -257,11 +256,11 @@ CELL_OF = Rule(
 
 
 def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
-    """What a cell of the variables is in size: |r_u|^2 of a curve, |r_u x r_v|^2 of a surface, r_u . (r_v x r_w).
+    """Size of a cell of the variables: |r_u|^2 of a curve, |r_u x r_v|^2 of a surface, r_u . (r_v x r_w) of a solid.
 
-    body   a body told by its position map
-    Second route: the squared distances of neighbouring points, of which the determinant is the square of the cell; of a
-    solid also the signed volume that small edges span, in numbers.
+    body   a body defined by its position map
+    Second route: the squared distances of neighbouring points, whose determinant is the square of the cell; for a solid
+    also, numerically, the signed volume that small edges span.
     Outcomes: curve, surface, solid.
     Source: Apostol, *Calculus*, volume 2, sections 12.5 and 11.29.
     """
@@ -298,7 +297,7 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
 
 
 def _determinant_of_chords(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
-    """Half the second derivatives of the squared chord to a neighbour, where the neighbour comes to the point."""
+    """The determinant, from half the second derivatives of the squared chord to a neighbour, at zero distance."""
     steps = [scalar(f"delta_{x.name}") for x in names]
     moved = position.xreplace({x: x + s for x, s in zip(names, steps, strict=True)}) - position
     chord = sum((x**2 for x in moved), Integer(0))
@@ -319,8 +318,8 @@ SIZE_BY_INTEGRATION = Rule(
 def size_by_integration(body: GeneralBody) -> Quantity:
     """Length, area or volume of a body, the integral of its cells.
 
-    body   a body told by its position map
-    Check: the sum over cells in numbers, their sizes by the scalar products of their edges.
+    body   a body defined by its position map
+    Check: a numerical sum over cells, whose sizes come from the scalar products of their edges.
     Outcomes: length, area, volume.
     Source: Apostol, *Calculus*, volume 2, sections 11.3 and 12.5.
     """
@@ -350,10 +349,10 @@ MASS_BY_INTEGRATION = Rule(
 
 
 def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
-    """Mass of a body of a given density, M = integral of the density over it.
+    """Mass of a body with a given density, M = integral of the density over it.
 
-    body   a body told by its position map, and its density
-    Check: the sum over cells in numbers, their sizes by the scalar products of their edges.
+    body   a body defined by its position map, and its density
+    Check: a numerical sum over cells, whose sizes come from the scalar products of their edges.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     region = body.region(ORIGIN)
@@ -388,8 +387,8 @@ NORMALISED_DENSITY = Rule(
 def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
     """Density of a body of given mass that is proportional to a function of the place, rho = M p/(integral of p dV).
 
-    body   a body told by its position map, its mass, and what the density is proportional to
-    Check: the sum of density times cell in numbers gives the mass back.
+    body   a body defined by its position map, its mass, and a function to which the density is proportional
+    Check: a numerical sum of density times cell gives the mass back.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     region, p = body.region(ORIGIN), body.profile
@@ -409,12 +408,12 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
 
 
 def _cells(body: GeneralBody) -> list[Quantity]:
-    """The step that finds its cells, but where the variables are lengths along axes."""
+    """The step for its cells, unless the variables are lengths along axes."""
     return [] if cell(*body.map()) == 1 else [cell_of(body)]
 
 
 def _variables_of(body: GeneralBody) -> dict[Symbol, str]:
-    """Its variables with their kinds: an angle is in a sine or a cosine, a number has numbers as limits."""
+    """Its variables with their kinds: an angle is the argument of a sine or cosine, a number has numeric limits."""
     position, limits = body.map()
     angles = {s for f in position.atoms(sin, cos) for s in f.free_symbols}
     kinds = {}

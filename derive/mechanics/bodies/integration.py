@@ -1,10 +1,10 @@
-"""Integrals over a body, worked the way a person writes them.
+"""Integrals over a body, in the lines of a written calculation.
 
-The integrand is a sum of products, and each term separates into integrals that have no variable in common: of one
-variable where the limits are constant, nested where they depend on a variable further out. The lines are: split, the
+The integrand is a sum of products, and each term separates into integrals without a common variable: integrals of one
+variable if the limits are constant, nested ones if the limits depend on an outer variable. The lines are: split, the
 innermost antiderivatives in brackets, their values, and so outwards; then the products, and the mass collected.
 
-Over a solid of revolution the lines are a teacher's: discs, in Cartesian coordinates along their chords, then the axis.
+A solid of revolution is integrated over discs, in Cartesian coordinates along chords of the disc, then along the axis.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ OneVariable = tuple[Symbol, Expr, Expr]
 
 @dataclass(frozen=True)
 class Nested:
-    """A factor of a term: an integrand and its limits, outermost first, none of which any other factor shares."""
+    """A factor of a term: an integrand and its limits, outermost first, which no other factor shares."""
 
     integrand: Expr
     limits: tuple[OneVariable, ...]
@@ -39,11 +39,11 @@ class Nested:
         return self.integrand == 1 and len(self.limits) == 1
 
     def written(self) -> Expr:
-        """The integral, each factor of the integrand as far out as it may stand."""
+        """The integral, each factor of the integrand as far out as its variables allow."""
         return _wrapped(self._parts(len(self.limits)), self.limits, Integer(1))
 
     def with_bracket(self) -> Expr:
-        """The innermost antiderivative between its limits; the integral as it stands where only its value is known."""
+        """The innermost antiderivative between its limits; the unevaluated integral if only its value is known."""
         x, lower, upper = self.innermost
         *outside, own = self._parts(len(self.limits))
         whole = antiderivative(own, x)
@@ -52,7 +52,7 @@ class Nested:
         return _wrapped(outside, self.limits[:-1], Bracket(whole, x, lower, upper))
 
     def carried_out(self) -> Nested | Expr:
-        """The innermost integral done: what is left to integrate, or the value."""
+        """The result of the innermost integral: the remaining integral, or the value."""
         value = definite(self.integrand, (self.innermost,))
         if value is None:
             value = explicit(Integral(self.integrand, self.innermost))
@@ -61,7 +61,7 @@ class Nested:
         return Nested(factor_terms(value), self.limits[:-1])
 
     def _parts(self, depth: int) -> list[Expr]:
-        """The integrand's factors by the innermost variable that each has, outermost first."""
+        """The integrand's factors, grouped by the innermost variable in each, outermost first."""
         found = [Integer(1)] * depth
         for part in Mul.make_args(self.integrand):
             place = max((i for i, limit in enumerate(self.limits) if part.has(limit[0])), default=0)
@@ -70,7 +70,7 @@ class Nested:
 
 
 def _wrapped(parts: Sequence[Expr], limits: Sequence[OneVariable], inner: Expr) -> Expr:
-    """One integral sign after another around what is inside, from the innermost out; constants go in front."""
+    """Integral signs around the inner part, from the innermost out; constants go in front."""
     for part, limit in reversed(list(zip(parts, limits, strict=True))):
         factors = [Group(f) if isinstance(f, Integral) else f for f in (part, inner) if f != 1]
         whole = factors[0] if len(factors) == 1 else Factors(*factors) if factors else Integer(1)
@@ -82,7 +82,7 @@ Separated = tuple[Nested | Expr, ...]
 
 
 def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> list[Form]:
-    """The lines between rho times the integral of a weight and its value in terms of the mass, M = rho V."""
+    """The lines from rho times the integral of a weight to its value in terms of the mass, M = rho V."""
     integrand = (weight * region.element).expand()
     if integrand == 0:
         return []
@@ -99,7 +99,7 @@ def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> li
 
 
 def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
-    """Each group of variables with its own factor of the term; a number goes with the first that occurs."""
+    """The factor of the term for each group of variables; constants go with the first group in the term."""
     number, rest = term.as_coeff_Mul()
     groups = _groups(limits)
     found = [Mul(*(f for f in Mul.make_args(rest) if any(f.has(x) for x, _, _ in group))) for group in groups]
@@ -111,7 +111,7 @@ def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
 
 
 def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
-    """Variables that depend on each other stand together; what stands alone keeps its place."""
+    """Groups of variables that depend on each other; the order of independent variables is kept."""
     groups: list[list[OneVariable]] = []
     for limit in limits:
         related = [g for g in groups if any(end.has(x) for x, _, _ in g for end in limit[1:])]
@@ -122,9 +122,9 @@ def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
 
 
 def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
-    """From the innermost integrals outwards, a line for the antiderivatives and one for what the limits give."""
+    """From the innermost integrals outwards: a line for the antiderivatives and one for their values at the limits."""
     nested = _are_nested(terms)
-    # One term that is nested reads much as it did before it was split.
+    # A single nested term looks almost the same before and after the split.
     level = Level.FULL if nested and len(terms) == 1 else Level.STANDARD
     lines = [_line(front, terms, Nested.written, "split" if nested else "separate", level)]
     while _are_nested(terms):
@@ -141,7 +141,7 @@ def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
 
 
 def _lasting(values: list[Expr]) -> list[Expr]:
-    """Without those that are 0, unless all are."""
+    """The values except zeros, or one zero if all are 0."""
     return [value for value in values if value != 0] or values[:1]
 
 
@@ -154,7 +154,7 @@ def _one_further(part: Nested | Expr) -> Nested | Expr:
 
 
 def _collected(term: Separated) -> Separated:
-    """What no longer depends on a variable in front of the integrals that are left."""
+    """The term with factors that no longer depend on a variable in front of its remaining integrals."""
     front: Expr = Integer(1)
     rest: list[Nested | Expr] = []
     for part in term:
@@ -172,7 +172,7 @@ def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], be
 
 
 def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
-    """Lengths of plain integrals and values first, then what is still to be integrated."""
+    """Lengths of plain integrals and values first, then the remaining integrals."""
     if how is Nested.written:
         return Factors(*(how(part) if isinstance(part, Nested) else part for part in term))
     plain = [_length(part) if isinstance(part, Nested) else part for part in term if _is_plain(part)]
@@ -202,13 +202,13 @@ def _flat(term: Expr) -> tuple[Expr, ...]:
 
 
 def _has_chords(region: Region) -> bool:
-    """Whether the innermost limits are the ends of a chord, so that they depend on where in its disc it is."""
+    """Whether the innermost limits are the ends of a chord, so they depend on the place of the chord in its disc."""
     roots = (power for power in region.limits[-1][2].atoms(Pow) if power.exp == Rational(1, 2))
     return any(root.has(*region.names[1:]) for root in roots)
 
 
 def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
-    """First over the disc at each height, which is what holds for every solid of revolution, then along the axis."""
+    """First over the disc at each height, in a form valid for every solid of revolution, then along the axis."""
     z_limit, *within = region.limits
     by_chords = _by_chords(region, integrand, front) if region.element == 1 else []
     discs = list(Add.make_args(explicit(Integral(integrand, *reversed(within))).expand()))
@@ -252,7 +252,7 @@ def _by_angle(chord: Expr, limit: OneVariable, region: Region) -> Expr | None:
 
 
 def _from_the_tip(value: Expr, limit: OneVariable) -> Expr:
-    """(h - z)^4, not (z - h)^4: what is counted is the positive distance."""
+    """(h - z)^4, not (z - h)^4: the power is that of the positive distance."""
     z, lower, _ = limit
     return value.replace(
         lambda e: e.is_Pow and e.base.is_Add and e.exp.is_even and e.base.subs(z, lower).is_negative,
@@ -265,7 +265,7 @@ def _sum(terms: list[Expr]) -> Expr:
 
 
 def _with_power_bracket(part: Nested) -> Expr:
-    """An antiderivative: of c (p + q z)^n by that power, of anything else power by power."""
+    """An antiderivative: of c (p + q z)^n as one power, of any other integrand term by term."""
     z, lower, upper = part.innermost
     constant, rest = part.integrand.as_independent(z, as_Add=False)
     base, exponent = rest.as_base_exp()

@@ -1,4 +1,4 @@
-"""Bodies by a position map: where a point is, as a formula in variables between limits; the cell that they span.
+"""Position maps of bodies: the position as a formula in variables between limits, and the cell of these variables.
 
 The cell of a curve is |r_u| du, that of a surface |r_u x r_v| du dv, that of a solid r_u . (r_v x r_w) du dv dw.
 """
@@ -19,18 +19,18 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Bounds, Point, Region, coordinates
 
 TRIES = 40  # draws of letters until limits are in order
-LOOKS = 6  # points at which the sign of a cell is looked at
+LOOKS = 6  # points at which the sign of a cell is evaluated
 
 
 Map = tuple[ImmutableMatrix, Bounds]
-Extent: TypeAlias = Any  # what a coordinate is throughout, or as a pair the limits between which it varies
+Extent: TypeAlias = Any  # a constant value of a coordinate, or a pair of limits between which it varies
 ALL_ROUND, HALF_ROUND = (Integer(0), 2 * pi), (Integer(0), pi)
 
 
 def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent = ALL_ROUND) -> Map:
-    """By height, angle about the z axis and distance from it; a limit of r may be a function of z.
+    """Cylindrical coordinates: height, angle about the z axis and distance from the axis; a limit of r may depend on z.
 
-    taken   letters that the variables cannot have
+    taken   symbols that the variables cannot have
     """
     variables = coordinates(("z", "theta", "r"), taken)
     if r == 0:
@@ -42,9 +42,9 @@ def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent =
 def spherical(
     taken: Collection[Symbol], r: Extent, theta: Extent = HALF_ROUND, phi: Extent = ALL_ROUND, by: Any = (1, 1, 1)
 ) -> Map:
-    """By the distance from the origin, the angle from the z axis and that about it, and stretched along each axis.
+    """Spherical coordinates: distance from the origin, angle from the z axis, angle about it; scaled along each axis.
 
-    taken   letters that the variables cannot have
+    taken   symbols that the variables cannot have
     """
     (out, down, about), limits = _varied(coordinates(("r", "theta", "phi"), taken), (r, theta, phi))
     place = (sin(down) * cos(about), sin(down) * sin(about), cos(down))
@@ -52,16 +52,16 @@ def spherical(
 
 
 def cartesian(taken: Collection[Symbol], *ends: Extent) -> Map:
-    """By x, y and z, each between limits of its own.
+    """Cartesian coordinates x, y and z, each between two limits.
 
-    taken   letters that the variables cannot have
+    taken   symbols that the variables cannot have
     """
     place, limits = _varied(coordinates("xyz", taken), ends)
     return column(*place), limits
 
 
 def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[Expr], Bounds]:
-    """Each coordinate as its variable, or as what it is throughout; the limits of those that vary."""
+    """Each coordinate as its variable or its constant value, with the limits of those that vary."""
     first = variables[0]
     place, limits = [], []
     for x, extent in zip(variables, extents, strict=True):
@@ -72,9 +72,9 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
 
 
 def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
-    """What a map covers, seen from a point; a length along an axis that nothing else depends on is counted from there.
+    """The region of a map, relative to a point; an independent length along an axis is measured from the point.
 
-    weight   of a cell: its size, with the density but for a constant
+    weight   of a cell: its size, with the density up to a constant
     """
     seen = point.seen(position)
     names = {x for x, _, _ in limits}
@@ -99,7 +99,7 @@ def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: 
 def cell(position: ImmutableMatrix, limits: Bounds, positive: tuple[Expr, ...] = ()) -> Expr:
     """The factor that makes the product of the variables' differentials a length, an area or a volume.
 
-    positive   sizes that are so, whatever letters they are made of
+    positive   sizes that are positive, whatever symbols they contain
     """
     tangents = tangents_of(position, [x for x, _, _ in limits])
     known = (*limits, *((Dummy("size"), Integer(0), size) for size in positive))
@@ -116,27 +116,27 @@ def tangents_of(position: ImmutableMatrix, names: Sequence[Symbol]) -> list[Immu
 
 
 def _root_of(square: Expr, limits: Bounds) -> Expr:
-    """The root of a square, without the bars of what has one sign between the limits."""
+    """The root of a square, without absolute values of expressions that keep one sign between the limits."""
     root = tidied(sqrt(factor(square)))
     return root.replace(Abs, lambda inside: _counted_positive(inside, limits))
 
 
 def _counted_positive(size: Expr, limits: Bounds) -> Expr:
-    """The size of what may be counted the wrong way round; of what has no one sign nothing can be said."""
+    """The size of a cell, made positive; an error if its sign is not the same everywhere."""
     if size == 0:
         return size
     signs = {bool(size.xreplace(at).evalf() > 0) for at in inside(limits, size.free_symbols)}
     if len(signs) > 1 and not size.free_symbols & {x for x, _, _ in limits}:
-        message = f"the letters leave open whether `{size}` is positive"
-        raise Rejected(Complaint("unknown-sign", message, help="give sizes that settle on which side it lies"))
+        message = f"the symbols do not determine whether `{size}` is positive"
+        raise Rejected(Complaint("unknown-sign", message, help="give sizes that determine its sign"))
     if len(signs) > 1:
-        message = f"the map covers some places twice: `{size}` has no one sign between the limits"
+        message = f"the map covers some places twice: `{size}` changes its sign between the limits"
         raise Rejected(Complaint("folded", message, help="give limits between which it covers each place once"))
     return size if signs == {True} else tidied(-size)
 
 
 def inside(limits: Bounds, others: Any = (), looks: int = LOOKS) -> Iterator[dict[Symbol, Expr]]:
-    """Values of the letters and of the variables somewhere between their limits, in order of the limits."""
+    """Values of the symbols and of the variables between their limits, in the order of the limits."""
     names = {x for x, _, _ in limits}
     letters = set(others) | {s for _, *ends in limits for end in ends for s in end.free_symbols}
     source = Random(len(letters))
@@ -150,7 +150,7 @@ def inside(limits: Bounds, others: Any = (), looks: int = LOOKS) -> Iterator[dic
 
 
 def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) -> dict[Symbol, Expr]:
-    """Values of the letters for which no variable has its upper limit below the lower one."""
+    """Values of the symbols for which no variable has its upper limit below the lower one."""
     for _ in range(TRIES):
         at: dict[Symbol, Expr] = {letter: Rational(source.randint(40, 160), 97) for letter in letters}
         known = dict(at)
@@ -162,12 +162,12 @@ def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) 
         else:
             return at
     (x, lower, upper), *_ = limits
-    message = f"the limits of the variables are not in order, or leave nothing between: `{x}` from {lower} to {upper}"
+    message = f"the limits of the variables are not in order, or enclose nothing: `{x}` from {lower} to {upper}"
     raise Rejected(Complaint("limits", message, help="give each variable as (lower, upper), the lower one first"))
 
 
 def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) -> tuple[ImmutableMatrix, Bounds]:
-    """The map as it is kept: variables real and of names that no letter has, limits that depend on earlier ones alone.
+    """The position map as stored: real variables whose names no symbol has, limits that depend on earlier ones only.
 
     position   three formulas
     limits     variable -> (lower, upper), outermost first
@@ -179,11 +179,11 @@ def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) ->
         later = set(list(limits)[i:]) & (lower.free_symbols | upper.free_symbols)
         if later:
             name = min(str(v) for v in later)
-            message = f"the limits of `{u}` hold `{name}`, which is not further out"
+            message = f"the limits of `{u}` contain `{name}`, which is not an outer variable"
             raise Rejected(Complaint("limits", message, help="name the outermost variable first"))
         if (upper - lower).is_nonpositive:
-            message = f"`{u}` goes from {lower} to {upper}, which leaves nothing between"
-            raise Rejected(Complaint("limits", message, help="the lower limit stands first"))
+            message = f"`{u}` goes from {lower} to {upper}, which is an empty interval"
+            raise Rejected(Complaint("limits", message, help="give the lower limit first"))
         found.append((fresh[u], lower.xreplace(fresh), upper.xreplace(fresh)))
     place = ImmutableDenseMatrix(3, 1, [as_expr(x).xreplace(fresh) for x in position])
     return place, tuple(found)

@@ -1,4 +1,4 @@
-"""Where a part of a body lies in the axes of the whole: a place for one of its points, a turn, or a cavity."""
+"""The position of a part in the body axes of the whole: a place for one of its points, a rotation, or a cavity."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class PlacedPart:
     """A body as a part of another.
 
     body       the part
-    of         the point of it that is held
-    position   where that point is, in the axes of the whole
-    turn       columns: the part's own axes along those of the whole
-    sign       1, or -1 for what is cut out
+    of         its point that keeps its place when the part is rotated
+    position   where that point is, in the body axes of the whole
+    turn       columns: the body axes of the part along those of the whole
+    sign       1, or -1 for a cavity
     """
 
     body: Any
@@ -35,36 +35,36 @@ class PlacedPart:
 
     def __post_init__(self) -> None:
         if not is_zero(self.turn.det() - 1):
-            raise Unverified(Complaint("unverified", "the axes of a part are turned, and not reflected"))
+            raise Unverified(Complaint("unverified", "the axes of a part are not a rotation of those of the whole"))
 
     @classmethod
     def as_it_lies(cls, body: Any) -> PlacedPart:
         return cls(body, body.reference, body.point(body.reference).position)
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """The same part with one of its points at a place, (x, y), (x, y, z) or what `point` gives."""
-        self.body.point(of)  # which says so, where the part has no such point
+        """The same part with one of its points at a place, (x, y), (x, y, z) or a value of `point`."""
+        self.body.point(of)  # raises an error if the part has no such point
         return replace(self, position=place_of(*place), of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """The same part turned right-handed by an angle about "x", "y" or "z", through the point that is held."""
+        """The same part rotated right-handed by an angle about "x", "y" or "z" through its fixed point."""
         turn = turn_about(axis, angle)
         made = replace(self, turn=ImmutableDenseMatrix(turn * self.turn))
         if any(not is_zero(way) for way in turn.T * made.turn - self.turn):
-            raise Unverified(Complaint("unverified", f"turned back about {axis}, the part is not as it was"))
+            raise Unverified(Complaint("unverified", f"the reverse rotation about {axis} does not restore the part"))
         return made
 
     def named(self, called: str) -> PlacedPart:
         return replace(self, body=self.body.named(called))
 
     def seen(self, place: ImmutableMatrix) -> ImmutableMatrix:
-        """Where a place of the part, in its own axes, is in those of the whole."""
+        """A place of the part, converted from its body axes to those of the whole."""
         held = self.body.point(self.of).position
         return ImmutableDenseMatrix((self.position + self.turn * (place - held)).expand())
 
     @property
     def centre(self) -> ImmutableMatrix:
-        """Its centre of mass in the axes of the whole."""
+        """Its centre of mass in the body axes of the whole."""
         return self.seen(self.body.middle.position)
 
     @property
@@ -74,7 +74,7 @@ class PlacedPart:
 
     @property
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Its particles where they are, of negative mass for what is cut out; turned and then shifted, as a check."""
+        """Its particles in place, of negative mass for a cavity; rotated and then shifted, as an independent check."""
         held = self.body.point(self.of).position
         shift = [self.position[i] - sum(self.turn[i, j] * held[j] for j in range(3)) for i in range(3)]
         turned = (
@@ -85,7 +85,7 @@ class PlacedPart:
 
 
 def place_of(*place: Any) -> ImmutableMatrix:
-    """A place in the axes of a body; of two components, one in the plane of x and y."""
+    """A place along the axes of a body; two components are in the plane of x and y."""
     if len(place) == 1:
         inside = getattr(place[0], "components", place[0])
         place = tuple(inside) if isinstance(inside, tuple | list) else place
@@ -96,21 +96,21 @@ def place_of(*place: Any) -> ImmutableMatrix:
 
 
 def turn_about(axis: Any, angle: Any) -> ImmutableMatrix:
-    """The right-handed turn about an axis, as a matrix."""
+    """The matrix of a right-handed rotation about an axis."""
     named = {(1, 0, 0): "x", (0, 1, 0): "y", (0, 0, 1): "z"}.get(tuple(getattr(axis, "components", ())), axis)
     if named not in ("x", "y", "z"):
-        raise Rejected(Complaint("no-such-axis", 'a turn is about "x", "y" or "z"'))
+        raise Rejected(Complaint("no-such-axis", 'a rotation is about "x", "y" or "z"'))
     i = "xyz".index(named)
     j, k = (i + 1) % 3, (i + 2) % 3
     turn = eye(3).as_mutable()
     turn[j, j], turn[j, k], turn[k, j], turn[k, k] = cos(angle), -sin(angle), sin(angle), cos(angle)
     if not turns_right_handed(turn, named, angle):
-        raise Unverified(Complaint("unverified", f"the turn about {named} by {angle} is another one"))
+        raise Unverified(Complaint("unverified", f"the matrix does not rotate about {named} by {angle}"))
     return ImmutableDenseMatrix(turn)
 
 
 def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
-    """Each unit vector goes to its part along the axis, and the rest turned: v cos + n x v sin."""
+    """Each unit vector keeps its component along the axis, and the rest rotates: v cos + n x v sin."""
     n = column(*(int(axis == other) for other in "xyz"))
     for k in range(3):
         v = column(*(int(k == i) for i in range(3)))
@@ -121,8 +121,8 @@ def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
 
 
 def name_of_body(called: str) -> str:
-    """One or two words, of which keys and indices are made."""
+    """Check that a name is one or two words; keys and indices derive from them."""
     if not re.fullmatch(r"[a-z]+( [a-z]+)?", called):
-        help_line = 'give one or two words in small letters, "upper rod"'
+        help_line = 'use one or two words of small letters, "upper rod"'
         raise Rejected(Complaint("name", f"`{called}` is not a name for a body", help=help_line))
     return called

@@ -1,8 +1,8 @@
-"""Where a body is, and how it is turned: freely by its centre of mass, or held at one of its points.
+"""The position and orientation of a body: free, by its centre of mass, or held at one of its points.
 
-In space it is turned as axes are; in a vertical plane by an angle about the normal, from right to up. There the axis
-of the body that lies across the plane points to the reader, and the two that follow it, in the order x, y, z, x, y,
-lie along the plane's own axes where the angle is zero.
+In space its orientation is a set of axes; in a vertical plane it is an angle about the normal, counterclockwise from
+right to up. There the axis of the body perpendicular to the plane points to the reader, and the next two, in the order
+x, y, z, x, y, are along the axes of the plane at zero angle.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ XYZ = "xyz"
 
 @dataclass(frozen=True)
 class PlacedBody:
-    """A body in a motion.
+    """A body in motion.
 
-    body     what has a mass, a centre of mass and an inertia about its points
+    body     an object with a mass, a centre of mass and an inertia about its points
     turned   axes, or for a motion in a plane the angle
     point    the point of the body whose place is known
     at       that place
-    across   in a plane, the number of the body's axis that lies across it
+    across   in a plane, the index of the body axis perpendicular to it
     """
 
     body: Any
@@ -49,7 +49,7 @@ class PlacedBody:
         return not isinstance(self.turned, Axes)
 
     def seen_in_space(self, arm: ImmutableMatrix) -> Location:
-        """A vector of the body, along the directions of space or of the plane."""
+        """A vector of the body, by its components along the axes of space or of the plane."""
         if isinstance(self.turned, Axes):
             return Location(tuple(self.turned.in_space * arm))
         j, k = self.in_plane
@@ -63,18 +63,18 @@ class PlacedBody:
 
     @cached_property
     def centre(self) -> Location:
-        """Where its centre of mass is."""
+        """The place of its centre of mass."""
         arm = ImmutableDenseMatrix((self.body.middle.position - self.point.position).expand())
         return self.at + self.seen_in_space(arm) if any(arm) else self.at
 
     @property
     def is_held(self) -> bool:
-        """Whether the point of the body that is known does not move."""
+        """Whether the point whose place is known does not move."""
         here = ImmutableDenseMatrix(self.at.components)
         return not coordinates_in(here) and TIME not in here.free_symbols
 
     def moved(self, values: Mapping[Symbol, Expr]) -> PlacedBody:
-        """The same, some coordinates being known by others."""
+        """The same body with expressions substituted for some coordinates."""
         at = self.at.with_values(values)
         if not isinstance(self.turned, Axes):
             return replace(self, at=at, turned=self.turned.subs(values))
@@ -83,13 +83,13 @@ class PlacedBody:
 
     @property
     def depends_on(self) -> ImmutableMatrix:
-        """All that its place and its turning are made of."""
+        """All components of its position and its orientation."""
         turning = list(self.turned.in_space) if isinstance(self.turned, Axes) else [self.turned]
         return ImmutableDenseMatrix([*self.at.components, *turning])
 
 
 def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
-    """The matrix of all turns, one after the other."""
+    """The matrix of successive rotations."""
     whole = turn_about(0, Integer(0))
     for i, angle in turns:
         whole = ImmutableDenseMatrix(whole * turn_about(i, angle))
@@ -97,18 +97,18 @@ def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
 
 
 class Placeable:
-    """What can be put somewhere, and turned."""
+    """A base class of bodies that can have a position and an orientation."""
 
     def placed(self, turned: Any, centre: Location, across: str | None = None) -> PlacedBody:
-        """The body with its centre of mass at a place, turned as axes are, or in a plane by an angle.
+        """The body with its centre of mass at a place, oriented by axes, or in a plane by an angle.
 
-        across   in a plane, the axis of the body that lies across it, where it is not clear
+        across   in a plane, the body axis perpendicular to it, if this is ambiguous
         """
         own: Any = self
         return _placed(own, turned, own.middle, centre, across)
 
     def held(self, turned: Any, at: Any, on: Location | None = None, across: str | None = None) -> PlacedBody:
-        """The body held at one of its points, by name or by components along its axes; at the origin unless said."""
+        """The body held at one of its points, by name or by components along its axes; at the origin by default."""
         own: Any = self
         by_name = getattr(own, "point_called", None) or own.point
         named = by_name(at) if isinstance(at, str) else _point_at(at)
@@ -118,17 +118,17 @@ class Placeable:
 
 def _point_at(components: Any) -> Point:
     if not isinstance(components, tuple | list) or len(components) != 3:
-        message = "a point of a body is a name, or three components along its axes"
+        message = "give a point of a body by its name, or by three components along its axes"
         raise Rejected(Complaint("wrong-argument", message))
     return Point("point", column(*components))
 
 
 def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -> PlacedBody:
     if not isinstance(at, Location):
-        raise Rejected(Complaint("wrong-argument", "a body is put at a place that `point` or `place` gives"))
+        raise Rejected(Complaint("wrong-argument", "the place of a body must be a value of `point` or `place`"))
     count = 3 if isinstance(turned, Axes) else 2
     if len(at.components) != count:
-        message = "a body turned as axes are needs a place in space, one turned by an angle a place in the plane"
+        message = "a body turned by axes needs a place in space; a body turned by an angle needs a place in the plane"
         raise Rejected(Complaint("wrong-argument", message))
     if isinstance(turned, Axes):
         if getattr(body, "is_plane", False):
@@ -138,7 +138,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
     try:
         angle = explicit(as_expr(turned))
     except TypeError:
-        raise Rejected(Complaint("wrong-argument", "a body is turned as axes are, or by an angle")) from None
+        raise Rejected(Complaint("wrong-argument", "a body is turned by axes, or by an angle")) from None
     number = _across(body, across)
     _check_turns(body, number, angle)
     if across is None:
@@ -147,18 +147,18 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
 
 
 def _check_turns(body: Any, number: int, angle: Expr) -> None:
-    """A body without inertia about the axis across the plane, a rod seen along its line, does not turn in it."""
+    """Reject the rotation of a body about an axis without moment of inertia, such as a rod about its line."""
     spread = central_second_moments(body)
     j, k = (number + 1) % 3, (number + 2) % 3
     if coordinates_in(angle) and tidied(spread[j, j] + spread[k, k]) == 0:
-        message = f"{body.name} has no moment of inertia about its own {XYZ[number]}, so it does not turn about that"
-        raise Rejected(Complaint("wrong-axis", message, help="put another of its axes across the plane"))
+        message = f"{body.name} has no moment of inertia about its {XYZ[number]} axis, so it cannot turn about that"
+        raise Rejected(Complaint("wrong-axis", message, help="put another of its axes perpendicular to the plane"))
 
 
 def _check_flat(body: Any, number: int) -> None:
-    """The axis that nobody named is one along which the body does not reach, or all of its axes are alike."""
+    """A default axis must have no extent of the body along it, unless all axes of the body are equivalent."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
-        message = f"{body.name} reaches along its own {XYZ[number]}, so that axis need not lie across the plane"
+        message = f"{body.name} extends along its {XYZ[number]} axis, so that need not be perpendicular to the plane"
         raise Rejected(
             Complaint(
                 "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
@@ -167,15 +167,15 @@ def _check_flat(body: Any, number: int) -> None:
 
 
 def _across(body: Any, named: str | None) -> int:
-    """Which axis of the body lies across the plane: what is said, or what alone makes sense."""
+    """The index of the body axis perpendicular to the plane: the named axis, or the only sensible one."""
     if named is not None and named not in tuple(XYZ):
-        message = f'no axis of a body is called "{named}"'
+        message = f'a body has no axis "{named}"'
         raise Rejected(Complaint("wrong-argument", message, help='it has "x", "y", "z"'))
     flat = getattr(body, "flat_across", None)
     straight = "x" if getattr(body, "filling", "") == "length" else None
     found = named or flat or straight or ("z" if getattr(body, "is_plane", False) or _is_isotropic(body) else None)
     if found is None:
-        message = f"about which axis {body.name} turns in the plane is not clear"
+        message = f"the axis about which {body.name} turns in the plane is ambiguous"
         raise Rejected(
             Complaint(
                 "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")

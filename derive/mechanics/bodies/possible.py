@@ -1,8 +1,8 @@
-"""What cannot be a body: a hole outside of it, parts that share a volume, a map that covers places twice, a density
-that changes sign, a negative mass or size.
+"""Checks for impossible bodies: a hole outside of the body, parts that share a volume, a position map that covers
+places twice, a density that changes its sign, a negative mass or size.
 
-Geometry is decided in numbers: points of one part are sought in another by Newton's method on its position map. A body
-is refused only where every draw of its letters shows it impossible, or the numbers of the problem do.
+The checks are numerical: Newton's method on the position map of one part looks for points of another part. A body is
+rejected only if it is impossible for every draw of its symbols, or for the numbers of the problem.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from derive.mechanics.bodies.charts import CLOSE, Chart, Place, draws
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.known_numbers import sign_known
 
-POINTS, TWINS = 40, 6  # of a part, and of a map
-APART = 1e-3  # of a range of a variable, by which two values of it differ
+POINTS, TWINS = 40, 6  # points of a part, and pairs of values for a map
+APART = 1e-3  # fraction of a variable's range by which two values of it differ
 
 
 def require_positive(body: str, role: str, value: Any) -> None:
-    """Refuse a mass or a size that is known to be zero or negative."""
+    """Reject a mass or a size that is known to be zero or negative."""
     if sign_known(explicit(value)) in (0, -1):
         message = f"{body} needs a positive {role}, but {value} is not positive"
         raise Rejected(Complaint("no-such-body", message))
@@ -35,7 +35,7 @@ def require_positive(body: str, role: str, value: Any) -> None:
 
 @dataclass(frozen=True)
 class Piece:
-    """A part of a body: what it is called, 1 or -1 for what is cut out, what it fills, and its position map."""
+    """A part of a body: its name, 1 or -1 for a cavity, its filling, and its position map."""
 
     called: str
     sign: int
@@ -52,7 +52,7 @@ class Piece:
 
 
 def _pieces(parts: Sequence[Any], sign: int = 1) -> Iterator[Piece]:
-    """The parts that are more than a particle, and those of parts that are made of parts."""
+    """The parts that are not particles, including the parts of composite parts."""
     for part in parts:
         for piece in _pieces(part.body.parts, sign * part.sign) if hasattr(part.body, "parts") else _own(part, sign):
             if hasattr(part.body, "parts"):
@@ -67,27 +67,27 @@ def _own(part: Any, sign: int) -> Iterator[Piece]:
 
 
 def check_parts(parts: Sequence[Any]) -> None:
-    """Refuse parts of which one is cut out where nothing is, or two of which fill the same volume."""
+    """Reject a hole that is not inside the body, and two parts that fill the same volume."""
     pieces = list(_pieces(parts))
     filled = [piece for piece in pieces if piece.sign > 0]
     for hole in (piece for piece in pieces if piece.sign < 0):
         around = [piece for piece in filled if piece.filling == hole.filling]
         if _always([hole, *around], lambda charts: _outside(charts[0], charts[1:])):
             message = f"`{hole.called}` is cut out of the body, but some of it lies outside of the body"
-            raise Rejected(Complaint("no-such-body", message, help="a hole lies within what it is cut out of"))
+            raise Rejected(Complaint("no-such-body", message, help="a hole must be inside the rest of the body"))
     solid = [piece for piece in filled if piece.filling == "volume"]
     for i, one in enumerate(solid):
         for other in solid[:i]:
             if _always([one, other], lambda charts: _inside(charts[0], charts[1])):
                 message = f"`{other.called}` and `{one.called}` fill the same place"
-                help_line = "cut the one out of the other, or place them side by side"
+                help_line = "cut one out of the other, or place them side by side"
                 raise Rejected(Complaint("no-such-body", message, help=help_line))
 
 
 def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Expr, negative_is_refused: bool) -> None:
-    """Refuse a map that covers places twice, and a density that is negative somewhere in the body.
+    """Reject a map that covers places twice, and a density that is negative somewhere in the body.
 
-    negative_is_refused   whether a density that is negative everywhere is refused too
+    negative_is_refused   whether a density that is negative everywhere is rejected too
     """
     names = {x for x, _, _ in limits}
     letters = (position.free_symbols | density.free_symbols) - names
@@ -95,18 +95,18 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
     drawn = list(draws(letters, [limits]))
     charts = [Chart.of(position, limits, at) for at in drawn]
     if charts and all(_covered_twice(chart) for chart in charts):
-        message = f"the map of this `{name}` covers places twice: different values of its variables give one place"
+        message = f"the map of this `{name}` covers places twice: different values of its variables give the same place"
         raise Rejected(Complaint("folded", message, help="give limits between which it covers each place once"))
     signs = [_signs(density, chart, at) for chart, at in zip(charts, drawn, strict=True)]
     if signs and all(found == {1, -1} for found in signs):
         message = f"the density {density} of this `{name}` is negative in a part of the body"
-        raise Rejected(Complaint("no-such-body", message, help="a density is positive throughout the body"))
+        raise Rejected(Complaint("no-such-body", message, help="a density must be positive throughout the body"))
     if signs and negative_is_refused and all(found == {-1} for found in signs):
         raise Rejected(Complaint("no-such-body", f"the density {density} of this `{name}` is negative"))
 
 
 def _always(pieces: Sequence[Piece], shown: Callable[[list[Chart]], bool]) -> bool:
-    """Whether it is shown for all numbers that the letters are given."""
+    """Whether the test is true for all draws of the symbols."""
     found = False
     letters = {s for piece in pieces for s in piece.letters}
     for at in draws(letters, [piece.limits for piece in pieces]):
@@ -114,21 +114,21 @@ def _always(pieces: Sequence[Piece], shown: Callable[[list[Chart]], bool]) -> bo
         try:
             if not shown(charts):
                 return False
-        except (TypeError, ValueError, OverflowError, ZeroDivisionError):  # these numbers have no such body
+        except (TypeError, ValueError, OverflowError, ZeroDivisionError):  # no such body exists for these numbers
             continue
         found = True
     return found
 
 
 def _outside(hole: Chart, around: Sequence[Chart]) -> bool:
-    """Whether some point of the hole lies in no part."""
+    """Whether some point of the hole is in no part."""
     points = [hole.place(*at) for at in hole.points(POINTS, Random(1))]
     outside = (point for point in points if all(next(chart.sought(point), None) is None for chart in around))
     return len(list(islice(outside, 2))) == 2
 
 
 def _inside(one: Chart, other: Chart) -> bool:
-    """Whether some point of the one lies within the other, or the other way round."""
+    """Whether some point of one is inside the other, or the reverse."""
     source = Random(2)
     for own, chart in ((one, other), (other, one)):
         if any(_strictly(chart, own.place(*at)) for at in own.points(POINTS, source)):
@@ -137,7 +137,7 @@ def _inside(one: Chart, other: Chart) -> bool:
 
 
 def _strictly(chart: Chart, point: Sequence[float]) -> bool:
-    """Whether a point lies in a body, and not on its surface alone."""
+    """Whether a point is inside a body, not on its surface."""
     return any(_is_between(chart, at) for at in chart.sought(point))
 
 
@@ -147,7 +147,7 @@ def _is_between(chart: Chart, at: Place) -> bool:
 
 
 def _covered_twice(chart: Chart) -> bool:
-    """Whether different values of the variables give one place, for some of some places."""
+    """Whether different values of the variables give the same place, for some of the sampled places."""
     try:
         return any(_has_twin(chart, at) for at in chart.points(TWINS, Random(3), margin=0.1))
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

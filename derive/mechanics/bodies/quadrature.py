@@ -1,6 +1,6 @@
-"""Integrals over a body in numbers, at values of its letters: a second way to what was integrated exactly.
+"""Numerical integrals over a body, at values of its symbols: a second route to exact integrals.
 
-The cell is that of the edges' scalar products, the root of det(r_i . r_j), and each variable runs between its limits by
+The cell is the root of det(r_i . r_j), from the scalar products of the edges, and each variable is integrated by
 Gauss's rule on x = m - h cos(pi t), which makes roots at the ends of an interval smooth.
 Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 4.6.
 """
@@ -22,10 +22,10 @@ from derive.algebra.expressions import explicit
 from derive.mechanics.bodies.mapping import inside, letters_in_order
 from derive.mechanics.bodies.regions import Bounds
 
-LETTERS = 2  # values of the letters that are tried
-NODES = {1: 60, 2: 28, 3: 20}  # of each variable, by how many there are
+LETTERS = 2  # values of the symbols that are tried
+NODES = {1: 60, 2: 28, 3: 20}  # for each variable, by the number of variables
 FIGURES = 7
-DIGITS = 36  # of small differences
+DIGITS = 36  # of precision in small differences
 
 
 @lru_cache(maxsize=8)
@@ -89,9 +89,9 @@ def _entries(of: Any) -> list[Any]:
 
 
 def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bounds) -> Verdict:
-    """Whether an exact value, or each entry of a matrix, is what the sums over cells give.
+    """Whether an exact value, or each entry of a matrix, agrees with the sums over cells.
 
-    integrands   one for each entry, functions of the variables and the letters
+    integrands   one for each entry, functions of the variables and the symbols
     """
     entries, wanted = ([explicit(e) for e in _entries(those)] for those in (value, integrands))
     names = {x for x, _, _ in limits}
@@ -112,7 +112,7 @@ def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bound
 
 
 def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
-    """Whether a signed volume is that which the edges of small cells span, as right- or left-handed as they are.
+    """Whether a signed volume agrees with the volume that the edges of small cells span, including its sign.
 
     Nothing is differentiated: the edges lead from a point to its neighbours somewhere between the limits.
     """
@@ -133,7 +133,7 @@ def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
 
 
 def _edge(place: Callable[..., Any], here: Sequence[Any], k: int) -> list[Any]:
-    """From a point to its neighbour, per unit of the variable."""
+    """The edge from a point to its neighbour, per unit of the variable."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     ends = ([x + turn * step * (i == k) for i, x in enumerate(here)] for turn in (1, -1))
     return [(one - other) / (2 * step) for one, other in zip(*(place(*end) for end in ends), strict=True)]

@@ -1,6 +1,6 @@
-"""Regions of space that bodies fill, and the coordinates in which one integrates over them.
+"""Regions of space that bodies fill, and the coordinates for integrals over them.
 
-A region knows its limits, where a point is in its coordinates, and the factor that makes products of differentials
+A region contains its limits, the position in its coordinates, and the factor that turns products of differentials
 into volume (area, length): r for cylindrical coordinates.
 """
 
@@ -19,7 +19,7 @@ from derive.steps.record import named_coordinates
 
 Bounds = tuple[tuple[Symbol, Expr, Expr], ...]
 
-OTHERS = {  # what a coordinate may be called besides
+OTHERS = {  # alternative names of a coordinate
     "x": ("xi",),
     "y": ("eta",),
     "z": ("zeta",),
@@ -37,9 +37,9 @@ ALONG = ImmutableDenseMatrix(eye(3))  # the body's own axes
 
 @dataclass(frozen=True)
 class Point:
-    """A named point of a body, in the body's own axes, and the directions in which positions from it are counted.
+    """A named point of a body, along the body axes, and the directions for positions measured from it.
 
-    axes    columns: the unit vectors along which x, y and z are counted from here, in the body's own axes
+    axes    columns: the unit vectors of x, y and z for positions from this point, along the body axes
     """
 
     name: str
@@ -47,17 +47,17 @@ class Point:
     axes: ImmutableMatrix = ALONG
 
     def seen(self, place: ImmutableMatrix) -> ImmutableMatrix:
-        """Where a place of the body is, from here and along these axes."""
+        """A place of the body, relative to this point and along these axes."""
         way = place - self.position
         return ImmutableDenseMatrix((way if self.axes == ALONG else self.axes.T * way).expand())
 
     def interval(self, lower: Expr, upper: Expr) -> tuple[Expr, Expr]:
-        """Bounds along the body's z as limits of z from here."""
+        """Limits along the body's z, converted to limits of z from this point."""
         ends = [self.seen(column(self.position[0], self.position[1], end))[2] for end in (lower, upper)]
         return (ends[0], ends[1]) if self.axes[2, 2] == 1 else (ends[1], ends[0])
 
     def along_body(self, z: Expr) -> Expr:
-        """The body's z of a point whose z from here is given."""
+        """The body's z of a point with a given z from this point."""
         return self.position[2] + self.axes[2, 2] * z
 
 
@@ -65,7 +65,7 @@ class Point:
 class Region:
     """Bounds, outermost first; the position of a point and the element of volume in the same coordinates.
 
-    section     the name in the limits for the radius of a cross-section, and what it stands for, if there is one
+    section     the name in the limits for the radius of a cross-section, and its value, if there is one
     """
 
     limits: Bounds
@@ -79,27 +79,27 @@ class Region:
 
     @property
     def has_mirrors(self) -> bool:
-        """Whether it lies between opposite limits of x, of y and of z, so that the plane across each is a mirror."""
+        """Whether it is between opposite limits of x, of y and of z, so the plane across each is a mirror plane."""
         names = self.names
         opposite = all(lower == -upper and not upper.has(*names) for _, lower, upper in self.limits)
         return opposite and all(x in (*names, 0) for x in self.position) and not self.element.has(*names)
 
     def integral(self, integrand: Expr) -> Integral:
-        """The integral of a function of the coordinates, not yet carried out."""
+        """The unevaluated integral of a function of the coordinates."""
         return Integral(integrand * self.element, *reversed(self.limits))
 
     def mass_integral(self, integrand: Any, density: Expr) -> MassIntegral:
-        """The integral of f(r) dm, f written with the name r."""
+        """The integral of f(r) dm, with f written in terms of the symbol r."""
         inward = [Tuple(*limit) for limit in reversed(self.limits)]
         whole: MassIntegral = MassIntegral(integrand, vector("r"), density, self.position, self.element, *inward)
         return whole
 
     def with_named_section(self, taken: Collection[Symbol], primed: str = "") -> Region:
-        """The same in cylindrical coordinates, the distance from the axis called s and a limit of it that varies along
-        the axis r.
+        """The same region in cylindrical coordinates: s is the distance from the axis, and r is its limit, if this
+        varies along the axis.
 
-        taken    letters that neither can have
-        primed   the mark behind r, if one
+        taken    symbols that neither can have
+        primed   the mark after r, if there is one
         """
         z, angle, (out, lower, upper) = self.limits
         if not upper.has(z[0]):
@@ -107,12 +107,12 @@ class Region:
         (s, named) = coordinates(("s", "r"), {*taken, z[0], angle[0]})
         r = Symbol(named.name + primed, nonnegative=True)
         position = ImmutableDenseMatrix(self.position.xreplace({out: s}))
-        if position[1] == -s * sin(angle[0]):  # counted the other way round, which changes no limit of a whole turn
+        if position[1] == -s * sin(angle[0]):  # measured in the opposite sense, which changes no limit of a full circle
             position = ImmutableDenseMatrix([position[0], -position[1], position[2]])
         return Region((z, angle, (s, lower, r)), position, self.element.xreplace({out: s}), section=(r, upper))
 
     def with_section_put_in(self) -> Region:
-        """The same region, its limits written with what the radius of the cross-section stands for."""
+        """The same region, with the value of the cross-section's radius substituted in its limits."""
         if self.section is None:
             return self
         values = dict([self.section])
@@ -121,7 +121,7 @@ class Region:
 
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
-    """Names of coordinates that no given letter and no coordinate of a system looks like: r, or else s."""
+    """Names of coordinates that resemble no given symbol and no other coordinate: r, or else s."""
     letters = {letter.name for letter in (*taken, *named_coordinates())}
     found: list[str] = []
     wanted = list(names)
@@ -136,7 +136,7 @@ def round_by_chords(
 ) -> Region:
     """All points within radius_at(z) of the body's z axis, z between two ends, by x, y and z from a point.
 
-    primed   the mark behind the letter of the radius, if one
+    primed   the mark after the symbol of the radius, if there is one
     """
     taken = {letter for end in ends for letter in end.free_symbols | radius_at(end).free_symbols}
     z, x, y = coordinates("zxy", taken)
@@ -151,11 +151,11 @@ def round_by_chords(
 
 
 def _check_sign(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr]) -> None:
-    """The ends of a chord are in order only where its radius is not negative."""
+    """Require that the radius is not negative, since only then are the ends of a chord in order."""
     unsure = next((radius for radius in map(radius_at, ends) if not radius.is_nonnegative), None)
     if unsure is not None:
-        message = f"the radius `{unsure}` is not known to be positive, as Cartesian limits need"
-        help_line = "give it a letter of its own, or use cylindrical coordinates"
+        message = f"the radius `{unsure}` may be negative, but Cartesian limits need a positive radius"
+        help_line = "give it a separate symbol, or use cylindrical coordinates"
         raise Rejected(Complaint("unknown-sign", message, help=help_line))
 
 

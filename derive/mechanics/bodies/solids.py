@@ -1,4 +1,4 @@
-"""Solids: with mass in a volume. Those that are round have their axis along z."""
+"""Solids: bodies with mass in a volume. Round solids have their axis along z."""
 
 from __future__ import annotations
 
@@ -47,14 +47,14 @@ __all__ = [
     "volume",
 ]
 
-UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x: z is counted the other way
+UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x, which reverses z
 
 
 # --- round, by the radius at each height -----------------------------------------------------------------------------
 
 
 class RoundSolid(RoundBody):
-    """A body that is all points within a certain distance of a piece of the z axis."""
+    """A body of all points within a given distance of a segment of the z axis, where the distance depends on z."""
 
     systems = ("cylindrical", "cartesian")
 
@@ -66,17 +66,17 @@ class RoundSolid(RoundBody):
         if not self.called or found.section is None:
             return found
         (r, edge), limits = found.section, found.limits
-        own = with_name(self.called, "r", r)[1]  # as its step calls it
+        own = with_name(self.called, "r", r)[1]  # as its step names it
         limits = tuple((x, low.xreplace({r: own}), up.xreplace({r: own})) for x, low, up in limits)
         return replace(found, limits=limits, section=(own, edge))
 
     def _primed(self, point: Point) -> str:
-        """The mark of what is counted from elsewhere than where its own axes begin, and the index of a named body."""
+        """A prime if z is measured from a point other than the origin of the body axes; the index of a named body."""
         index = f"_{self.called.partition(' ')[0]}" if self.called else ""
         return index if point.name == self.reference else f"'{index}"
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
-        """Two expressions that are equal where (r, z), in its own axes, is on its edge."""
+        """Two expressions that are equal where (r, z), along the body axes, is on the edge of the body."""
         raise AttributeError(f"{type(self).__name__} must say where its edge is")
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
@@ -97,7 +97,7 @@ class Cone(OfHeight, RoundSolid):
     radius   of the base, length
     height   length
     mass     mass
-    Points: apex; base (its centre, from which z is counted towards the apex); centre.
+    Points: apex; base (its centre, from which z is measured towards the apex); centre.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
 
@@ -119,10 +119,10 @@ class Cone(OfHeight, RoundSolid):
 
     def particles(self) -> Particles:
         """One twentieth of the mass at the apex, four fifths as a disc at three quarters of the height, and three
-        twentieths as a disc at the base; each disc as five particles.
+        twentieths as a disc at the base; five particles for each disc.
 
-        With weights 1, 16 and 3 of 20 the heights 0, 3/4 and 1 have the moments 1, 3/4 and 3/5 that the slices of a
-        cone have, since their masses grow as the square of the height.
+        With weights 1, 16 and 3 of 20 the heights 0, 3/4 and 1 have the moments 1, 3/4 and 3/5 of a cone's slices,
+        whose masses grow as the square of the height.
         """
         found = [(self.mass / 20, ORIGIN)]
         for share, height in ((Rational(4, 5), Rational(3, 4)), (Rational(3, 20), Integer(1))):
@@ -130,7 +130,7 @@ class Cone(OfHeight, RoundSolid):
         return found
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
-        """Apex, edge and rim are on one line: the slopes are equal."""
+        """Apex, edge and rim are on a line, so the slopes are equal."""
         return r * self.height, self.radius * z
 
 
@@ -140,7 +140,7 @@ class Cylinder(OfHeight, RoundSolid):
     radius   length
     height   length
     mass     mass
-    Points: base (the centre of the one at the origin), centre.
+    Points: base (its centre, at the origin), centre.
     """
 
     name, seen_as, reference = "a cylinder", "a circular cylinder", "base"
@@ -153,7 +153,7 @@ class Cylinder(OfHeight, RoundSolid):
         return Factors(pi, self.radius**2, self.height)
 
     def particles(self) -> Particles:
-        """Discs of equal mass at equal heights."""
+        """Discs spread evenly along z."""
         return drawn_out(disc_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 
@@ -204,7 +204,7 @@ class Hemisphere(Ball):
         return ZERO, self.radius
 
     def particles(self) -> Particles:
-        """Discs whose masses are as the squares of their radii."""
+        """Discs whose masses are proportional to the squares of their radii."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: self.radius**2 - z**2)
 
 
@@ -218,7 +218,7 @@ class Tube(Body):
     inner, outer   radii, lengths
     height         length
     mass           mass
-    Points: base (the centre of the one at the origin), centre.
+    Points: base (its centre, at the origin), centre.
     """
 
     inner: Expr
@@ -243,13 +243,13 @@ class Tube(Body):
         return cylindrical(self.letters, (0, self.height), (self.inner, self.outer))
 
     def whole_and_removed(self) -> tuple[Cylinder, Cylinder]:
-        """A cylinder and the cylinder that was taken out, their masses as the squares of their radii."""
+        """A cylinder and the removed cylinder, their masses proportional to the squares of their radii."""
         across = self.outer**2 - self.inner**2
         whole, removed = (Cylinder(r, self.height, self.mass * r**2 / across) for r in (self.outer, self.inner))
         return whole, removed
 
     def particles(self) -> Particles:
-        """The one less the other."""
+        """The particles of the whole, minus those of the removed part."""
         whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 
@@ -271,13 +271,13 @@ class ThickShell(Hollow):
         return spherical(self.letters, (self.inner, self.outer))
 
     def whole_and_removed(self) -> tuple[Ball, Ball]:
-        """A ball and the ball that was taken out, their masses as the cubes of their radii."""
+        """A ball and the removed ball, their masses proportional to the cubes of their radii."""
         between = self.outer**3 - self.inner**3
         whole, removed = (Ball(r, self.mass * r**3 / between) for r in (self.outer, self.inner))
         return whole, removed
 
     def particles(self) -> Particles:
-        """The one less the other."""
+        """The particles of the whole, minus those of the removed part."""
         whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 
@@ -302,7 +302,7 @@ class HalfCylinder(OfHeight):
         return cylindrical(self.letters, (0, self.height), (0, self.radius), (0, pi))
 
     def particles(self) -> Particles:
-        """Half-discs of equal mass at equal heights."""
+        """Half-discs spread evenly along z."""
         return drawn_out(HalfDisc(self.radius, self.mass).particles(), (ZERO, self.height))
 
 
@@ -323,11 +323,11 @@ class Ellipsoid(Body):
         return Factors(Rational(4, 3), pi, *self.semi_axes)
 
     def map(self) -> Map:
-        """A ball of radius 1, stretched along each axis."""
+        """A ball of radius 1, scaled along each axis."""
         return spherical(self.letters, (0, 1), by=self.semi_axes)
 
     def particles(self) -> Particles:
-        """Those of a ball of radius 1, stretched as the ball is."""
+        """The particles of a ball of radius 1, scaled as the ball is."""
         return stretched(Ball(Integer(1), self.mass).particles(), self.semi_axes)
 
 
@@ -351,7 +351,7 @@ class Torus(Body):
 
     @property
     def extent(self) -> Expr:
-        """By Pappus, the area of the cross-section times the way of its middle."""
+        """By Pappus, the area of the cross-section times the path length of its centre."""
         return Factors(2, pi**2, self.radius, self.section**2)
 
     def map(self) -> Map:
@@ -362,7 +362,7 @@ class Torus(Body):
         return column(across * cos(phi), across * sin(phi), s * sin(u)), limits
 
     def particles(self) -> Particles:
-        """Rings through the five particles of the cross-section, each with a mass that grows as its radius."""
+        """Rings through the five particles of the cross-section; the mass of each is proportional to its radius."""
         found: Particles = []
         for share, place in disc_of_particles(self.mass, self.section, ZERO):
             radius = self.radius + place[0]
@@ -384,7 +384,7 @@ def volume(body: Cone) -> Quantity:
     """Volume of a cone, V = integral of dV.
 
     body    radius R, height h
-    Second route: Pappus, the area of half its section times the way that the centroid of the half goes.
+    Second route: Pappus, the area of half its section times the path length of the centroid of that half.
     Outcomes: cylindrical (the coordinates of the integral).
     Source: Apostol, *Calculus*, volume 2, section 11.18 (theorem of Pappus).
     """
@@ -415,7 +415,7 @@ def _by_pappus(body: Cone) -> Expr:
 
 
 def _is_of_a_ball(radius: Expr, along: Symbol) -> bool:
-    """r^2 + (z - c)^2 is the same everywhere: the cross-sections are those of a ball."""
+    """r^2 + (z - c)^2 is constant: the cross-sections are those of a ball."""
     return is_zero(diff(explicit(radius) ** 2, along, 2) + 2)
 
 
@@ -434,7 +434,7 @@ SECTION_RADIUS = Rule(
 
 
 def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
-    """The radius of the cross-section at z from a point of the axis: R (h - z)/h, or sqrt(R^2 - z^2)."""
+    """The radius of the cross-section at z, measured from a point of the axis: R (h - z)/h, or sqrt(R^2 - z^2)."""
     symbol, value = region.section or (None, None)
     z = region.names[0]
     polar = _polar_coordinates(region)
@@ -458,7 +458,7 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
 
 
 def _polar_coordinates(region: Region) -> dict[str, tuple[Expr, Expr]]:
-    """x = s cos theta and y = s sin theta, of a region that is told by them."""
+    """x = s cos theta and y = s sin theta, for a region in these coordinates."""
     if region.element == 1:
         return {}
     _, theta, s = region.names

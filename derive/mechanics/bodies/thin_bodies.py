@@ -1,4 +1,4 @@
-"""Thin bodies: with mass on a line, on a piece of a plane, or on a curved surface."""
+"""Thin bodies: mass on a line, on a part of a plane, or on a curved surface."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Rod(RoundBody):
 
     length   length
     mass     mass
-    Points: end, centre. Its moment about its own axis is zero: all of its mass is there.
+    Points: end, centre. Its moment about its axis is zero, since all of its mass is there.
     """
 
     length: Expr
@@ -69,7 +69,7 @@ class Rod(RoundBody):
 
 
 class _Flat(OfRadius, RoundBody):
-    """Across the z axis, as far as its radius."""
+    """A flat body perpendicular to the z axis, as far as its radius."""
 
     systems = ("cylindrical",)
 
@@ -85,7 +85,7 @@ class _Flat(OfRadius, RoundBody):
 
 
 class Hoop(_Flat):
-    """A thin uniform ring across the z axis, its centre at the origin.
+    """A thin uniform ring perpendicular to the z axis, its centre at the origin.
 
     radius   length
     mass     mass
@@ -103,7 +103,7 @@ class Hoop(_Flat):
 
 @dataclass(frozen=True)
 class Arc(Body):
-    """A thin uniform wire bent to a piece of a circle in the plane of x and y, which the x axis halves.
+    """A thin uniform wire in the shape of a circular arc in the plane of x and y, which the x axis bisects.
 
     radius       length
     half_angle   from the x axis to either end, an angle up to pi: pi/2 for half a circle
@@ -121,7 +121,7 @@ class Arc(Body):
     def __post_init__(self) -> None:
         super().__post_init__()
         if (self.half_angle - pi).is_nonnegative or self.half_angle.is_nonpositive:
-            message = f"an arc of the half angle {self.half_angle} is not a piece of a circle"
+            message = f"an arc with the half angle {self.half_angle} is not a part of a circle"
             raise Rejected(Complaint("sizes", message, help="a whole circle is a `Hoop`"))
 
     @property
@@ -133,8 +133,8 @@ class Arc(Body):
         return cylindrical(self.letters, ZERO, self.radius, (-self.half_angle, self.half_angle))
 
     def particles(self) -> Particles:
-        """With x ds = R dy, the first moment is R times the chord, and the second R times the area between arc and y
-        axis, that of a sector and of a triangle."""
+        """With x ds = R dy, the first moment is R times the chord, and the second is R times the area between the arc
+        and the y axis, which is that of a sector and a triangle."""
         R, alpha = self.radius, self.half_angle
         sector, triangle = alpha * R**2, R**2 * sin(alpha) * cos(alpha)
         along = self.mass * (sector + triangle) / (2 * alpha)
@@ -142,11 +142,11 @@ class Arc(Body):
         return from_moments(self.mass, centre, about_origin=(along, self.mass * R**2 - along, ZERO))
 
 
-# --- pieces of a plane -----------------------------------------------------------------------------------------------
+# --- parts of a plane ------------------------------------------------------------------------------------------------
 
 
 class Disc(_Flat):
-    """A thin uniform circular disc across the z axis, its centre at the origin.
+    """A thin uniform circular disc perpendicular to the z axis, its centre at the origin.
 
     radius   length
     mass     mass
@@ -163,7 +163,7 @@ class Disc(_Flat):
 
 
 class Annulus(Hollow):
-    """A thin uniform disc with a round hole, across the z axis, its centre at the origin.
+    """A thin uniform disc with a round hole, perpendicular to the z axis, its centre at the origin.
 
     inner, outer   radii, lengths
     mass           mass
@@ -183,13 +183,13 @@ class Annulus(Hollow):
         return cylindrical(self.letters, ZERO, (self.inner, self.outer))
 
     def whole_and_removed(self) -> tuple[Disc, Disc]:
-        """A disc and the disc that was cut out, their masses as the squares of their radii."""
+        """A disc and the removed disc, their masses proportional to the squares of their radii."""
         across = self.outer**2 - self.inner**2
         whole, removed = (Disc(r, self.mass * r**2 / across) for r in (self.outer, self.inner))
         return whole, removed
 
     def particles(self) -> Particles:
-        """The one less the other."""
+        """The particles of the whole, minus those of the removed part."""
         whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 
@@ -213,8 +213,8 @@ class HalfDisc(OfRadius):
         return cylindrical(self.letters, ZERO, (0, self.radius), (0, pi))
 
     def particles(self) -> Particles:
-        """By Pappus: turned about its diameter it is a ball, 4/3 pi R^3 = 2 pi y_C (pi R^2/2). Its second moments about
-        the diameter and across it are those of a whole disc of its mass."""
+        """By Pappus: revolved about its diameter it is a ball, 4/3 pi R^3 = 2 pi y_C (pi R^2/2). Its second moments
+        about the diameter and across it are those of a whole disc of the same mass."""
         square = self.mass * self.radius**2 / 4
         centre = column(0, Rational(4, 3) * self.radius / pi, 0)
         return from_moments(self.mass, centre, about_origin=(square, square, ZERO))
@@ -298,7 +298,7 @@ class CylindricalShell(OfHeight, RoundBody):
         return Factors(2, pi, self.radius, self.height)
 
     def particles(self) -> Particles:
-        """Rings of equal mass at equal heights."""
+        """Rings spread evenly along z."""
         return drawn_out(ring_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 
@@ -321,5 +321,5 @@ class ConicalShell(OfHeight, RoundBody):
         return Factors(pi, self.radius, sqrt(self.radius**2 + self.height**2))
 
     def particles(self) -> Particles:
-        """Rings whose masses grow as their radii."""
+        """Rings whose masses are proportional to their radii."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: z, ring_of_particles)

@@ -1,4 +1,4 @@
-"""Poisson brackets of functions of coordinates and momenta, and what they tell of the motion."""
+"""Poisson brackets of functions of coordinates and momenta, and their meaning for the motion."""
 
 from __future__ import annotations
 
@@ -43,21 +43,21 @@ def poisson_bracket(
 ) -> Quantity:
     """Poisson bracket, {f, g} = sum of df/dq dg/dp - df/dp dg/dq.
 
-    f, g          functions of coordinates and momenta: steps, or formulas in `x` and what `conjugate(x)` yields
-    coordinates   all of them, unless f or g is a Hamiltonian, which knows its own
-    among         steps by whose letters the result is told, where it is one of them times a number
-    Second route: the rules {q, p} = 1, {f + h, g}, {f h, g} and those of functions, applied to the formula; where g is
-    a Hamiltonian, the bracket and the partial derivative by the time are the rate of f along every motion, by
-    functions of time and d'Alembert's principle.
+    f, g          functions of coordinates and momenta: steps, or formulas in `x` and `conjugate(x)`
+    coordinates   all of them; not needed if f or g is a Hamiltonian, which has coordinates
+    among         steps whose symbols replace the result, if it is one of them times a number
+    Second route: the rules {q, p} = 1, {f + h, g}, {f h, g} and those of functions, applied to the formula; if g is a
+    Hamiltonian, the bracket plus the partial derivative by time is the rate of f along every motion, by functions of
+    time and d'Alembert's principle.
     Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero, generic.
-    Errors: it is not told which coordinates there are; f or g holds a rate.
+    Errors: the coordinates are not given; f or g contains a rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 9.5.
     """
     known = [of.needed(PhaseSpace) for of in (f, g) if isinstance(of, Quantity) and of.fact(PhaseSpace)]
     of_all = coordinates or (known[0].coordinates if known else ())
     if not of_all:
         help_line = "give the coordinates after the two functions: `poisson_bracket(f, g, x, y)`"
-        raise Rejected(Complaint("wrong-argument", "`poisson_bracket` needs to know the coordinates", help=help_line))
+        raise Rejected(Complaint("wrong-argument", "`poisson_bracket` needs the coordinates", help=help_line))
     pairs = [(q.symbol, letter_of_momentum(q)) for q in of_all]
     one, other = (_function(each, pairs) for each in (f, g))
     names = [each.symbol if isinstance(each, Quantity) else each for each in (one, other)]
@@ -84,7 +84,7 @@ def poisson_bracket(
 
     value = _written(law(values[0], values[1]))
     worked = [sign * Factors(diff(values[0], u), diff(values[1], v)) for sign, u, v in derivatives]
-    plain = isinstance(one, Symbol) or isinstance(other, Symbol)  # whose derivatives are not worth a line
+    plain = isinstance(one, Symbol) or isinstance(other, Symbol)  # the derivatives by a symbol need no line
     return establish(
         POISSON_BRACKET,
         PoissonBracket(*names, *flat),
@@ -118,13 +118,13 @@ def _letters(coordinates: Sequence[Coordinate]) -> dict[Symbol, str]:
 
 
 def _called(of: Any) -> str:
-    """What a key calls a function: that of its step, its letter, or nothing better than its place."""
+    """The name of a function in a key: that of its step, its symbol, or else its position."""
     name = of.key if isinstance(of, Quantity) else str(getattr(of, "symbol", of))
     return name if name.isidentifier() else "formula"
 
 
 def _function(of: Any, pairs: Pairs) -> Any:
-    """A function of coordinates and momenta; what holds rates is none."""
+    """A function of coordinates and momenta; an expression with rates is rejected."""
     found = of.symbol if isinstance(of, Coordinate) else of
     value = value_behind(found)
     if not isinstance(value, Expr):
@@ -132,13 +132,13 @@ def _function(of: Any, pairs: Pairs) -> Any:
     rates = [v for q, p in pairs for v in (rate(q), rate(p)) if explicit(value).has(v)]
     if rates:
         name = f"`{of.key}`" if isinstance(of, Quantity) else str(value)
-        message = f"`poisson_bracket` needs functions of coordinates and momenta, but {name} holds {rates[0].name}"
-        raise Rejected(Complaint("wrong-argument", message, help="`in_momenta(f, H)` writes its rates by the momenta"))
+        message = f"`poisson_bracket` needs functions of coordinates and momenta, but {name} contains {rates[0].name}"
+        raise Rejected(Complaint("wrong-argument", message, help="use `in_momenta(f, H)` to replace its rates"))
     return found
 
 
 def _derivatives(f: Expr, g: Expr, pairs: Pairs) -> list[tuple[Integer, Symbol, Symbol]]:
-    """By what f and g are differentiated in each product, with the sign before it, but for those that vanish."""
+    """The variables by which f and g are differentiated in each product that does not vanish, with its sign."""
     found: list[tuple[Integer, Symbol, Symbol]] = []
     for q, p in pairs:
         for sign, u, v in ((Integer(1), q, p), (Integer(-1), p, q)):
@@ -163,7 +163,7 @@ def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
 
 
 def _by_rules(f: Expr, g: Expr, pairs: dict[Symbol, Symbol]) -> Expr:
-    """The bracket from {q, p} = 1 alone: linear, a derivation in each place, of the other sign in the other order."""
+    """The bracket, only from {q, p} = 1, linearity, the product rule in each argument, and antisymmetry."""
     letters = {*pairs, *pairs.values()}
 
     def bracket(f: Expr, g: Expr) -> Expr:
@@ -181,7 +181,7 @@ def _of_letters(f: Symbol, g: Symbol, pairs: dict[Symbol, Symbol]) -> Expr:
 
 
 def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
-    """Of a sum, a product, a power, a sine or a cosine: each part with what stands before its bracket."""
+    """Each part of a sum, product, power, sine or cosine, with the factor of the part's bracket."""
     if f.is_Add:
         return [(Integer(1), term) for term in f.args]
     if f.is_Mul:
@@ -196,7 +196,7 @@ def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
 
 
 def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Expr]:
-    """df/dt by functions of time, the accelerations taken out by d'Alembert's sums, each with the factor df/dp."""
+    """df/dt by functions of time, with accelerations eliminated by d'Alembert's sums, each with the factor df/dp."""
     matter = space.lagrangian.needed(Matter)
     in_rates = space.in_rates
     moving = [q for q, _ in space.pairs]

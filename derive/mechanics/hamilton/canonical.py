@@ -1,4 +1,4 @@
-"""The Hamiltonian and Hamilton's equations: the motion told by coordinates and momenta."""
+"""The Hamiltonian and Hamilton's equations: the motion in coordinates and momenta."""
 
 from __future__ import annotations
 
@@ -42,17 +42,17 @@ HAMILTONIAN = Rule(
 
 
 def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian") -> Quantity:
-    """Hamiltonian, H(q, p, t) = sum of p q_dot - L with the rates written by the momenta.
+    """Hamiltonian, H(q, p, t) = sum of p q_dot - L with the rates in terms of the momenta.
 
     of   the Lagrangian, J
-    The momenta and the rates that belong to them are steps of their own.
-    Second route: T_2 - T_0 + U, with the parts of T of degree 2 and 0 in the rates; and with the momenta in it dH/dp is
-    q_dot, and -dH/dq is the sum of F . dr/dq, of forces F with a potential energy, and of m v . d(dr/dq)/dt; where L is
-    given, the sum of p dH/dp, less H, is L again with the momenta put in.
+    Steps derive the momenta and the corresponding rates.
+    Second route: T_2 - T_0 + U, with the parts of T of degree 2 and 0 in the rates; and with substituted momenta dH/dp
+    is q_dot, and -dH/dq is the sum of F . dr/dq, for forces F with a potential energy, and of m v . d(dr/dq)/dt; for a
+    given L, the sum of p dH/dp, minus H, is L again with substituted momenta.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U);
+    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (and not T + U);
     given_conserved, given_changing, given_work (L is given).
-    Errors: the momenta do not determine the rates, or too many would have to be solved together.
+    Errors: the momenta do not determine the rates, or too many must be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     moving = coordinates_of(of)
@@ -115,14 +115,14 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
 
 
 def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
-    """Hamilton's equations, q_dot = dH/dp_q and p_q_dot = -dH/dq for each coordinate; with forces that have no
-    potential energy, and those that keep constraints, p_q_dot = -dH/dq + Q + sum of lambda df/dq.
+    """Hamilton's equations, q_dot = dH/dp_q and p_q_dot = -dH/dq for each coordinate; with constraint forces, and with
+    forces without a potential energy, p_q_dot = -dH/dq + Q + sum of lambda df/dq.
 
     of   the Hamiltonian, J
     Keys: canonical_ and the name of the coordinate, or of the momentum.
-    Second route: with the momenta put in, the first is the rate itself, and the second is
-    d'Alembert's principle, sum of (m a - F) . dr/dq = 0.
-    Outcomes: rate (the first), force (the second), cyclic (the second where H does not contain q), applied (with such
+    Second route: with substituted momenta, the first equation gives the rate itself, and the second is d'Alembert's
+    principle, sum of (m a - F) . dr/dq = 0.
+    Outcomes: rate (the first), force (the second), cyclic (the second if H does not contain q), applied (with such
     forces).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1 and problem 8.4.
     """
@@ -133,7 +133,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 
 
 def _with_mark(found: Relation, values: Sequence[Expr]) -> ImmutableDenseMatrix:
-    """What a route compares of an equation, and that it is one."""
+    """The values that a route compares for an equation, and a check that it is an equation."""
     return ImmutableDenseMatrix([*values, int(found.mark == "=")])
 
 
@@ -213,7 +213,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
 
 
 def _by_terms(found: Relation, letters: Sequence[Symbol]) -> Relation:
-    """What holds momenta term by term, as it was differentiated, and the rest together."""
+    """Terms with momenta one by one, as they were differentiated, and the other terms together."""
     right = explicit(found.right)
     terms = Add.make_args(right)
     moving, rest = ([term for term in terms if term.has(*letters) == held] for held in (True, False))
@@ -228,19 +228,19 @@ IN_MOMENTA = Rule(
 
 
 def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quantity:
-    """A quantity of the motion with its rates written by the momenta: x p_y - y p_x for m (x y_dot - y x_dot).
+    """A quantity of the motion with its rates in terms of the momenta: x p_y - y p_x for m (x y_dot - y x_dot).
 
     quantity   a scalar in coordinates and rates of the same motion
     of         the Hamiltonian, J
-    Check: with the momenta put in, it is what it was.
-    Errors: the Hamiltonian is that of another motion; the quantity holds no rate.
+    Check: with substituted momenta it is the original quantity.
+    Errors: the Hamiltonian is that of another motion; the quantity contains no rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     space = of.needed(PhaseSpace)
     rates = {parent.symbol: parent for parent in of.parents if parent.symbol in {q.rate for q in space.coordinates}}
     present: Sequence[Quantity] = [v for symbol, v in rates.items() if explicit(quantity.value).has(symbol)]
     if not present:
-        message = f"`in_momenta`: `{quantity.key}` holds no rate of the coordinates of `{of.key}`"
+        message = f"`in_momenta`: `{quantity.key}` contains no rate of the coordinates of `{of.key}`"
         raise Rejected(Complaint("nothing-to-put-in", message))
     values = {v.symbol: v.value for v in present}
 

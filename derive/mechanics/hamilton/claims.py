@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of Hamiltonian mechanics: conditions under which an outcome, or a fact of its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def is_equation_of(facts: Judged, letter: Symbol) -> bool:
 
 
 def pushed(facts: Judged, beside: bool) -> bool:
-    """An equation of the momentum, with more on its right side than -dH/dq or not."""
+    """An equation for the rate of the momentum; whether its right side has terms other than -dH/dq."""
     H, q = explicit(facts.inputs["hamiltonian"]), facts.inputs["coordinate"]
     more = not is_zero(explicit(facts.result.right) + diff(H, q))
     return is_equation_of(facts, facts.inputs["momentum"]) and more == beside
 
 
 def conserved(kind: str | None) -> Predicate:
-    """The coordinate is of the kind, and its momentum changes by no more than d'Alembert's principle lets vanish."""
+    """The coordinate has this kind, and the rate of its momentum vanishes by d'Alembert's principle."""
 
     def is_so(facts: Judged) -> bool:
         L, q = facts.quantities["lagrangian"], facts.inputs["coordinate"]
@@ -45,7 +45,7 @@ def conserved(kind: str | None) -> Predicate:
 
 
 def seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
-    """Of two sorts: momenta are kept, or a motion is prescribed, so that at rest there is a kinetic energy."""
+    """Whether momenta are conserved, and whether a prescribed motion leaves a kinetic energy at rest."""
 
     def is_so(facts: Judged) -> bool:
         kept = [role for role in facts.quantities if role.startswith("constant_")]
@@ -65,7 +65,7 @@ def constants(facts: Judged) -> int:
 
 
 def keeps_along_the_motion(facts: Judged) -> bool:
-    """The second function is the Hamiltonian of a Lagrangian, along whose motions the first one does not change."""
+    """The second function is the Hamiltonian of a Lagrangian, and the first one is constant along its motions."""
     other: Quantity = facts.quantities["g"]
     space = other.needed(PhaseSpace)
     L = space.lagrangian
@@ -78,7 +78,7 @@ def keeps_along_the_motion(facts: Judged) -> bool:
 
 
 def bracket_as_told(facts: Judged, outcome: str) -> bool:
-    """The roles stand in the bracket in their order, and each momentum beside its own coordinate."""
+    """The bracket contains f and g in this order, and pairs each coordinate with its momentum."""
     named = [facts.quantities[role].symbol if role in facts.quantities else facts.inputs[role] for role in ("f", "g")]
     own = all(p.name == f"p_{q.name}" for q, p in facts.symbol.pairs)
     return own and list(facts.symbol.args[:2]) == named

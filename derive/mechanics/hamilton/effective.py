@@ -1,4 +1,4 @@
-"""What is left once cyclic coordinates are put aside: conserved momenta, the Routhian, the effective potential.
+"""Reduction by cyclic coordinates: conserved momenta, the Routhian, the effective potential.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3; Landau, Lifshitz, *Mechanics*, section 41.
 """
@@ -63,12 +63,12 @@ CONSERVED = Rule(
 
 
 def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key: str | None = None) -> Quantity:
-    """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; it is known by its letter from then on.
+    """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; later steps use its symbol.
 
     of      the Lagrangian, J
     q       a coordinate that it does not contain
-    value   the letter of the constant, p_q unless it is given; or what it is at the start, I_z*S: then an equation of
-            the rates is yielded, p_q = I_z*S, which `put_in` puts into others
+    value   the symbol of the constant, by default p_q; or its value at the start, I_z*S: then the result is an equation
+            for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
     Second route: the sum of m v . dr/dq over the mass points; and its rate by functions of time is the sum of
     (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
     Outcomes: angular (q is an angle), linear (q is a length), other.
@@ -115,12 +115,12 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
 
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:
-    """What acts along a coordinate and is not in the Lagrangian."""
+    """The generalized force along a coordinate that is not in the Lagrangian."""
     return tidied(explicit(matter.other_force_along(q.symbol)))
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
-    """The coordinates that are left."""
+    """The remaining coordinates."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate
@@ -135,9 +135,9 @@ def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[C
         at_rest = pushed.xreplace({rate(s): ZERO for s in of.coordinates})
         if (pushed if verb == "routhian" else at_rest) != 0:
             message = f"`{verb}`: a force without a potential energy acts along {q.symbol.name}"
-            raise Rejected(Complaint("wrong-argument", message, help="its equation of motion has that force"))
+            raise Rejected(Complaint("wrong-argument", message, help="its equation of motion contains that force"))
     if not found:
-        message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate is left"
+        message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate remains"
         raise Rejected(Complaint("wrong-argument", message))
     return found
 
@@ -151,15 +151,15 @@ ROUTHIAN = Rule(
 
 
 def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "routhian") -> Quantity:
-    """Routhian, R = L - sum of p q_dot over the cyclic coordinates: a Lagrangian of the others.
+    """Routhian, R = L - sum of p q_dot over the cyclic coordinates: a Lagrangian of the other coordinates.
 
     of          the Lagrangian, J
-    constants   momenta of cyclic coordinates, as `conserved` yields them
-    The rates of the cyclic coordinates are steps of their own.
-    Second route: by mass points and forces: -dR/dp is the rate of the cyclic coordinate, dR/dq_dot and dR/dq of the
-    others are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and it is T - U - p q_dot, plus the sum of
-    q v . A of charges in magnetic fields, with the rates put in.
-    Errors: no constant is given; one belongs to another Lagrangian; no coordinate is left; a force without a potential
+    constants   momenta of cyclic coordinates, from `conserved`
+    Steps derive the rates of the cyclic coordinates.
+    Second route: by mass points and forces, -dR/dp is the rate of the cyclic coordinate, and for the other coordinates
+    dR/dq_dot and dR/dq are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and R is T - U - p q_dot, plus
+    the sum of q v . A for charges in magnetic fields, with substituted rates.
+    Errors: no constant is given; one belongs to another Lagrangian; no coordinate remains; a force without a potential
     energy acts.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
     """
@@ -223,7 +223,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
 def _inputs(
     of: Quantity, constants: Sequence[Quantity], rates: Sequence[Quantity], put_in: Mapping[Symbol, Expr]
 ) -> dict[str, Any]:
-    """The Lagrangian with the rates put in, the constants by their letters, and those rates."""
+    """The Lagrangian with substituted rates, the symbols of the constants, and those rates."""
     return {
         "lagrangian": replace(of, value=bound(explicit(of.value), dict(put_in)), parents=(of,)),
         **{f"constant_{each.key}": lettered(each) for each in constants},
@@ -247,16 +247,16 @@ EFFECTIVE_POTENTIAL = Rule(
 def effective_potential(
     of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
 ) -> Quantity:
-    """Effective potential, what the other coordinates see: U_eff = sum of p q_dot - L where their own rates vanish.
+    """Effective potential energy of the other coordinates: U_eff = sum of p q_dot - L where their rates vanish.
 
     of          the Lagrangian, J, which does not contain the time
-    constants   momenta of cyclic coordinates, as `conserved` yields them; all that are cyclic unless one is given
-    Without cyclic coordinates it is U - T_0: that of a prescribed rotation.
-    Second route: at rest -dU_eff/dq is the sum of (F - m a) . dr/dq, with the conserved momenta put in; and T_2 - T_0
-    + U with the rates put in.
+    constants   momenta of cyclic coordinates, from `conserved`; by default those of all cyclic coordinates
+    Without cyclic coordinates it is U - T_0, for a prescribed rotation.
+    Second route: at rest -dU_eff/dq is the sum of (F - m a) . dr/dq, with substituted conserved momenta; and T_2 - T_0
+    + U with substituted rates.
     Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither: it is U), given (L is
     given).
-    Errors: L contains the time; no coordinate is left; a force without a potential energy acts at rest.
+    Errors: L contains the time; no coordinate remains; a force without a potential energy acts at rest.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
     """
     if TIME in explicit(of.value).free_symbols:

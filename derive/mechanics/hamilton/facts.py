@@ -1,4 +1,4 @@
-"""Facts that results hand on besides their value, for the steps that rest on them."""
+"""Facts that results pass, in addition to their value, to the steps that use them."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from derive.steps.step import Fact, Quantity, Route
 
 @dataclass(frozen=True)
 class Constant(Fact):
-    """That a momentum does not change, and the coordinate that it belongs to."""
+    """A momentum that is constant, with its coordinate."""
 
-    missing = "is not the momentum of a cyclic coordinate, as `conserved` yields it"
+    missing = "is not a momentum of a cyclic coordinate from `conserved`"
     coordinate: Coordinate
 
 
 @dataclass(frozen=True)
 class SeenWith(Fact):
-    """What sees an effective potential energy: the Lagrangian, the constant momenta, and the matter that has these."""
+    """The context of an effective potential energy: the Lagrangian, the constant momenta, and their matter."""
 
     missing = "is not an effective potential energy"
     lagrangian: Quantity
@@ -37,7 +37,7 @@ class SeenWith(Fact):
     matter: Matter
 
     def with_values(self, values: Mapping[Symbol, Expr]) -> SeenWith | None:
-        """The same where the letters of some momenta have values; nothing where other letters have."""
+        """The same with values for the symbols of some momenta; None if other symbols have values."""
         if not isinstance(self.matter, ReducedMatter) or not set(values) <= {p.symbol for p in self.constants}:
             return None
         rates = tuple((v, tidied(bound(found, values))) for v, found in self.matter.rates)
@@ -46,7 +46,7 @@ class SeenWith(Fact):
 
 @dataclass(frozen=True)
 class PhaseSpace(Fact):
-    """What is a function of coordinates and momenta, and the Lagrangian whose momenta they are."""
+    """A function of coordinates and momenta, and the Lagrangian of these momenta."""
 
     missing = "is not a function of coordinates and their momenta"
     coordinates: tuple[Coordinate, ...]
@@ -59,16 +59,16 @@ class PhaseSpace(Fact):
 
     @property
     def in_rates(self) -> dict[Symbol, Expr]:
-        """Each momentum as it depends on the rates, which the mass points have confirmed."""
+        """Each momentum as a function of the rates, which the mass points have confirmed."""
         return {p.symbol: explicit(p.value) for p in self.momenta}
 
 
 @dataclass(frozen=True)
 class ReducedMatter(Matter):
-    """Matter whose cyclic coordinates move as their constant momenta tell: what it does along the others.
+    """Matter whose cyclic coordinates move by their constant momenta: the forces along the other coordinates.
 
     whole   the matter with all its coordinates
-    rates   those of the cyclic coordinates, by the others and by the constants
+    rates   the rates of the cyclic coordinates, in terms of the others and the constants
     """
 
     whole: Matter = field(default_factory=Matter)

@@ -1,7 +1,7 @@
-"""Rates from momenta that are not linear in them, where the Lagrangian holds the rates by one quadratic form alone.
+"""Rates from momenta that are not linear in them, if the Lagrangian contains the rates only in one quadratic form.
 
-With p_i - b_i = g(s) (A v)_i and s = v . A v, all that is unknown is how long v is: v = u w, w = A^-1 (p - b), and
-g(u^2 S) u = 1 with S = w . A w. Of a relativistic particle g = 1/sqrt(1 - s/(m c^2)), so u = 1/sqrt(1 + S/(m c^2)).
+With p_i - b_i = g(s) (A v)_i and s = v . A v, only the length of v is unknown: v = u w, w = A^-1 (p - b), and
+g(u^2 S) u = 1 with S = w . A w. For a relativistic particle g = 1/sqrt(1 - s/(m c^2)), so u = 1/sqrt(1 + S/(m c^2)).
 
 Source: Landau, Lifshitz, *The Classical Theory of Fields*, section 9.
 """
@@ -17,11 +17,11 @@ from derive.algebra.expressions import bound, explicit
 from derive.algebra.tidy import tidied
 from derive.solving.presentation import roots_together
 
-MOST_OPERATIONS = 300  # of the one equation that is solved
+MOST_OPERATIONS = 300  # of the equation for u
 
 
 def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr] | None:
-    """Each rate by the momenta, or nothing where the Lagrangian is of another sort."""
+    """Each rate in terms of the momenta, or None if the Lagrangian does not have this form."""
     at_rest = dict.fromkeys(rates, 0 * rates[0])
     values = [explicit(p) for p in momenta_of.values()]
     beside = [bound(p, at_rest) for p in values]
@@ -44,7 +44,7 @@ def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]
 
 
 def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbol, Expr] | None:
-    """g as a function of s, found along the first rate alone and true of all."""
+    """g as a function of s, derived along the first rate and then checked for all rates."""
     s = Dummy("s", nonnegative=True)
     along = {rates[0]: sqrt(s / form[0, 0]), **dict.fromkeys(rates[1:], 0 * rates[0])}
     g = tidied(bound(bare[0], along) / (form[0, 0] * along[rates[0]]))
@@ -62,6 +62,6 @@ def _length(g: Expr, s: Symbol, size: Symbol) -> Expr | None:
         return None
     try:
         found = [root for root in solve(equation, u) if not root.has(u)]
-    except NotImplementedError:  # SymPy solves no such equation: the momenta are then refused as not to be inverted
+    except NotImplementedError:  # SymPy cannot solve the equation: the momenta are then rejected as not invertible
         return None
     return next((root for root in found if root.xreplace({size: 0 * size}) == 1), None)

@@ -1,7 +1,7 @@
-"""Coordinates and their momenta: letters, the rates that belong to momenta, and how functions of them are written.
+"""Coordinates and their momenta: symbols, the rates in terms of momenta, and the form of functions of both.
 
-A momentum p_q is a plain name beside its coordinate q. In phase space both are free, so both count as coordinates of
-what depends on them; as functions of coordinates and rates momenta are values, m l^2 theta_dot.
+A momentum p_q is a plain symbol next to its coordinate q. In phase space both are free, so both count as coordinates of
+quantities that depend on them; as functions of coordinates and rates, momenta are values, m l^2 theta_dot.
 """
 
 from __future__ import annotations
@@ -37,12 +37,12 @@ from derive.steps.step import Quantity, lettered
 
 __all__ = ["rates_by_momenta"]
 
-LARGEST = 4  # momenta that are solved together for rates
-LARGEST_WITH_ANGLES = 2  # where sines and cosines couple them: the Hamiltonian of three is a page long
+LARGEST = 4  # rates in a single linear system
+LARGEST_WITH_ANGLES = 2  # with sines and cosines in the coupling: the Hamiltonian of three is a page long
 ZERO = Integer(0)
 
 
-# --- the rates that belong to momenta --------------------------------------------------------------------------------
+# --- the rates in terms of momenta -----------------------------------------------------------------------------------
 
 
 RATE_BY_MOMENTA = Rule(
@@ -61,12 +61,12 @@ def rates_by_momenta(
     """Rates as functions of momenta, solved from p = dL/dq_dot, which is linear in the rates.
 
     of        the Lagrangian, J
-    given     momenta of some of its coordinates, each known from now on by its letter
-    varying   whether those letters vary as coordinates do, and are not constant
+    given     momenta of some of its coordinates, which are symbols from now on
+    varying   whether those symbols vary like coordinates, or are constant
     Keys: rate_ and the name of the coordinate, _by_ and the letters.
-    Check: the rates put back into the momenta.
+    Check: the rates substituted in the momenta.
     Outcomes: alone, together.
-    Errors: the momenta do not determine the rates, or too many would have to be solved together.
+    Errors: the momenta do not determine the rates, or too many must be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     own = [p.needed(OfCoordinate).coordinate for p in given]
@@ -100,7 +100,7 @@ def rates_by_momenta(
 
 
 def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Linear equations for the rates, those that are coupled solved together."""
+    """The rates from linear equations, in blocks of coupled rates."""
     matrix = Matrix([[derivative(explicit(p), v) for v in rates] for p in momenta_of.values()])
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
@@ -111,7 +111,7 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
         raise Rejected(
             Complaint(
                 "wrong-argument",
-                "rates can be solved from momenta only where these are linear in them, or where the Lagrangian holds "
+                "rates can be solved from momenta only if these are linear in them, or if the Lagrangian contains "
                 "the rates by one sum of squares",
             )
         )
@@ -121,15 +121,15 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
         part = matrix.extract(block, block)
         most = LARGEST_WITH_ANGLES if part.has(sin, cos) else LARGEST
         if len(block) > most:
-            message = f"{len(block)} momenta would have to be solved together for {names}"
+            message = f"{len(block)} coupled equations must be solved for {names}"
             help_line = (
-                f"at most {LARGEST} rates may be coupled, and {LARGEST_WITH_ANGLES} where that depends on angles"
+                f"at most {LARGEST} rates may be coupled, and {LARGEST_WITH_ANGLES} if the coupling depends on angles"
             )
             raise Rejected(Complaint("too-hard", message, help=help_line))
         below = tidied(part.det(method="berkowitz"))
         if below == 0:
             message = f"the momenta do not determine {names}"
-            raise Rejected(Complaint("singular", message, help="one motion is described by two coordinates"))
+            raise Rejected(Complaint("singular", message, help="two coordinates describe the same motion"))
         above = part.adjugate() * wanted.extract(block, [0])
         solved = (by_one_square(tidied(explicit(top) / below)) for top in above)
         found.update(zip((rates[i] for i in block), solved, strict=True))
@@ -137,7 +137,7 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
 
 
 def _coupled(matrix: Matrix) -> list[list[int]]:
-    """The indices that entries off the diagonal tie together, set by set."""
+    """The sets of indices that off-diagonal entries couple."""
     blocks: list[set[int]] = []
     for i in range(matrix.rows):
         tied = {i, *(j for j in range(matrix.cols) if matrix[i, j] != 0)}
@@ -146,4 +146,4 @@ def _coupled(matrix: Matrix) -> list[list[int]]:
     return [sorted(block) for block in blocks]
 
 
-# --- how functions of letters are written ----------------------------------------------------------------------------
+# --- the form of functions of symbols --------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of kinematics: conditions under which an outcome, or a fact that its sentence names, is correct."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from derive.steps.rule import Judged, handed_on_by
 
 
 def of_its_coordinate(facts: Judged, fact: OfCoordinate) -> bool:
-    """It is the one by which the left side is a derivative, or which the sentence names."""
+    """The left side is a derivative by the fact's coordinate, or the rule's input names that coordinate."""
     q, symbol = fact.coordinate.symbol, facts.symbol
     if isinstance(symbol, Partial):
         return symbol.args[1] in (q, rate(q))

@@ -1,7 +1,7 @@
-"""Generalized coordinates: what varies in a motion, its rates, and how anything that depends on it changes in time.
+"""Generalized coordinates, their rates, and the time derivatives of quantities that depend on them.
 
-A coordinate q is a plain name, and so are its rates q_dot and q_ddot: `TimeRate` differentiates by the chain rule. The
-second route makes q a function of t, by its Taylor series about the moment t.
+A coordinate q is a plain symbol, and so are its rates q_dot and q_ddot: `TimeRate` differentiates by the chain rule.
+The second route makes q a function of t, by its Taylor series about the instant t.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ from derive.steps.step import Fact, Level, Quantity, compared_with
 
 __all__ = ["Coordinate", "coordinate", "euler_angles", "rate_of", "unknown"]
 
-T = TIME  # coordinates are functions of it where a second route makes them so
+T = TIME  # coordinates are functions of it in second routes
 
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A generalized coordinate, which stands in formulas as its letter does: `l*sin(theta)`.
+    """A generalized coordinate; in formulas it acts as its symbol: `l*sin(theta)`.
 
     symbol   its name
     kind     `angle`, `length`, or another kind of quantity that varies
@@ -104,22 +104,22 @@ class OfCoordinate(Fact):
 
 @dataclass(frozen=True)
 class AtOneMoment(Fact):
-    """That these coordinates, or their rates, have the values of one moment: how it changes is no longer told."""
+    """These coordinates, or their rates, have values of one instant: the rate of the quantity is no longer known."""
 
     missing = "holds at all times"
     fixed: tuple[Symbol, ...]
 
 
 def require_all_times(verb: str, quantity: Quantity) -> None:
-    """Refuse what is known at one moment only, where a law asks how it changes."""
+    """Reject a quantity that is known at one instant only, where a law needs its rate of change."""
     known = quantity.fact(AtOneMoment)
     if known is not None:
-        message = f"`{verb}`: `{quantity.key}` is known only where {known.fixed[0].name} was put in"
-        raise Rejected(Complaint("one-moment", message, help=f"`{verb}` first, then `put_in`"))
+        message = f"`{verb}`: `{quantity.key}` is known only for one value of {known.fixed[0].name}"
+        raise Rejected(Complaint("one-moment", message, help=f"use `{verb}` first, then `put_in`"))
 
 
 def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordinate:
-    """A coordinate by name, real, free to vary; `positive` where it is a distance, which cannot be negative."""
+    """A coordinate by name, real and free to vary; `positive` for a distance, which cannot be negative."""
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
@@ -136,7 +136,7 @@ def letters_of(coordinates: Iterable[Coordinate]) -> dict[Symbol, str]:
 
 
 def kind_of_rate(kind: str) -> str:
-    """A length changes at a speed, an angle at an angular speed, an angular momentum by a torque."""
+    """The kind of a rate: a speed of a length, an angular speed of an angle, a torque of an angular momentum."""
     if kind in {"angle", "number", "angular momentum"}:
         return "torque" if kind == "angular momentum" else "angular speed"
     faster = kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time"))
@@ -146,7 +146,7 @@ def kind_of_rate(kind: str) -> str:
 
 
 def changing(expr: Any, coordinates: Iterable[Symbol]) -> Any:
-    """The expression with every coordinate, and its rates, as functions of the time and their derivatives."""
+    """Replace every coordinate, and its rates, by functions of time and their derivatives."""
     replaced: dict[Any, Any] = {}
     for q in coordinates:
         f = Function(q.name)(T)
@@ -155,7 +155,7 @@ def changing(expr: Any, coordinates: Iterable[Symbol]) -> Any:
 
 
 def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
-    """The way back: functions of the time, and their derivatives, as plain names."""
+    """The inverse of `changing`: replace functions of time, and their derivatives, by plain symbols."""
     replaced: dict[Any, Any] = {}
     for q in coordinates:
         f = Function(q.name)(T)
@@ -167,9 +167,9 @@ def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
 
 
 def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 1) -> Any:
-    """The n-th time derivative with every coordinate a function of t: the second route to what `TimeRate` yields.
+    """The n-th time derivative with every coordinate a function of t: the second route to the result of `TimeRate`.
 
-    By the Taylor series of the coordinates about the moment t, or, where a function has none here, by SymPy.
+    The coordinates are Taylor series about the instant t; without such a series SymPy differentiates.
     """
     coordinates, expr = list(coordinates), explicit(expr)
     if isinstance(expr, MatrixBase):
@@ -182,7 +182,7 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
 
 @lru_cache(maxsize=64)  # all routes of one system have the same coordinates
 def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
-    """q + q_dot s + q_ddot s^2/2 + ... about the moment t, as far as the rates have names, and those of the rates."""
+    """q + q_dot s + q_ddot s^2/2 + ... about the instant t, up to the highest rate with a name; the same for rates."""
     series: dict[Symbol, tuple[Expr, ...]] = {T: (T, Integer(1), *(Integer(0) for _ in RATES[2:]))}
     for q in coordinates:
         rates = [q, *(rate(q, n) for n in range(1, len(RATES)))]
@@ -203,15 +203,15 @@ RATE_OF = Rule(
 def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion, dx/dt, by the chain rule: the sum of dx/dq q_dot.
 
-    quantity   a scalar that depends on coordinates; its unit per second is that of the result
+    quantity   a scalar that depends on coordinates; the result has its unit per second
     Check: the coordinates as functions of t, each by its Taylor series.
     Outcomes: generic, zero.
-    Errors: the quantity has no plain letter as its name; it is known at one moment only.
+    Errors: the quantity is not named by a plain symbol; it is known at one instant only.
     Source: Taylor, *Classical Mechanics*, section 7.1.
     """
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
-        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no letter that could take a dot"))
+        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no plain symbol that could take a dot"))
     moving = [q for q in quantity.coordinates if q != quantity.symbol]  # a motion is known as a function of the time
 
     def by_time() -> Expr:
@@ -240,7 +240,7 @@ def only_coordinate(quantity: Quantity) -> Symbol:
 
 
 def required(coordinates: Mapping[Symbol, str], q: Coordinate, verb: str, quantity: Quantity) -> None:
-    """Refuse a coordinate that the quantity does not have."""
+    """Reject a coordinate on which the quantity does not depend."""
     if q.symbol not in coordinates:
         known = ", ".join(s.name for s in coordinates) or "none"
         message = f"`{verb}`: `{quantity.key}` does not depend on the coordinate {q.symbol.name}"
@@ -248,11 +248,11 @@ def required(coordinates: Mapping[Symbol, str], q: Coordinate, verb: str, quanti
 
 
 def unknown(name: str, kind: str, positive: bool = False) -> Symbol:
-    """A letter of the script that is to be found: a tension, a force of constraint, a height; it may change in time.
+    """An unknown of the script: a tension, a constraint force, a height; it may change in time.
 
-    name       of the letter, which the problem does not give
+    name       its symbol, which the problem does not give
     kind       what kind of quantity it is: "force"
-    positive   whether it stands for a positive number, so that only positive roots count
+    positive   whether it is a positive number, so only positive roots count
     """
     if kind not in KINDS:
         message = f"`unknown`: there is no kind `{kind}`"

@@ -1,4 +1,4 @@
-"""Places in space, by their components along fixed axes: formulas in coordinates, constants and the time."""
+"""Places in space by their components along fixed axes: formulas in coordinates, constants and time."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ __all__ = ["Axes", "Location", "X", "Y", "Z", "point", "space", "t"]
 
 @dataclass(frozen=True)
 class Location:
-    """A place, or a way between two: two components in a plane, three in space, m; the last is upwards.
+    """A place, or a displacement between two places: two components in a plane, three in space, m; the last is upwards.
 
-    found   the steps that its components come from, where a script has them, by their number
+    found   the steps that give its components, by the index of the component; empty where no step gives one
     """
 
     components: tuple[Expr, ...]
@@ -30,7 +30,7 @@ class Location:
         if not isinstance(other, Location):
             return NotImplemented
         if len(other.components) != len(self.components):
-            message = "one place has two components, the other three"
+            message = "one place has two components and the other has three"
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
         return Location(tuple(a + b for a, b in zip(self.components, other.components, strict=True)))
 
@@ -46,15 +46,15 @@ class Location:
     __rmul__ = __mul__
 
     def with_values(self, values: Any) -> Location:
-        """The place with some letters known; itself if it holds none of them."""
+        """The place with values substituted for some symbols; the same object if it contains none of them."""
         moved = tuple(c.subs(values) for c in self.components)
         return self if moved == self.components else Location(moved)
 
     def turned(self, angle: Any) -> Location:
-        """The same way in its plane, turned by an angle from right to up."""
+        """The same displacement, rotated in its plane by an angle, counterclockwise from right to up."""
         if len(self.components) != 2:
-            message = "`turned` turns a way in a plane, but this has three components"
-            raise Rejected(Complaint("wrong-argument", message, help="axes in space are: `space.turned(Z, phi)`"))
+            message = "`turned` rotates a displacement in a plane, but this one has three components"
+            raise Rejected(Complaint("wrong-argument", message, help="for axes in space use `space.turned(Z, phi)`"))
         (x, y), c, s = self.components, cos(0 + angle), sin(0 + angle)
         return Location((x * c - y * s, x * s + y * c))
 
@@ -66,7 +66,7 @@ class Location:
 def point(*components: Any) -> Location:
     """The place with these components, (x, y) in a vertical plane or (x, y, z) in space, y or z upwards, m.
 
-    Components that are steps, as `components` yields them, are called by their letters wherever the place is used.
+    Components that are steps, such as those from `components`, appear as their symbols wherever the place is used.
     """
     if len(components) not in (2, 3):
         raise Rejected(Complaint("wrong-argument", f"`point` needs two components or three, not {len(components)}"))
@@ -82,9 +82,9 @@ X, Y, Z = point(1, 0, 0), point(0, 1, 0), point(0, 0, 1)
 
 @dataclass(frozen=True)
 class Axes:
-    """Three axes at right angles, by their unit vectors in space, which are the columns of a rotation matrix.
+    """Three perpendicular axes, by their unit vectors in space, which are the columns of a rotation matrix.
 
-    turns   those that led to them, in order: the number of the axis, and the angle
+    turns   the rotations that led to these axes, in order: the index of the axis, and the angle
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4.
     """
 
@@ -92,9 +92,9 @@ class Axes:
     turns: tuple[tuple[int, Expr], ...] = ()
 
     def turned(self, about: Location, angle: Any) -> Axes:
-        """These axes turned about one of themselves, X, Y or Z, by an angle: a coordinate, a constant or `rate*t`."""
+        """These axes rotated about one of them, X, Y or Z, by an angle: a coordinate, a constant or `rate*t`."""
         if about not in (X, Y, Z):
-            message = "axes are turned about one of themselves: X, Y or Z"
+            message = "`turned` rotates axes about one of them: X, Y or Z"
             raise Rejected(Complaint("wrong-argument", message))
         i = (X, Y, Z).index(about)
         turned = Axes(ImmutableDenseMatrix(self.in_space * turn_about(i, angle)), (*self.turns, (i, 0 + angle)))
@@ -108,12 +108,12 @@ class Axes:
             raise Rejected(Complaint("wrong-argument", f"`place` needs three components, not {len(components)}"))
         found = self.in_space * ImmutableDenseMatrix(along.components)
         if not equal(ImmutableDenseMatrix(self.in_space.T * found), ImmutableDenseMatrix(along.components)):
-            raise Unverified(Complaint("unverified", "`place`: along the axes it has other components"))
+            raise Unverified(Complaint("unverified", "`place`: the components along the axes are not the given ones"))
         return Location(tuple(found))
 
 
 def turn_about(axis: int, angle: Any) -> ImmutableMatrix:
-    """The matrix of a right-handed turn about the first, second or third axis."""
+    """The matrix of a right-handed rotation about the first, second or third axis."""
     j, k = (axis + 1) % 3, (axis + 2) % 3
     c, s = cos(angle), sin(angle)
     turn = eye(3).as_mutable()
@@ -122,7 +122,7 @@ def turn_about(axis: int, angle: Any) -> ImmutableMatrix:
 
 
 def _check_turned(before: Axes, after: Axes, about: Location, angle: Any) -> None:
-    """Rodrigues: a vector v of the old axes becomes v cos a + (e x v) sin a + e (e.v)(1 - cos a), e along the axis."""
+    """Check by Rodrigues: a vector v of the old axes becomes v cos a + (e x v) sin a + e (e.v)(1 - cos a), axis e."""
     e = before.in_space * ImmutableDenseMatrix(about.components)
     for i in range(3):
         v = before.in_space[:, i]

@@ -1,4 +1,4 @@
-"""Lagrange's equation with forces that have no potential energy, and with those that keep constraints."""
+"""Lagrange's equation with constraint forces, and with forces that have no potential energy."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ActedOn(Fact):
-    """What acts on a system without having a potential energy, and how it is damped."""
+    """The forces on a system without a potential energy, and its damping."""
 
-    missing = "has no forces besides those of its potential energy"
+    missing = "has no forces other than those of its potential energy"
     system: Any
     forces: tuple[GivenForce, ...]
     dampers: tuple[Damper, ...]
@@ -45,13 +45,13 @@ class ActedOn(Fact):
 class ForcedMotion(Fact):
     """The Lagrangian of an equation of motion with other forces, or with constraints."""
 
-    missing = "is not an equation of motion with forces besides those of a potential energy"
+    missing = "is not an equation of motion with forces other than those of a potential energy"
     lagrangian: Quantity
 
 
 @runtime_checkable
 class WithForces(Protocol):
-    """What moves in coordinates, and what acts on it besides what has a potential energy."""
+    """A motion in coordinates, with forces that have no potential energy."""
 
     @property
     def coordinates(self) -> Mapping[Symbol, str]: ...
@@ -64,7 +64,7 @@ class WithForces(Protocol):
 
 
 def acting_on(system: WithForces) -> tuple[Fact, ...]:
-    """What the Lagrangian of a system must hand on to its equations of motion."""
+    """The facts that the Lagrangian of a system must pass to its equations of motion."""
     found: list[Fact] = [Kept(system.constraints)] if system.constraints else []
     if system.given_forces or system.dampers:
         dissipated = dissipation_function(system) if system.dampers else None
@@ -73,7 +73,7 @@ def acting_on(system: WithForces) -> tuple[Fact, ...]:
 
 
 def acting(*energies: Quantity) -> list[Fact]:
-    """What those energies hand on to the Lagrangian besides the matter."""
+    """The facts of the energies that the Lagrangian keeps, apart from the matter."""
     return [fact for energy in energies for fact in energy.facts if isinstance(fact, ActedOn | Kept)]
 
 
@@ -85,10 +85,10 @@ DISSIPATION_FUNCTION = Rule(
 
 
 def dissipation_function(system: WithForces, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
-    """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over what damps a system, in W.
+    """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over the dampers of a system, in W.
 
     system   its dampers: c in kg/s for a place, in N m s for an angle
-    Second route: the drag takes the power sum of F . v, which is -2 D.
+    Second route: the power of the drag, sum of F . v, is -2 D.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5.
     """
     moving = list(system.coordinates)
@@ -117,7 +117,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
 
 def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
-    """v^2 of what is damped; of a particle of a body by the components of its velocity."""
+    """v^2 of the damped point; for a particle of a body, from the components of its velocity."""
     if not damper.point.held:
         return squares_of_rates(damper.at, moving)
     squares = [Pow(v, 2) for v in damper.velocity(moving) if v != 0]
@@ -133,7 +133,7 @@ def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
 
 
 def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
-    """F . v, the place of the force differentiated as a function of t."""
+    """F . v, with the place of the force differentiated as a function of t."""
     velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * v for f, v in zip(load.force, velocity, strict=True)))
 
@@ -147,13 +147,13 @@ APPLIED_FORCE = Rule(
 
 
 def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
-    """Generalized force of what has no potential energy, Q = sum of F . dr/dq - dD/dq_dot.
+    """Generalized force of the forces without a potential energy, Q = sum of F . dr/dq - dD/dq_dot.
 
     of   the Lagrangian, J, of a system with given forces, couples or damping
     q    one of its coordinates
-    Second route: the power of all these forces, sum of F . v, is linear in q_dot where F is held fast, and Q its slope.
+    Second route: the power of all these forces, sum of F . v, is linear in q_dot for constant F, and Q is its slope.
     Outcomes: generic, zero.
-    Errors: nothing acts on the system but what has a potential energy.
+    Errors: all forces on the system have a potential energy.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
     """
     required(of.coordinates, q, "applied_force", of)
@@ -191,7 +191,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
 
 def _works(load: Load, q: Coordinate) -> list[Expr]:
-    """F_i dr_i/dq; for a particle of a body with the values of dr_i/dq."""
+    """F_i dr_i/dq; for a particle of a body, with the values of dr_i/dq."""
     pairs = zip(load.force, load.place, load.slopes(q.symbol), strict=True)
     if load.held:
         slopes = [(f, tidied(slope)) for f, _, slope in pairs if f != 0]
@@ -200,7 +200,7 @@ def _works(load: Load, q: Coordinate) -> list[Expr]:
 
 
 def _slope(load: Load, q: Coordinate, moving: Sequence[Symbol]) -> Expr:
-    """What the power gains per unit of q_dot, the force being what it is."""
+    """The derivative of the power by q_dot, for a constant force."""
     velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * diff(v, q.rate) for f, v in zip(load.force, velocity, strict=True)))
 
@@ -234,11 +234,11 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
 
     of         the Lagrangian, J
     q          one of its coordinates
-    derivatives   dL/dq, dL/dq_dot and its rate, where they are steps
-    The generalized force Q is a step of its own.
+    derivatives   dL/dq, dL/dq_dot and its rate, if they are steps
+    A step derives the generalized force Q.
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
-    Outcomes: applied (forces without a potential energy), kept (forces that keep constraints), both, free (neither
-    acts along q).
+    Outcomes: applied (forces without a potential energy), kept (constraint forces), both, free (neither acts along
+    q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.5 and 2.4.
     """
     matter, moving = of.needed(Matter), list(of.coordinates)
@@ -283,13 +283,13 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
 
 
 def _between(constraints: Sequence[Constraint]) -> str:
-    """Whether it is coordinates or rates that the constraints are between."""
+    """Whether the constraints are between coordinates or rates."""
     in_rates = {c.in_rates for c in constraints}
     return "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
 
 
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
-    """The functions that vanish, f_x = x - R sin(theta), called after multipliers lambda_x where so called."""
+    """The functions that vanish, f_x = x - R sin(theta); the index is that of a multiplier lambda_x."""
     found = {}
     for i, each in enumerate(constraints, 1):
         _, _, index = each.force.name.partition("lambda_")
@@ -301,7 +301,7 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 
 def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:
-    """What depends on the motion on the left; what drives it, and the forces of constraint, on the right."""
+    """Terms that depend on the motion on the left; driving terms and constraint forces on the right."""
     whole = explicit(found.left) - explicit(found.right)
     whole = whole.expand()
     letters = [c.force for c in constraints]
@@ -314,7 +314,7 @@ def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Cons
 
 
 def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
-    """R (S_1 - S_2), not R S_1 - R S_2: what forces of constraint are multiplied by, in front of them."""
+    """R (S_1 - S_2), not R S_1 - R S_2: the common factor of the constraint forces in front of them."""
     acting = {letter: each for letter, each in coefficients.items() if each != 0}
     common = common_factor(list(acting.values())) if len(acting) > 1 else Integer(1)
     common = -common if common.could_extract_minus_sign() else common
@@ -324,7 +324,7 @@ def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
 
 
 def _drives(term: Expr, moving: Sequence[Symbol], letters: Sequence[Symbol]) -> bool:
-    """A force of constraint, or one that is neither inertia nor changes with coordinates or rates."""
+    """Whether a term is a constraint force, or independent of coordinates, rates and accelerations."""
     return any(term.has(letter) for letter in letters) or not term.has(
         *(s for q in moving for s in (q, rate(q), rate(q, 2)))
     )

@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of Lagrangian mechanics: conditions under which an outcome, or a fact of its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from derive.steps.step import Quantity, is_zero
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
-    """With the rate that it returns, the momentum has the value that it keeps."""
+    """With the rate of this fact, the momentum has its conserved value."""
     momentum, value = value_of_role(facts, "momentum"), value_of_role(facts, "value")
     there = momentum.xreplace({rate(fact.coordinate): fact.turning})
     as_named = (fact.momentum, fact.coordinate) == (facts.quantities["momentum"].symbol, facts.inputs["coordinate"])
@@ -41,7 +41,7 @@ def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
 
 
 def with_momenta(facts: Judged, fact: WithMomenta) -> bool:
-    """The rates of the coordinates whose momenta are kept are gone from the equation."""
+    """The equation no longer contains the rates of the coordinates with conserved momenta."""
     return not explicit(facts.result).has(*(rate(kept.coordinate) for kept in fact.kept))
 
 
@@ -50,7 +50,7 @@ def force_of_its_constraint(facts: Judged, fact: ForceOf) -> bool:
 
 
 def _in_rates(facts: Judged) -> Expr:
-    """The result with the momenta of the mass points in the place of their letters."""
+    """The result with the momenta of the mass points substituted for their symbols."""
     L: Quantity = facts.quantities["lagrangian"]
     matter = L.needed(Matter)
     letters = {q.name: q for q in matter.coordinates}
@@ -60,9 +60,9 @@ def _in_rates(facts: Judged) -> Expr:
 
 
 def _is_conserved(facts: Judged) -> bool:
-    """Its rate along the motion, the accelerations taken out by d'Alembert's principle, vanishes.
+    """Its rate along the motion, with accelerations eliminated by d'Alembert's principle, vanishes.
 
-    What keeps a constraint does no work in the velocities that the constraint allows.
+    A constraint force does no work for velocities that the constraint allows.
     """
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Kept)
@@ -72,14 +72,14 @@ def _is_conserved(facts: Judged) -> bool:
 
 
 def _is_energy(facts: Judged) -> bool:
-    """Kinetic energy of the mass points, and the potential energy."""
+    """The result is the kinetic energy of the mass points plus the potential energy."""
     L = facts.quantities["lagrangian"]
     whole = L.needed(Matter).kinetic_energy() + explicit(L.needed(Energies).potential.value)
     return bool(equal(_in_rates(facts), whole))
 
 
 def _is_worked_on(facts: Judged) -> bool:
-    """Its rate along the motion is not -dL/dt alone."""
+    """Its rate along the motion is not only -dL/dt."""
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Kept)
     power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
@@ -92,7 +92,7 @@ def _energy(conserved: bool, whole: bool, worked: bool = False) -> Predicate:
 
 
 def _given(conserved: bool, worked: bool) -> Predicate:
-    """Of a Lagrangian that is no difference of two energies."""
+    """The outcome for a Lagrangian that is given, so not a difference of two energies."""
 
     def is_so(facts: Judged) -> bool:
         L = facts.quantities["lagrangian"]
@@ -116,7 +116,7 @@ ENERGIES = {
 
 
 def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> Predicate:
-    """An equation; whether -dL/dt is in its right side, and other work, and whether no rates make it positive."""
+    """An equation; whether its right side contains -dL/dt, and other power, and whether it is never positive."""
 
     def is_so(facts: Judged) -> bool:
         if facts.result.mark != "=" or is_zero(facts.result.right) != (in_time is None):
@@ -131,19 +131,19 @@ def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> 
 
 
 def _never_gains(power: Expr, moving: tuple[Symbol, ...]) -> bool:
-    """Against the rates as a quadratic form, whose matrix has no positive leading entry and no odd part."""
+    """The power is even in the rates, and its second derivative by each rate is not positive."""
     rates = [rate(q) for q in moving]
     forwards = power.xreplace({v: -v for v in rates})
     return is_zero(forwards - power) and all(bool(diff(power, v, 2).is_nonpositive) for v in rates)
 
 
 def carries_momenta_alone(facts: Judged) -> bool:
-    """Where all rates vanish and no place moves by itself, nothing is left but what the shift adds to L."""
+    """With no rates and no prescribed motion, only the gain of L under the shift remains."""
     return is_zero(facts.inputs["gain"])
 
 
 def shifted_as_told(facts: Judged, outcome: str) -> bool:
-    """L at the shifted coordinates, by functions of time, less what it gains, does not depend on the shift."""
+    """The derivative of L at the shifted coordinates by the shift, at zero shift, is the right side."""
     L, small = facts.quantities["lagrangian"], Dummy("epsilon")
     moving = L.needed(Matter).coordinates
     shifted: dict[Symbol, Expr] = {}
@@ -165,7 +165,7 @@ def not_cyclic(facts: Judged) -> bool:
 
 
 def by_its_coordinate(facts: Judged, outcome: str) -> bool:
-    """The derivative is by the coordinate that the sentence names."""
+    """The derivative is by the coordinate in the sentence."""
     return isinstance(facts.symbol, Partial) and facts.symbol.args[1] == facts.inputs["coordinate"]
 
 
@@ -174,18 +174,18 @@ def free_bodies(facts: Judged) -> int:
 
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
-    """Of a distance |u| the page takes u only where it assumes u > 0."""
+    """The page replaces a distance |u| by u only if it assumes u > 0."""
     sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
     of_springs = any(side in assumed_in_words() for side in sides)
     return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")
 
 
 def equation_of(facts: Judged, q: Any) -> bool:
-    """The accelerations stand in Lagrange's equation for q with the second derivatives of L by q_dot and each rate."""
+    """The factors of the accelerations are proportional to the second derivatives of L by q_dot and each rate."""
     L, moving = value_of_role(facts, "lagrangian"), facts.quantities["lagrangian"].coordinates
     residual = explicit(facts.result).residual
     inertia = {s: diff(L, rate(q), rate(s)) for s in moving}
-    if all(is_zero(value) for value in inertia.values()):  # a coordinate that nothing has a mass along
+    if all(is_zero(value) for value in inertia.values()):  # a coordinate without inertia
         return q in moving and (q in residual.free_symbols or rate(q) in residual.free_symbols)
     return q in moving and parallel({s: diff(residual, rate(s, 2)) for s in moving}, inertia)
 
@@ -207,8 +207,8 @@ def has_rates(condition: Expr) -> bool:
 
 
 def is_stretched(facts: Judged) -> bool:
-    """Whether a small displacement along the steepest way changes the condition by another amount than its length, with
-    numbers for the letters: that way is what virtual work makes of the condition, (J J^T)^-1 J a."""
+    """Whether the rate of change of the condition along its steepest displacement differs from 1, numerically: the
+    displacement comes from virtual work, (J J^T)^-1 J a."""
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
         return False
@@ -228,7 +228,7 @@ Told = Callable[[Judged, str], bool]
 
 
 def of_its_coordinate(facts: Judged, outcome: str) -> bool:
-    """The value that is told is what the momentum is, and the equation holds the rate of its coordinate."""
+    """The stated value is that of the momentum, and the equation contains the rate of its coordinate."""
     moving = rate(facts.inputs["coordinate"]) in letters_in(facts.result)
     return (
         moving
@@ -254,8 +254,8 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 
 
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
-    """What each multiplier has as a factor in the equation is the derivative of a function that is told, by its
-    coordinate or by its rate; but for what friction, which is given by the multiplier, adds to it."""
+    """The factor of each multiplier in the equation is the derivative of a stated function by its coordinate or its
+    rate, except for the term of a friction force that is proportional to the multiplier."""
     q = facts.inputs["coordinate"]
     if facts.words["between"] not in ("coordinates", "rates", "both"):
         return False

@@ -1,4 +1,4 @@
-"""Accelerations, and the forces that keep constraints, from the equations of motion and the constraints themselves."""
+"""Accelerations and constraint forces, from the equations of motion and the constraints."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ from derive.steps.step import Level, Quantity, compared_with, is_zero
 __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
 
 ZERO = Integer(0)
-MOST = 8  # unknowns that are solved for together
+MOST = 8  # unknowns in a single linear system
 
 
 @dataclass(frozen=True)
 class _Problem:
-    """Equations of motion of all coordinates, and the constraints that forces keep.
+    """Equations of motion of all coordinates, and the constraints kept by forces.
 
-    lagrangian   which they all come from
+    lagrangian   the Lagrangian of all of them
     equations    one for each coordinate
-    keeping      coordinates whose accelerations are not solved for, so that their equations are not used
+    keeping      coordinates whose accelerations remain unknown, so their equations are not used
     """
 
     lagrangian: Quantity
@@ -59,7 +59,7 @@ class _Problem:
 
     @property
     def solved(self) -> list[Symbol]:
-        """The coordinates whose accelerations are solved for."""
+        """The coordinates whose accelerations are unknowns."""
         return [q for q in self.moving if q not in self.keeping]
 
     @property
@@ -77,7 +77,7 @@ class _Problem:
 
     @property
     def known(self) -> dict[Symbol, Expr]:
-        """What the constraints make of coordinates that they give by others, and of their rates."""
+        """Coordinates that the constraints express by others, and their rates."""
         found: dict[Symbol, Expr] = {}
         for each in self.constraints:
             residual = each.residual.xreplace(found)
@@ -106,12 +106,12 @@ def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordin
     matter = found[0].needed(Matter)
     missing = [q.name for q in matter.coordinates if q not in problem.moving]
     if missing or len(set(problem.moving)) < len(problem.moving):
-        what = f"that of {missing[0]} is missing" if missing else "one of them is there twice"
-        help_line = "`equations_of_motion` yields all of them"
+        what = f"that of {missing[0]} is missing" if missing else "one of them is given twice"
+        help_line = "`equations_of_motion` returns all of them"
         message = f"`{verb}` needs one equation of motion for each coordinate, but {what}"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if len(problem.unknowns) > MOST:
-        message = f"`{verb}` solves for {MOST} accelerations and forces at most, but here are {len(problem.unknowns)}"
+        message = f"`{verb}` solves for {MOST} accelerations and forces at most, but there are {len(problem.unknowns)}"
         raise Rejected(Complaint("too-hard", message))
     return problem
 
@@ -124,12 +124,12 @@ def _lagrangian_of(verb: str, equation: Quantity) -> Quantity:
 
 
 def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
-    """Accelerations, q_ddot as the equations of motion and the constraints give them.
+    """Accelerations q_ddot, from the equations of motion and the constraints.
 
     equations   of motion, one for each coordinate of one Lagrangian
     Keys: acceleration_ and the name of the coordinate.
-    Second route: put into d'Alembert's principle, sum of (m a - F) . dr/dq = 0 for every coordinate, forces of
-    constraint with them; and the constraints, differentiated as functions of t, keep holding.
+    Second route: they are substituted in d'Alembert's principle, sum of (m a - F) . dr/dq = 0 for every coordinate,
+    with constraint forces; and the constraints, differentiated as functions of t, remain satisfied.
     Errors: an equation is missing; the constraints contradict or repeat one another; a coordinate has no inertia.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
@@ -139,25 +139,25 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
 
 
 def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tuple[Quantity, ...]:
-    """Forces of constraint, the multipliers lambda, as the equations of motion and the constraints give them.
+    """Constraint forces, the multipliers lambda, from the equations of motion and the constraints.
 
     equations   of motion, one for each coordinate of one Lagrangian
-    keeping     coordinates whose accelerations stay in the forces: their equations are then left for the motion
-    Keys: the letters of the forces.
-    Second route: as `accelerations`.
-    Outcomes: generic (the force of constraint itself), multiplier (the gradient of the condition on the particle has
-    another length than 1, which is stated), zero.
-    Errors: no constraint is kept by a force; else as `accelerations`.
+    keeping     coordinates whose accelerations remain in the forces: their equations are left for the motion
+    Keys: the symbols of the forces.
+    Second route: the same as in `accelerations`.
+    Outcomes: generic (the constraint force itself), multiplier (the length of the condition's gradient by the place
+    of the particle is not 1; it is stated), zero.
+    Errors: no constraint is kept by a force; otherwise the same as in `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("multipliers", equations, keeping)
     if not problem.constraints:
-        message = "`multipliers` needs constraints that forces keep, but this system has none"
+        message = "`multipliers` needs constraints kept by forces, but this system has none"
         raise Rejected(
             Complaint(
                 "wrong-argument",
                 message,
-                help=Spelled("`constraint(f, force=...)` is one", "write it under `constraints`"),
+                help=Spelled("add `constraint(f, force=...)`", "write it under `constraints`"),
             )
         )
     rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
@@ -180,16 +180,16 @@ CONSTRAINT_RATE = Rule(
 
 
 def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Quantity:
-    """A constraint differentiated until accelerations stand in it, d^2 f/dt^2 = 0.
+    """A constraint, differentiated until it contains accelerations, d^2 f/dt^2 = 0.
 
     of       the Lagrangian of a system with constraints
-    number   which of them, 0 for the first
+    number   its index, 0 for the first
     Check: the coordinates as functions of t, differentiated by SymPy.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     constraints = of.needed(Kept).constraints
     if number not in range(len(constraints)):
-        message = f"`constraint_rate` needs the number of a constraint, 0 to {len(constraints) - 1}"
+        message = f"`constraint_rate` needs the index of a constraint, 0 to {len(constraints) - 1}"
         raise Rejected(Complaint("wrong-argument", message))
     each, moving = constraints[number], list(of.coordinates)
     order = 1 if each.in_rates else 2
@@ -286,13 +286,13 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
 
 
 def _places(problem: _Problem) -> tuple[Expr, ...]:
-    """Where its one particle is; nothing where there are several masses."""
+    """The place of its only particle; empty for several masses."""
     points = problem.lagrangian.needed(Matter).points
     return points[0].place if len(points) == 1 else ()
 
 
 def _gathered(problem: _Problem, value: Expr) -> Expr:
-    """By the accelerations that stay in a force, and by squares of rates."""
+    """The value, collected by the accelerations that remain in a force and by squares of rates."""
     return by_accelerations(value, problem.moving) if problem.keeping else value
 
 
@@ -307,31 +307,31 @@ CONSTRAINT_FORCE = Rule(
 def constraint_force(
     forces: Sequence[Quantity], along: Mapping[Any, Expr], symbol: str = "N", key: str = "constraint_force"
 ) -> Quantity:
-    """What forces of constraint do per unit of a displacement, N = sum of lambda df/dq dq: their component along it.
+    """Component of constraint forces along a displacement, N = sum of lambda df/dq dq, per unit of the displacement.
 
-    forces   as `multipliers` yields them, of one system
+    forces   from `multipliers`, of one system
     along    coordinate -> its change per unit of the displacement: `{x: sin(theta), y: cos(theta)}`
-    symbol   of the component: a force where the displacement is a length
+    symbol   of the component: a force if the displacement is a length
     Second route: Newton's law along the displacement, sum of (m a - F) . dr over the mass points and the other forces.
     Outcomes: generic, zero.
-    Errors: they belong to different systems; a further constraint does work in this displacement.
+    Errors: they belong to different systems; another constraint force does work in this displacement.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4.
     """
     kept = [force.needed(ForceOf) for force in forces]
     if not kept or any(each.problem.lagrangian.step != kept[0].problem.lagrangian.step for each in kept):
-        raise Rejected(Complaint("different-subjects", "`constraint_force` needs the forces of one system"))
+        raise Rejected(Complaint("different-subjects", "`constraint_force` needs forces of the same system"))
     problem: _Problem = kept[0].problem
     way = {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in along.items()}
     strange = [q for q in way if q not in problem.moving]
     if strange:
         message = f"`constraint_force`: this system has no coordinate {strange[0]}"
         raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
-    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # which the route reads for itself
+    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # the second route reads it independently
     works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
     missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
     if missing:
         message = f"`constraint_force`: {missing[0].force} does work in this displacement too"
-        raise Rejected(Complaint("wrong-argument", message, help="give all forces that `multipliers` yields"))
+        raise Rejected(Complaint("wrong-argument", message, help="give all forces from `multipliers`"))
     acting = {f"force_{i}": f for i, (f, k) in enumerate(zip(forces, kept, strict=True)) if works[k.constraint] != 0}
     factors = [works[f.needed(ForceOf).constraint] for f in acting.values()]
 
@@ -355,7 +355,7 @@ def constraint_force(
 
 
 def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
-    """What inertia asks for along the displacement, less what all other forces do."""
+    """The inertial term along the displacement, minus the work of all other forces."""
     matter = problem.lagrangian.needed(Matter)
     total = ZERO
     for q, dq in way.items():
@@ -369,7 +369,7 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
 
 
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
-    """Each coordinate with a factor of its own, so that no two terms can make up for one another."""
+    """The sum over coordinates, each with an independent factor, so terms of different coordinates cannot cancel."""
     matter = problem.lagrangian.needed(Matter)
     marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
     whole = Add(
@@ -400,7 +400,7 @@ def _kind_of_acceleration(kind: str) -> str | None:
 
 @lru_cache(maxsize=16)
 def _solution(problem: _Problem) -> dict[Symbol, Expr]:
-    """Accelerations and multipliers, all equations being linear in them."""
+    """Accelerations and multipliers from all equations, which are linear in them."""
     unknowns = problem.unknowns
     rows = [row.xreplace(problem.known) for row in problem.residuals]
     matrix = ImmutableDenseMatrix([[derivative(row, u) for u in unknowns] for row in rows])
@@ -419,7 +419,7 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
 
 
 def _without_functions(matrix: ImmutableDenseMatrix) -> tuple[ImmutableDenseMatrix, dict[Expr, Dummy]]:
-    """Sines, cosines and roots as letters, so that only polynomials are left."""
+    """The matrix with symbols for sines, cosines and roots, so only polynomials remain."""
     found = sorted(matrix.atoms(Function), key=str)
     roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}
@@ -434,21 +434,21 @@ def _is_singular(matrix: ImmutableDenseMatrix) -> bool:
 
 
 def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
-    """What is wrong with equations that have no solution, or many."""
+    """The error for equations without a unique solution."""
     count = len(problem.solved)
     held = matrix[count:, :count]
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):
         names = ", ".join(each.force.name for each in problem.constraints)
         how = "contradict" if _contradict(problem.constraints) else "repeat"
         message = f"the constraints kept by {names} {how} one another, so the forces are not determined"
-        return Rejected(Complaint("constraints", message, help="leave out those that follow from the others"))
+        return Rejected(Complaint("constraints", message, help="remove those that follow from the others"))
     bare = next((q.name for i, q in enumerate(problem.solved) if not any(matrix[i, :count])), None)
     what = f"no mass moves with {bare}" if bare else "the mass matrix is singular"
     return Rejected(Complaint("no-inertia", f"the accelerations are not determined: {what}"))
 
 
 def _contradict(constraints: Sequence[Constraint]) -> bool:
-    """Whether two of them differ by what is not zero and does not depend on the coordinates."""
+    """Whether two constraints differ by a nonzero expression without coordinates."""
     for i, one in enumerate(constraints):
         for other in constraints[:i]:
             shared = [q for q in one.coordinates if one.along(q) != 0 and other.along(q) != 0]

@@ -1,4 +1,4 @@
-"""The kinetic and the potential energy of a system, from the places of its particles and the turning of its bodies."""
+"""Kinetic and potential energy of a system, from the places of its particles and the rotation of its bodies."""
 
 from __future__ import annotations
 
@@ -54,13 +54,13 @@ from derive.steps.subject import EVERYTHING, Subject
 __all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
 
 
-SPEEDS = ("v", "u", "w")  # the letter of a speed: the next where one is given
-MANY = 8  # terms; more of them are not written out
+SPEEDS = ("v", "u", "w")  # the symbol of a speed: the first that is free
+MANY = 8  # terms; longer expressions are not shown
 
 
 @dataclass(frozen=True)
 class Mover:
-    """What has a kinetic energy by the motion of its centre of mass: a particle, or a body that is not held."""
+    """An object with kinetic energy of its centre of mass: a particle, or a body that is not held."""
 
     mass: Expr
     at: Location
@@ -73,7 +73,7 @@ class Mover:
 
 
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
-    """v of the only one, else v_1, v_2, ...; of a body with a name v with that name, of a second Lagrangian its."""
+    """v for a single mover, otherwise v_1, v_2, ...; named bodies and a second Lagrangian give the index."""
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
         Mover(placed.body.mass, placed.centre, placed.body.called.partition(" ")[0], True)
@@ -90,7 +90,7 @@ def movers(system: System, lagrangian: str = "") -> list[Mover]:
 
 
 def _is_plain(step: Step) -> bool:
-    """Whether the square of a speed is that of coordinates themselves, x_dot^2 + y_dot^2."""
+    """Whether the square of a speed consists of squared rates of coordinates, x_dot^2 + y_dot^2."""
     return bool(step.result.free_symbols <= {rate(q) for q, _ in step.coordinates})
 
 
@@ -140,13 +140,13 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
 
 
 def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
-    """The squares multiplied out, before sines and cosines of one angle come together; nothing where that is long."""
+    """The expanded squares, before sines and cosines of one angle combine; none if they are long."""
     terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
     return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """The rates of the components that are steps of their own, if those that change all are."""
+    """The rates of the components, if a step derives each component that changes."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(TIME, *moving)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
@@ -158,7 +158,7 @@ def _speed(place: tuple[Expr, ...], moving: list[Symbol]) -> Expr:
 
 @dataclass(frozen=True)
 class Turning:
-    """The rotation of one body: its inertia, a step or a letter, and its angular velocity or the rate of its angle."""
+    """The rotation of a body: its inertia, a step or a symbol, and its angular velocity or the rate of its angle."""
 
     inertia: Any
     omega: Any
@@ -174,7 +174,7 @@ class Turning:
         return Factors(HALF, Dot(omega, applied(inertia, omega)))
 
     def written_out(self) -> Expr:
-        """By components along principal axes, those of equal moments together."""
+        """The energy by components along principal axes, with equal moments combined."""
         tensor, omega = value_behind(self.inertia), value_behind(self.omega)
         if self.is_plane or not tensor.is_diagonal():
             return explicit(self.energy(tensor, omega))
@@ -186,7 +186,7 @@ class Turning:
 
 
 def weights_of(system: System) -> set[Symbol]:
-    """The letters of its masses."""
+    """The symbols in its masses."""
     return {letter for mass, _ in system.masses for letter in explicit(mass).free_symbols}
 
 
@@ -195,7 +195,7 @@ def _factored(component: Expr) -> Expr:
 
 
 def _turnings(system: System) -> list[Turning]:
-    """Bodies that are alike have one inertia."""
+    """The rotations of its bodies; identical bodies share an inertia."""
     found: list[Turning] = []
     known: list[tuple[PlacedBody, Any]] = []
     for i, placed in enumerate(system.bodies):
@@ -234,9 +234,9 @@ KINETIC_ENERGY = Rule(
 def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kinetic_energy") -> Quantity:
     """Kinetic energy of a system, T = sum of (1/2) M v^2 + (1/2) omega . I omega over its particles and bodies.
 
-    system   its particles and bodies: v is the speed of a centre of mass and I about it, but for a body that is held,
-             whose I is about the point that stays at rest
-    The square of each speed, each angular velocity and each inertia is a step of its own.
+    system   its particles and bodies: v is the speed of a centre of mass, and I is about the centre of mass; for a
+             body that is held, I is about the fixed point
+    Steps derive the square of each speed, each angular velocity and each inertia.
     Second route: half the sum of m v.v over mass points, the places differentiated as functions of t.
     Errors: the moments of a body are about another point.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -284,19 +284,19 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
-    """Where the values are put in: (1/2) M v^2 + (1/2) I theta_dot^2 is read easily, columns and matrices are not."""
+    """The level of the line with substituted values: scalars are clear without it, columns and matrices are not."""
     if not turnings:
         return None
     return Level.STANDARD if all(turning.is_plane for turning in turnings) else Level.FULL
 
 
 def _behind(system: System) -> list[Quantity]:
-    """What the letters stand for by which bodies are known; what rests on them keeps the letters."""
+    """The steps for the symbols that define bodies; later quantities keep these symbols."""
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Term by term, or multiplied out where terms of several bodies then come together, -(M + m) g l cos(theta)."""
+    """Term by term, or expanded if terms of several bodies then combine, -(M + m) g l cos(theta)."""
     forms = [by_terms(value), by_terms(value.expand()), with_constants_together(value.expand(), moving)]
     shortest = min(forms, key=length)
     return Add(*(spread(term) for term in Add.make_args(shortest)))
@@ -329,7 +329,7 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
     masses = system.masses if system.weights else []
     higher = [(mass, dict(at.found).get(len(at.components) - 1, at.height)) for mass, at in masses if at.height != 0]
     named = {f"height_{i}": y for i, (_, y) in enumerate(higher) if isinstance(y, Quantity)}
-    # A sum stays in its bracket, where the law shows it.
+    # A sum keeps its bracket if the law shows it.
     as_factors = bool(named) or any(height.is_Add for _, height in higher)
     stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
     stored += [each.energy for each in system.stored]
@@ -380,10 +380,10 @@ MAGNETIC_TERM = Rule(
 
 
 def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_term") -> Quantity:
-    """What uniform magnetic fields add to a Lagrangian, sum of q v . A with the vector potential A = (1/2) B x r, J.
+    """Term of uniform magnetic fields in a Lagrangian, sum of q v . A with the vector potential A = (1/2) B x r, J.
 
     system   its charges, in C, in fields B, in T
-    Second route: (d/dq - d/dt d/dq_dot) of it is the virtual work of the forces q v x B along each coordinate.
+    Second route: (d/dq - d/dt d/dq_dot) of this term is the virtual work of the forces q v x B along each coordinate.
     Outcomes: alone, several (charges in fields).
     Errors: no charge of the system is in a magnetic field.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5; the gauge is that of Landau, Lifshitz, *The
@@ -425,7 +425,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
 
 
 def _with_common_factor(value: Expr) -> Expr:
-    """(1/2) q B (x y_dot - y x_dot): what all terms have in common in front."""
+    """(1/2) q B (x y_dot - y x_dot): the common factor of all terms in front."""
     terms = Add.make_args(value)
     common = common_factor(list(terms)) if len(terms) > 1 else Integer(1)
     return value if common == 1 else Mul(common, Add(*(tidied(term / common) for term in terms)), evaluate=False)

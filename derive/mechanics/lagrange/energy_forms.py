@@ -31,10 +31,10 @@ ZERO = Integer(0)
 def beside_potential(
     value: Expr, of: Quantity, letters: Sequence[Symbol], moving: Sequence[Symbol] = (), sign: int = 1
 ) -> Expr:
-    """An energy as a sum: what is kinetic by squares of rates and of letters, and the potential energy as it was found.
+    """An energy as a sum: its kinetic part by squares of rates and symbols, and the potential energy unchanged.
 
     of        the Lagrangian
-    letters   momenta, constant or not; `moving` are coordinates whose rates still occur
+    letters   momenta, constant or not; `moving` are coordinates whose rates remain
     sign      that of the potential energy: -1 in a Lagrangian
     """
     energies = energies_of(of)
@@ -48,7 +48,7 @@ def beside_potential(
 
 
 def of_given(value: Expr, letters: Sequence[Symbol], moving: Sequence[Symbol]) -> Expr:
-    """An energy of a Lagrangian that is given, where nothing tells which part of it is potential."""
+    """An energy of a given Lagrangian, whose potential part is unknown."""
     fast = [*letters, *(rate(q) for q in moving)]
     terms = Add.make_args(explicit(value).expand())
     alone = tidied(Add(*(term for term in terms if not term.has(*fast))))
@@ -60,7 +60,7 @@ def of_given(value: Expr, letters: Sequence[Symbol], moving: Sequence[Symbol]) -
 
 
 def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
-    """sqrt((p_x + b y)^2 + m^2 c^2), its squares completed where that is shorter."""
+    """sqrt((p_x + b y)^2 + m^2 c^2): completed squares under a root, if this is shorter."""
     roots = {
         power: by_letters(power.base, letters) ** power.exp
         for power in value.atoms(Pow)
@@ -70,7 +70,7 @@ def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
-    """The last line of an energy: its terms in the order of the names in them, what has none of these last."""
+    """The last line of an energy: its terms in the order of these names, terms without any of them last."""
 
     def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
         first = next((i for i, name in enumerate(names) if term.has(name)), len(names))

@@ -1,7 +1,7 @@
-"""The energy function of a Lagrangian, whether it is the energy, and whether it is conserved: two different questions.
+"""The energy function of a Lagrangian: whether it is the energy, and whether it is conserved, are separate questions.
 
-h = sum of q_dot dL/dq_dot - L is constant if L does not contain the time itself and no force does work that L does not
-know of. It is T + U if the places of the mass points depend on the coordinates alone.
+h = sum of q_dot dL/dq_dot - L is constant if L does not depend on time explicitly and no force outside of L does work.
+It is T + U if the places of the mass points depend only on the coordinates.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ def outcome_of_energy(value: Expr, of: Quantity) -> str:
 
 
 def _of_given(of: Quantity) -> str:
-    """Of a Lagrangian that is given no energy is known, but whether the function is conserved."""
+    """The outcome for a given Lagrangian: its energy is unknown, so only whether the function is conserved."""
     if not is_zero(_power_beside(of)):
         return "given_work"
     return "given_changing" if TIME in explicit(of.value).free_symbols else "given_conserved"
 
 
 def _power_beside(of: Quantity) -> Expr:
-    """What forces do that have no potential energy, and those that keep a condition which itself moves."""
+    """The power of forces without a potential energy, and of forces that keep a moving constraint."""
     matter = of.needed(Matter)
     loads = [load for load in matter.others if isinstance(load, Load)]
     works = [rate(q) * load.work_along(q) for q in matter.coordinates for load in loads]
@@ -60,7 +60,7 @@ def _power_beside(of: Quantity) -> Expr:
 
 
 def _powers_of_conditions(of: Quantity) -> list[Expr]:
-    """Of each condition that moves, -lambda df/dt: a force that keeps one which stays does no work."""
+    """-lambda df/dt for each moving constraint: the force of a fixed constraint does no work."""
     kept, moving = of.fact(Kept), list(of.coordinates)
     still = {rate(q): Integer(0) for q in moving}
     moved = [(c.force, c.velocity(moving).xreplace(still)) for c in (kept.constraints if kept else ())]
@@ -68,7 +68,7 @@ def _powers_of_conditions(of: Quantity) -> list[Expr]:
 
 
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
-    """What T + U has more than the energy function, and the same by the parts of T."""
+    """The difference of T + U and the energy function, and the same from the parts of T."""
     if energies_of(of) is None:
         return {}
     excess = by_rates(tidied(of.needed(Energies).whole - value), [q.symbol for q in coordinates_of(of)])
@@ -93,10 +93,10 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
     of   the Lagrangian, J
-    Second route: T_2 - T_0 + U, with the parts of T that are of degree 2 and 0 in the rates; where L is given, what L
-    gains where all rates are stretched, and by the energy identity its rate as a function of time.
+    Second route: T_2 - T_0 + U, with the parts of T of degree 2 and 0 in the rates; for a given L, the derivative of L
+    when all rates are scaled, and by the energy identity its rate as a function of time.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U);
+    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (and not T + U);
     given_conserved, given_changing, given_work (L is given).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
@@ -155,12 +155,12 @@ ENERGY_FUNCTION_RATE = Rule(
 
 
 def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
-    """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt, the time being what occurs in L
-    by itself; and -lambda df/dt for each condition f = 0 that moves.
+    """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt, with the partial derivative
+    of L by time; and -lambda df/dt for each moving constraint f = 0.
 
     of   the energy function, J
-    The generalized forces Q are steps of their own.
-    Second route: h as a function of time, less the sum of q_dot (m a - F) . dr/dq, which vanishes by d'Alembert's
+    Steps derive the generalized forces Q.
+    Second route: h as a function of time, minus the sum of q_dot (m a - F) . dr/dq, which vanishes by d'Alembert's
     principle.
     Outcomes: conserved (L does not contain the time), changes, work (forces without a potential energy do work), lost
     (it can only decrease), work_and_time (both).
@@ -184,7 +184,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
 
     def along_the_motion(found: Relation) -> tuple[Any, Any]:
         work = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in moving]
-        work += [c.force * c.velocity(moving) for c in (kept.constraints if kept else ())]  # which vanishes
+        work += [c.force * c.velocity(moving) for c in (kept.constraints if kept else ())]  # these vanish
         by_time = by_functions_of_time(of.value, moving)
         both = [found.left, found.right, int(found.mark == "=")]
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])

@@ -1,4 +1,4 @@
-"""Facts that results hand on besides their value, for the steps that rest on them."""
+"""Facts that results pass, in addition to their value, to the steps that use them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ForceOf(Fact):
-    """The constraint that a force keeps, and the equations from which it was found."""
+    """The constraint that a force keeps, and the equations that gave the force."""
 
     missing = "is not the force of a constraint"
     constraint: Constraint
@@ -30,7 +30,7 @@ class ForceOf(Fact):
 
 @dataclass(frozen=True)
 class KeptMomentum(Fact):
-    """The letter of a momentum, the value that it keeps, and the rate of its coordinate that follows from that."""
+    """The symbol of a momentum, its conserved value, and the resulting rate of its coordinate."""
 
     missing = "is not the value of a conserved momentum"
     momentum: Symbol
@@ -41,16 +41,16 @@ class KeptMomentum(Fact):
 
 @dataclass(frozen=True)
 class WithMomenta(Fact):
-    """An equation of motion in which momenta have the values that they keep: the Lagrangian, and these values."""
+    """An equation of motion with conserved values of momenta: the Lagrangian, and these values."""
 
-    missing = "is not an equation of motion with the values of conserved momenta put in"
+    missing = "is not an equation of motion with substituted values of conserved momenta"
     lagrangian: Quantity
     kept: tuple[KeptMomentum, ...]
 
 
 @dataclass(frozen=True)
 class FromLagrangian(Fact):
-    """The Lagrangian that an equation of motion or a momentum comes from."""
+    """The Lagrangian of an equation of motion or a momentum."""
 
     missing = "does not come from a Lagrangian"
     lagrangian: Quantity
@@ -58,9 +58,9 @@ class FromLagrangian(Fact):
 
 @dataclass(frozen=True)
 class Energies(Fact):
-    """The energies that a Lagrangian is the difference of."""
+    """The two energies whose difference is a Lagrangian."""
 
-    missing = "is not the Lagrangian that `lagrangian` yields"
+    missing = "is not a Lagrangian from `lagrangian`"
     kinetic: Quantity
     potential: Quantity
     magnetic: Quantity | None = None
@@ -71,13 +71,13 @@ class Energies(Fact):
 
 
 def energies_of(lagrangian: Quantity) -> Energies | None:
-    """The energies that it is the difference of; nothing where it is given."""
+    """The two energies of a Lagrangian; None for a given one."""
     return None if lagrangian.fact(Varied) is not None else lagrangian.needed(Energies)
 
 
 @dataclass(frozen=True)
 class Varied(Matter):
-    """What a given Lagrangian does where it is varied, in the place of mass points and forces.
+    """First variations of a given Lagrangian, in place of mass points and forces.
 
     function   the Lagrangian
     """
@@ -97,23 +97,23 @@ class Varied(Matter):
         return {f"given_{name}": route for name, route in routes.items()}
 
     def kinetic_energy(self) -> Expr:
-        raise Rejected(Complaint("given-lagrangian", "of a Lagrangian that is given no kinetic energy is known"))
+        raise Rejected(Complaint("given-lagrangian", "the kinetic energy of a given Lagrangian is unknown"))
 
     def momentum_along(self, q: Symbol) -> Expr:
-        """What L gains where the rate of q alone is varied."""
+        """The derivative of L when only the rate of q varies."""
         return slope(self.function, rate(q))
 
     def turning_along(self, q: Symbol) -> Expr:
-        """What L gains where q alone is varied."""
+        """The derivative of L when only q varies."""
         return slope(self.function, q)
 
     def inertia_along(self, q: Symbol) -> Expr:
-        """What the action loses where q is varied, per unit of time: dp/dt less the slope of L."""
+        """Minus the first variation of the action by q, per unit of time: dp/dt minus the derivative of L by q."""
         return by_functions_of_time(self.momentum_along(q), self.coordinates) - self.turning_along(q)
 
     def further_routes(self, q: Symbol) -> dict[str, Route]:
-        """The rate of the energy of q alone, the others being what they are as functions of time, less what these do,
-        is the power of what acts along q: no derivative of L by q is taken."""
+        """The rate of the energy of q alone, minus the part that the other coordinates, as functions of time, add, is
+        the power of the forces along q: this needs no derivative of L by q."""
 
         def power(found: Any) -> tuple[Any, Any]:
             others = [s for s in self.coordinates if s != q]
@@ -126,7 +126,7 @@ class Varied(Matter):
         return {"energy_identity": power}
 
     def change_along(self, shift: Mapping[Symbol, Expr]) -> Expr:
-        """The first order of L where every coordinate is shifted by a formula."""
+        """The first-order change of L when every coordinate is shifted by a formula."""
         small = Dummy("epsilon", real=True)
         moved: dict[Symbol, Expr] = {}
         for q, x in shift.items():

@@ -1,8 +1,8 @@
-"""A Lagrangian that is given as a formula: no mass points and no forces stand behind it.
+"""Lagrangians that are given as a formula, without mass points and forces.
 
-What bodies tell of other Lagrangians, the action tells of this one: momenta and forces are the first order of L where
-a rate or a coordinate is varied, and the energy identity dh/dt + dL/dt = q_dot (d/dt dL/dq_dot - dL/dq) checks an
-equation of motion without a derivative of L by its coordinate.
+Second routes use the action instead of bodies: momenta and forces are first-order changes of L when a rate or a
+coordinate varies, and the energy identity dh/dt + dL/dt = q_dot (d/dt dL/dq_dot - dL/dq) checks an equation of motion
+without a derivative of L by its coordinate.
 
 Source: Landau, Lifshitz, *Mechanics*, sections 2 and 6; Goldstein, Poole, Safko, *Classical Mechanics*, section 2.3.
 """
@@ -37,7 +37,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class WithoutBodies:
-    """What a given Lagrangian is about: its coordinates, and what acts along them besides."""
+    """The system of a given Lagrangian: its coordinates, and additional forces along them."""
 
     function: Expr
     given_forces: tuple[GivenForce, ...] = ()
@@ -57,7 +57,7 @@ class WithoutBodies:
 
     @cached_property
     def described(self) -> Described:
-        """What the witness is given of it: the function, and what acts along its coordinates."""
+        """The input of the witness: the function, and the forces along its coordinates."""
         return Described(
             described((*self.given_forces, *self.dampers), (), (), {}, None, self.coordinates, self.function)
         )
@@ -76,14 +76,14 @@ def given_lagrangian(
     symbol: str | None = None,
     key: str = "lagrangian",
 ) -> Quantity:
-    """A Lagrangian that is given as a formula, L = f(q, q_dot, t): a premise, which is derived from nothing, as a
-    definition is.
+    """Lagrangian that is given as a formula, L = f(q, q_dot, t): a premise, which is not derived, as a definition is
+    not derived.
 
     function   a formula in coordinates, their rates and the time
-    acting     what acts along coordinates besides: couples, and drag against a rate
-    kind       what it is, an energy where it is that of a mechanical system
-    What stands below its roots is taken to be positive.
-    Errors: it holds no rate of a coordinate, or an acceleration.
+    acting     additional forces along coordinates: couples, and drag against a rate
+    kind       its kind, an energy for the Lagrangian of a mechanical system
+    Expressions under its roots are assumed to be positive.
+    Errors: it contains no rate of a coordinate, or an acceleration.
     Source: Landau, Lifshitz, *Mechanics*, section 2.
     """
     whole = explicit(function)
@@ -94,15 +94,15 @@ def given_lagrangian(
     )
     moving = system.coordinates
     if not whole.has(*(rate(q) for q in moving)) if moving else True:
-        message = "a Lagrangian that is given needs the rates of coordinates"
-        raise Rejected(Complaint("wrong-argument", message, help="the rate of x is `x_dot`"))
+        message = "a given Lagrangian needs the rates of coordinates"
+        raise Rejected(Complaint("wrong-argument", message, help="write the rate of x as `x_dot`"))
     for q in moving:
         if whole.has(rate(q, 2), rate(q, 3)):
-            message = f"a Lagrangian that is given holds coordinates and their rates, but not {rate(q, 2).name}"
+            message = f"a given Lagrangian contains coordinates and their rates, but not {rate(q, 2).name}"
             raise Rejected(Complaint("wrong-argument", message))
     strange = [q for each in acting for c in each.at for q in coordinates_in(ImmutableDenseMatrix([c]))]
     for q in (q for q in strange if q not in moving):
-        message = f"a force or drag acts along {q.name}, which is no coordinate of the Lagrangian"
+        message = f"a force or drag acts along {q.name}, which is not a coordinate of the Lagrangian"
         raise Rejected(Complaint("wrong-argument", message))
     for base in sorted(_radicands(whole), key=str):
         _take_as_real(base)
@@ -124,7 +124,7 @@ def _radicands(whole: Expr) -> set[Expr]:
 
 
 def _take_as_real(base: Expr) -> None:
-    """The Lagrangian is real: what stands below its roots is positive, which the page tells where it is not known."""
+    """Assume that expressions under roots of the Lagrangian are positive, since it is real; the page states this."""
     above, below = together(base).as_numer_denom()
     if base.is_nonnegative or sign_within(base) == 1:
         return
@@ -136,14 +136,14 @@ def _take_as_real(base: Expr) -> None:
 
 
 def energy_of(matter: Varied) -> Expr:
-    """h, by the first order of L where all rates are stretched by one factor: q_dot p summed, less L."""
+    """h, from the first-order change of L when all rates are scaled by a factor: the sum of q_dot p, minus L."""
     stretch = Dummy("u", real=True)
     rates = {rate(q): (1 + stretch) * rate(q) for q in matter.coordinates}
     return slope(bound(matter.function, rates), stretch).xreplace({stretch: ZERO}) - matter.function
 
 
 def rate_of_energy(matter: Varied) -> Expr:
-    """What dh/dt is by the energy identity, for all functions of time: the sum of q_dot times each equation, less
-    dL/dt, the time being what occurs in L by itself."""
+    """dh/dt by the energy identity, for all functions of time: the sum of q_dot times each equation, minus the
+    partial derivative of L by time."""
     works = (rate(q) * matter.inertia_along(q) for q in matter.coordinates)
     return Add(*works) - slope(matter.function, TIME)

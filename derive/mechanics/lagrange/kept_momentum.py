@@ -1,4 +1,4 @@
-"""What a constant momentum says of the rates once its value is known: I_z (psi_dot + phi_dot cos theta) = I_z S."""
+"""The equation for the rates from a conserved momentum of known value: I_z (psi_dot + phi_dot cos theta) = I_z S."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ VALUE_KEPT = Rule(
 
 
 def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Quantity:
-    """That a conserved momentum has a value at all times, p_q = c: an equation of first order.
+    """A conserved momentum with its value, p_q = c: an equation of first order.
 
-    momentum   as `conserved` yields it
-    value      which it has at the start: a premise
-    matter     the mass points whose momentum it is
+    momentum   the result of `conserved`
+    value      its value at the start: a premise
+    matter     the mass points of the momentum
     Second route: the sum of m v . dr/dq over the mass points is that value; and its rate by functions of time is the
     sum of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
     Errors: the value is not constant.

@@ -54,12 +54,12 @@ LAGRANGIAN = Rule(
 
 
 def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian") -> Quantity:
-    """Lagrangian, L = T - U; of charges in magnetic fields L = T - U + sum of q v . A.
+    """Lagrangian, L = T - U; for charges in magnetic fields, L = T - U + sum of q v . A.
 
     system   particles and bodies, and what acts on them; with the symbol "L_2" its energies are T_2 and U_2
-    Second route: the sum of q_dot dL/dq_dot, less L, is the energy T + U, for constraints that do not move; where the
-    time itself occurs, or a magnetic field, L and U less q v . A are the kinetic energy of the mass points.
-    Errors: this is no system.
+    Second route: the sum of q_dot dL/dq_dot, minus L, is the energy T + U, for constraints that do not move; if L
+    contains the time or a magnetic field, L + U minus q v . A is the kinetic energy of the mass points.
+    Errors: the argument is not a system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
     if not isinstance(system, System):
@@ -103,13 +103,13 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
 
 
 def _side_by_side(*terms: Expr) -> Expr:
-    """Terms as they stand, without one that is 0."""
+    """The sum with its terms unchanged and in order, without terms that are 0."""
     present = [term for term in terms if term != 0]
     return Terms(*present) if len(present) > 1 else Add(*present)
 
 
 def coordinates_of(of: Quantity) -> list[Coordinate]:
-    """The coordinates whose motion a Lagrangian governs."""
+    """The coordinates of a Lagrangian's equations of motion."""
     matter = of.needed(Matter)
     return [Coordinate(q, kind) for q, kind in of.coordinates.items() if q in matter.coordinates]
 
@@ -132,7 +132,7 @@ def equation_of_motion(
 
     of   the Lagrangian, J
     q    one of its coordinates
-    derivatives   whether the force dL/dq, the momentum dL/dq_dot and its rate are steps of their own
+    derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and its rate
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
     Outcomes: generic, cyclic (L does not contain q, so its momentum is constant).
     Errors: L does not depend on q.
@@ -163,7 +163,7 @@ def equation_of_motion(
     if found and of.fact(Varied) is not None:
         terms = explicit(found[2].value) - explicit(found[0].value)
         gathered = min((gathered, terms), key=length)
-    alone = len(coordinates_of(of)) == 1  # of several, what is divided out would spoil the symmetry of the whole
+    alone = len(coordinates_of(of)) == 1  # with several equations, dividing out factors would hide their symmetry
     left = _without_common_factor(gathered, moving) if alone else gathered
 
     return establish(
@@ -192,10 +192,9 @@ def equation_of_motion(
 
 
 def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
-    """l theta_ddot + g sin(theta) of m l^2 theta_ddot + m g l sin(theta): what is positive in all terms is left out.
+    """l theta_ddot + g sin(theta) from m l^2 theta_ddot + m g l sin(theta): without common positive factors.
 
-    Not what holds a coordinate, which would stand with the acceleration, nor what is below; numbers that are in
-    brackets count as well.
+    Factors with a coordinate remain, and so do denominators; numbers in brackets count too.
     """
     terms = Add.make_args(left)
     factors = Mul.make_args(common_factor(list(terms)))
@@ -207,9 +206,9 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
-    """2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2: no number that all have in common.
+    """2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2: without a common numeric factor.
 
-    But I + M a^2/4 stays what it is, a moment of inertia.
+    But I + M a^2/4, a moment of inertia, is unchanged.
     """
     apart: list[tuple[Expr, list[Expr]]] = []
     for term in terms:
@@ -226,19 +225,19 @@ def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
 
 
 def _has_some_fractions(factor: Expr) -> bool:
-    """A sum in which some terms have a number below and some have none."""
+    """Whether some terms of a sum have a numeric denominator and others do not."""
     below = {term.as_coeff_Mul()[0].q > 1 for term in Add.make_args(factor)} if factor.is_Add else set()
     return len(below) == 2
 
 
 def _product(*factors: Expr) -> Expr:
-    """Its sums stay in their brackets."""
+    """The product; its sums keep their brackets."""
     written = any(each.is_Add for each in factors)
     return Mul(*(each for each in factors if each != 1 or not written), evaluate=not written)
 
 
 def _divided(term: Expr, common: Expr) -> Expr:
-    """Factor by factor, so that brackets stay."""
+    """The quotient, factor by factor, so brackets remain."""
     for factor in Mul.make_args(common):
         term = term / factor
     return term
@@ -248,9 +247,9 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
     """Lagrange's equations, one for each coordinate, d/dt dL/dq_dot - dL/dq = 0.
 
     of            the Lagrangian, J
-    derivatives   whether dL/dq, dL/dq_dot and its rate are steps of their own
+    derivatives   whether steps derive dL/dq, dL/dq_dot and its rate
     Keys: motion_ and the name of the coordinate.
-    Second route: as `equation_of_motion`.
+    Second route: the same as in `equation_of_motion`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     return tuple(equation_of_motion(of, q, f"motion_{q.symbol.name}", derivatives) for q in coordinates_of(of))
@@ -261,7 +260,7 @@ def _difference(first: Expr, second: Expr) -> Expr:
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Steps of a second Lagrangian on the page begin with its own key, or with the name of its system."""
+    """The prefix of keys for a second Lagrangian on the page: its key, or the name of its system."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"

@@ -1,4 +1,4 @@
-"""Conjugate momenta, p_q = dL/dq_dot: their letters, their kinds, and how they are written."""
+"""Conjugate momenta, p_q = dL/dq_dot: their symbols, their kinds, and their form."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def letter_of_momentum(q: Coordinate) -> Symbol:
 
 
 def kind_of_momentum(kind: str, lagrangian: str | None = "energy") -> str | None:
-    """A length has a momentum, an angle an angular momentum; what has another dimension may have one without a name,
-    as where the Lagrangian is no energy."""
+    """The kind of the momentum: momentum for a length, angular momentum for an angle; None if the dimension has no
+    name, for example because the Lagrangian is not an energy."""
     if lagrangian is None:
         return None
     return kind_of_dimension(
@@ -41,7 +41,7 @@ def kind_of_momentum(kind: str, lagrangian: str | None = "energy") -> str | None
 
 
 def conjugate(of: Coordinate) -> Coordinate:
-    """The momentum p_q as a letter of its own beside the coordinate, to write functions of both: `x*p_y - y*p_x`.
+    """The momentum p_q as a symbol next to the coordinate, for functions of both: `x*p_y - y*p_x`.
 
     of   the coordinate, an angle or a length
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
@@ -61,7 +61,7 @@ CONJUGATE_MOMENTUM = Rule(
 
 
 def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, key: str | None = None) -> Quantity:
-    """Momentum that belongs to a coordinate, p_q = dL/dq_dot.
+    """Conjugate momentum of a coordinate, p_q = dL/dq_dot.
 
     of   the Lagrangian, J
     q    one of its coordinates
@@ -88,7 +88,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
 
 
 def written_momentum(value: Expr, of: Quantity) -> Expr:
-    """By rates; of a Lagrangian that is given term by term where that is shorter, as beside a root."""
+    """The momentum collected by rates; for a given Lagrangian term by term if that is shorter, as with a root."""
     forms = [by_rates(value, list(of.coordinates))]
     if energies_of(of) is None:
         forms.append(Add(*(tidied(term) for term in Add.make_args(explicit(value)))))
@@ -100,7 +100,7 @@ def momenta(of: Quantity) -> tuple[Quantity, ...]:
 
     of   the Lagrangian, J
     Keys: p_ and the name of the coordinate.
-    Second route: as `conjugate_momentum`.
+    Second route: the same as in `conjugate_momentum`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     return tuple(conjugate_momentum(of, q) for q in coordinates_of(of))

@@ -1,4 +1,4 @@
-"""Noether's theorem: a shift of the coordinates that leaves the Lagrangian as it is gives a constant of the motion.
+"""Noether's theorem: a shift of the coordinates that leaves the Lagrangian unchanged gives a constant of the motion.
 
 Source: Landau, Lifshitz, *Mechanics*, sections 7 and 9; Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
 """
@@ -46,16 +46,16 @@ def noether(
     symbol: str = "Q",
     key: str = "noether",
 ) -> Quantity:
-    """Constant of the motion that belongs to a symmetry, Q = sum of p_q xi_q - F.
+    """Constant of the motion from a symmetry, Q = sum of p_q xi_q - F.
 
     of       the Lagrangian, J
-    shift    coordinate -> xi, a formula in coordinates and the time: each q becomes q + epsilon xi
-    gained   F in coordinates and the time, where the shift adds epsilon dF/dt to L; nothing unless it is given
-    That L stays, and the momenta, are steps of their own.
+    shift    coordinate -> xi, a formula in coordinates and time: each q becomes q + epsilon xi
+    gained   F in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
+    Steps show that L is invariant, and derive the momenta.
     Second route: its rate by functions of time is d'Alembert's sum along the shift, sum of xi (m a - F) . dr/dq, which
-    vanishes; and it is the sum of m v . dr and q A . dr, the mass points being carried along by the shift.
+    vanishes; and it is the sum of m v . dr and q A . dr, where dr is the displacement of each mass point by the shift.
     Outcomes: symmetry, with_gain.
-    Errors: L does not stay as it is: what is left is told; the shift holds a rate, or moves nothing.
+    Errors: L is not invariant, and the message shows the difference; the shift contains a rate, or is zero.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
     xi = _formulas(of, shift)
@@ -103,15 +103,15 @@ def _formulas(of: Quantity, shift: Mapping[Coordinate, Any]) -> dict[Symbol, Exp
         required(of.coordinates, q, "noether", of)
     found = {q.symbol: _plain(x, f"shift of {q.symbol.name}", of) for q, x in shift.items()}
     if all(x == 0 for x in found.values()):
-        raise Rejected(Complaint("wrong-argument", "`noether`: this shift moves nothing"))
+        raise Rejected(Complaint("wrong-argument", "`noether`: this shift moves no coordinate"))
     return found
 
 
 def _plain(value: Any, role: str, of: Quantity) -> Expr:
-    """A formula in coordinates and the time, without rates."""
+    """A formula in coordinates and time, without rates."""
     found = value.symbol if isinstance(value, Coordinate) else Integer(value) if isinstance(value, int) else value
     if not isinstance(found, Expr) or found.has(*(rate(q, n) for q in of.coordinates for n in (1, 2))):
-        message = f"`noether`: the {role} is a formula in the coordinates and the time, without rates"
+        message = f"`noether`: the {role} must be a formula in coordinates and time, without rates"
         raise Rejected(Complaint("wrong-argument", message))
     return found
 
@@ -128,7 +128,7 @@ CHANGE_UNDER_SHIFT = Rule(
 
 
 def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Quantity:
-    """The first order of the change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt, which must vanish or be dF/dt."""
+    """The first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt, which must vanish or be dF/dt."""
     matter = of.needed(Matter)
     moving = [q.symbol for q in coordinates_of(of)]
     L = explicit(of.value)
@@ -137,9 +137,9 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
     left = Add(*(diff(L, s) * x for s, x in ways.items())) - explicit(TimeRate(gain, *moving))
     if not vanishes(left):
         message = (
-            f"`noether`: the shift is no symmetry, it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
+            f"`noether`: the shift is not a symmetry: it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
         )
-        raise Rejected(Complaint("no-symmetry", message, help="a change by the rate of some F is told by `gained=F`"))
+        raise Rejected(Complaint("no-symmetry", message, help="if the change is the rate of some F, add `gained=F`"))
 
     told: dict[str, Expr] = {}
     for i, (q, x) in enumerate(xi.items(), 1):
@@ -154,7 +154,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         return by_functions_of_time(gain, moving)
 
     def by_places(found: Relation) -> tuple[Any, Any]:
-        """What the points gain of (1/2) m v.v on their way, and the work of the loads on it."""
+        """The change of (1/2) m v.v of the points by the shift, and the work of the loads."""
         if isinstance(matter, Varied):
             left = matter.change_along(xi)
             return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([left, changed_by(gain)])
@@ -178,14 +178,14 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
 
 
 def _worked(L: Expr, ways: Mapping[Symbol, Expr], gain: Expr, moving: Sequence[Symbol]) -> list[Form]:
-    """The derivatives put in, where there are any that do not vanish."""
+    """The substituted derivatives, if any of them does not vanish."""
     terms = [_times(by_rates(diff(L, s), moving), x) for s, x in ways.items()]
     right = by_rates(explicit(TimeRate(gain, *moving)), moving)
     return [Form(Relation(Terms(*terms), "=", right), "put_in", Level.STANDARD)] if terms else []
 
 
 def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, Expr]]:
-    """Mass, way and velocity of each point along each axis, as the shift carries it."""
+    """Mass, displacement by the shift, and velocity of each point along each axis."""
     found: list[tuple[Expr, Expr, Expr]] = []
     for point in matter.points:
         for c in point.place:
@@ -195,7 +195,7 @@ def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, E
 
 
 def _times(derivative: Expr, factor: Expr) -> Expr:
-    """The product, kept in its bracket where it would be multiplied out."""
+    """The product, in its bracket if it would otherwise expand."""
     both = factor != 1 and (factor.is_Add or derivative.is_Add)
     return Factors(factor, derivative) if both else factor * derivative
 
@@ -218,6 +218,6 @@ def _in_results(
 ) -> Quantity:
     strange = next((name for name in values if name not in coordinates), None)
     if strange is not None:
-        message = f"`noether` shifts coordinates, but `{strange}` is not one"
+        message = f"`noether` shifts coordinates, but `{strange}` is not a coordinate"
         raise Rejected(Complaint("no-such-coordinate", message, argument=f"values:{strange}"))
     return noether(of, {coordinates[name]: value for name, value in values.items()}, gained, symbol, key)

@@ -1,4 +1,4 @@
-"""What acts on a system acts on its particles, and back on what exerts it; what keeps a constraint can do so."""
+"""Checks of a system: forces act on particles and have a reaction, and a force can keep each constraint."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ WHERE_IT_ACTS: Mapping[str, str] = {
 
 
 class ActsOnNothing(Rejected):
-    """A part of a system that acts on no particle, or of which the other side is not stated."""
+    """A part of a system that acts on no particle, or whose reaction acts on an unknown body."""
 
     part: Any = None
 
@@ -35,7 +35,7 @@ class ActsOnNothing(Rejected):
 
 
 class WithParts(Protocol):
-    """A system, with the places at which its parts act: each part, what it is called, and where."""
+    """A system with the places at which its parts act: each part, its name, and the place."""
 
     @property
     def described(self) -> Described: ...
@@ -50,42 +50,42 @@ class WithParts(Protocol):
 
 
 def check_what_is_acted_on(system: WithParts) -> None:
-    """Refuse a place that moves with nothing, friction without its other side, and a constraint without a gradient."""
+    """Reject a place that moves with nothing, friction without a second body, and a constraint without a gradient."""
     _check_particles(system)
     _check_gradients(system)
     _check_partners(system)
 
 
 def _check_particles(system: WithParts) -> None:
-    """Each place moves with a body, a particle or the ground."""
+    """Require each place to move with a body, a particle or the ground."""
     acting = system.acting
     for i in places_that_move_alone(system.described.description, [place for _, _, place in acting]):
         part, what, place = acting[i]
         where = ", ".join(map(str, place))
-        message = f"the {what} at ({where}) acts on no particle: that place moves with no body and no particle here"
+        message = f"the {what} at ({where}) acts on no particle: the place moves with no body or particle of the system"
         raise ActsOnNothing.of(part, Complaint("which-body", message, help=WHERE_IT_ACTS[what]))
 
 
 def check_ground(system: WithParts, ground: object) -> None:
-    """A place of the surface on which a body rolls moves with a body, a particle or the ground."""
+    """Require a place of the ground of a rolling body to move with a body, a particle or the ground."""
     if isinstance(ground, Location) and places_that_move_alone(system.described.description, [ground.components]):
         where = ", ".join(map(str, ground.components))
-        message = f"the place ({where}) of the ground moves with no body and no particle here"
-        help_line = "give a place that is fixed on the surface, or the axes in which the surface is at rest"
+        message = f"the place ({where}) of the ground moves with no body or particle of the system"
+        help_line = "give a place fixed to the surface, or axes in which the surface is at rest"
         raise Rejected(Complaint("which-body", message, help=help_line))
 
 
 def _check_gradients(system: WithParts) -> None:
-    """A force keeps a constraint along its gradient, which does not vanish where the constraint holds."""
+    """A constraint force is along the gradient, which must not vanish wherever the constraint holds."""
     for lost in conditions_that_nothing_keeps(system.described.description):
         part = next((each for each in system.constraints if each.force == lost.multiplier), None)
-        message = f"the gradient of {lost.residual} vanishes wherever it is zero, so no force can keep it at zero"
-        help_line = "without a square it can be kept: `x - y` in place of `(x - y)**2`"
+        message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can keep it"
+        help_line = "use the constraint without a square: `x - y` in place of `(x - y)**2`"
         raise ActsOnNothing.of(part, Complaint("constrained", message, help=help_line))
 
 
 def _check_partners(system: WithParts) -> None:
-    """A force in proportion to a force of constraint acts between two: the opposite one acts on the other."""
+    """A force proportional to a constraint force acts between two bodies: the opposite force acts on the other body."""
     letters: set[Symbol] = {each.force for each in system.constraints}
     touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]
     open_ = [f for f in touching if f.by is None]
@@ -96,6 +96,6 @@ def _check_partners(system: WithParts) -> None:
     if all(is_zero(c) for c in resultant):
         return
     (letter, *_) = sorted({s.name for c in open_[0].components for s in c.free_symbols & letters})
-    message = f"a force with {letter} acts between two bodies, but it is not stated which body exerts it"
+    message = f"a force with {letter} acts between two bodies, but the body that exerts it is not stated"
     help_line = "name the body on which the opposite force acts, `by: plank`, or write `by: ground`"
     raise ActsOnNothing.of(open_[0], Complaint("which-body", message, help=help_line))

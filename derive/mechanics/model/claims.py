@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of models: conditions under which an outcome, or a fact that its sentence names, is correct."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def of_a_centre(facts: Judged) -> bool:
 
 
 def of_a_spring(facts: Judged, several: bool) -> bool:
-    """Whether a spring of the system is as long, the only one or one of several."""
+    """Whether a spring of the system has this length, as the only spring or as one of several."""
     springs = [each for each in facts.subject.body.between if each.is_spring]
     return (len(springs) > 1) == several and any(is_zero(each.length - facts.result) for each in springs)
 

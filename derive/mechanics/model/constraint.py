@@ -1,4 +1,4 @@
-"""Conditions on a motion that forces keep: between coordinates, f(q, t) = c, or linear in their rates."""
+"""Constraints on a motion, kept by forces: between coordinates, f(q, t) = c, or linear in their rates."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class Constraint:
-    """f = 0, kept by a force whose work is lambda df; or the sum of a_i q_i_dot and b, kept by one with the work
-    lambda times the sum of a_i dq_i.
+    """f = 0, kept by a force with the work lambda df; or a_1 q_1_dot + a_2 q_2_dot + ... + b = 0, kept by a force with
+    the work lambda (a_1 dq_1 + a_2 dq_2 + ...).
 
     left      f, or the sum
-    right     what it equals, as the script wrote it
+    right     the other side, as written in the script
     force     the multiplier
     in_rates  whether it is linear in the rates
     """
@@ -47,11 +47,11 @@ class Constraint:
         return coordinates_in(self.residual)
 
     def along(self, q: Symbol) -> Expr:
-        """What a displacement of q alone does to the condition, df/dq or a_q."""
+        """The derivative of the condition along a displacement of q: df/dq or a_q."""
         return diff(self.residual, rate(q) if self.in_rates else q)
 
     def velocity(self, moving: list[Symbol]) -> Expr:
-        """What vanishes in every velocity that it allows."""
+        """The expression that vanishes for every allowed velocity."""
         return self.residual if self.in_rates else explicit(TimeRate(self.residual, *moving))
 
     def acceleration(self, moving: list[Symbol]) -> Expr:
@@ -59,7 +59,7 @@ class Constraint:
 
     @property
     def kind_of_force(self) -> str | None:
-        """A force where f is a length, a torque where it is an angle, as one of its plain terms tells."""
+        """A force if f is a length, a torque if it is an angle, judged by its terms that are plain symbols."""
         for term in Add.make_args(self.residual.expand()):
             for q, kind in self.coordinates.items():
                 if (term / (rate(q) if self.in_rates else q)).is_number:
@@ -71,18 +71,18 @@ class Constraint:
 
 @dataclass(frozen=True)
 class Kept(Fact):
-    """The constraints that forces keep in a motion."""
+    """The constraints of a motion that forces keep."""
 
-    missing = "has no constraints that forces keep"
+    missing = "has no constraints kept by forces"
     constraints: tuple[Constraint, ...]
 
 
 def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Constraint:
-    """A condition on the coordinates, f = c, or linear in their rates, that a force keeps.
+    """A constraint on coordinates, f = c, or linear in their rates, that a force keeps.
 
-    condition   f, a formula of the coordinates, of the time, or linear in the rates of coordinates
+    condition   f, a formula of coordinates and time, or linear in the rates of coordinates
     equals      c
-    force       the letter of the multiplier: a force where f is a length
+    force       the symbol of the multiplier: a force if f is a length
     """
     try:
         left, right = explicit(as_expr(condition)), explicit(as_expr(equals))
@@ -101,6 +101,6 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     made = Constraint(left, right, scalar(force), bool(rates))
     if not is_zero(
         made.residual - explicit(as_expr(condition) - equals)
-    ):  # the sign of the force is that of the condition
-        raise Unverified(Complaint("unverified", f"the constraint is kept as {made.residual} = 0"))
+    ):  # the sign of the force depends on that of the condition
+        raise Unverified(Complaint("unverified", f"the constraint was changed to {made.residual} = 0"))
     return made

@@ -1,8 +1,8 @@
-"""What a Lagrangian is made of, as mass points and forces: the ground on which its second routes stand.
+"""The mass points and forces of a Lagrangian, on which its second routes rest.
 
-A rigid body moves as a few mass points would: one of the whole mass at the centre of mass, and for the rotation points
-on unit vectors fixed in the body, whose `masses` are second moments, in kg m^2. Kinetic energy, momenta and the virtual
-work of inertia and of forces then come from positions alone, differentiated as functions of t.
+A rigid body moves like a few mass points: one of the whole mass at the centre of mass, and for the rotation points on
+unit vectors fixed in the body, whose `masses` are second moments, in kg m^2. Kinetic energy, momenta and the virtual
+work of inertia and of forces then come only from positions, differentiated as functions of t.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert's principle).
 """
@@ -35,10 +35,10 @@ class MassPoint:
 
 @dataclass(frozen=True)
 class Load:
-    """A force, in N, that acts at a place, in m; or a torque, in N m, that acts on an angle.
+    """A force, in N, at a place, in m; or a torque, in N m, on an angle.
 
-    held   letters in the place that are constant in every displacement, such as where in a body a particle is, with
-           their values
+    held   symbols in the place that are constant in every displacement, such as the position of a particle in its body,
+           with their values
     """
 
     force: Vector
@@ -50,13 +50,13 @@ class Load:
         return _dot(self.force, self.slopes(q))
 
     def slopes(self, q: Symbol) -> Vector:
-        """dr/dq of what the force acts on."""
+        """dr/dq of the place of the force."""
         return tuple(c.xreplace(dict(self.held)) for c in _along(self.place, q))
 
 
 @dataclass(frozen=True)
 class MagneticForce:
-    """The force q v x B, N, on a charge that moves through a uniform magnetic field; in a plane B points to the reader.
+    """The force q v x B, N, on a charge in motion in a uniform magnetic field; in a plane B points to the reader.
 
     Its vector potential is A = (1/2) B x r, in T m.
     """
@@ -67,11 +67,11 @@ class MagneticForce:
 
     def __post_init__(self) -> None:
         if coordinates_in(ImmutableDenseMatrix(self.field)):
-            message = "a magnetic field that changes from place to place is not uniform"
+            message = "a magnetic field that depends on the place is not uniform"
             raise Unverified(Complaint("unverified", message))
 
     def load(self, moving: Sequence[Symbol]) -> Load:
-        """By the vector product of SymPy, of which the potential makes no use: the one is checked by the other."""
+        """The force by SymPy's vector product, which the potential does not use: so each checks the other."""
         v = _rates_of(self.place, tuple(moving), 1)
         velocity, field = (Matrix([*v, 0][:3]), Matrix([0, 0, *self.field] if len(v) == 2 else self.field))
         return Load(tuple(self.charge * c for c in list(velocity.cross(field))[: len(v)]), self.place)
@@ -91,7 +91,7 @@ class MagneticForce:
 
 @dataclass(frozen=True)
 class Reaction:
-    """The force that keeps a condition on the rates: the work lambda a_q dq of each displacement."""
+    """The force of a constraint on rates: it does the work lambda a_q dq in a displacement."""
 
     force: Symbol
     factors: tuple[tuple[Symbol, Expr], ...]
@@ -102,14 +102,14 @@ class Reaction:
 
 @dataclass(frozen=True)
 class Matter(Fact):
-    """Mass points and loads together, and the coordinates that their places depend on.
+    """Mass points and loads, and the coordinates of their places.
 
     loads    the forces that have a potential energy
-    fields   those of magnetic fields, which a Lagrangian has by their vector potentials
-    others   those that have none: given ones, drag, and what keeps constraints
+    fields   the forces of magnetic fields, which have vector potentials in a Lagrangian
+    others   the forces without a potential energy: given forces, drag, and constraint forces
     """
 
-    missing = "has no mass points and forces behind it"
+    missing = "does not come from mass points and forces"
 
     points: tuple[MassPoint, ...] = ()
     loads: tuple[Load, ...] = ()
@@ -125,25 +125,25 @@ class Matter(Fact):
 
     @property
     def is_known(self) -> bool:
-        """Whether it tells what moves, or what has a potential energy."""
+        """Whether mass points, or forces with a potential energy, are known."""
         return bool(self.points or self.loads)
 
     def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
-        """Second routes by the names that tell on what they stand."""
+        """Second routes, by names that show their basis."""
         return dict(routes)
 
     def further_routes(self, q: Symbol) -> dict[str, Route]:
-        """To an equation of motion, besides the virtual work."""
+        """Further routes to an equation of motion, apart from virtual work."""
         return {}
 
     @property
     def is_driven(self) -> bool:
-        """Whether a place depends on the time itself, and not by the coordinates alone."""
+        """Whether a place depends on time explicitly, not only through the coordinates."""
         return any(TIME in explicit(x).free_symbols for point in self.points for x in point.place)
 
     @property
     def weights(self) -> set[Symbol]:
-        """The letters of its masses."""
+        """The symbols in its masses."""
         return {letter for point in self.points for letter in explicit(point.mass).free_symbols}
 
     def kinetic_energy(self) -> Expr:
@@ -167,11 +167,11 @@ class Matter(Fact):
         return sum((field.momentum_along(q) for field in self.fields), Integer(0))
 
     def inertia_along(self, q: Symbol) -> Expr:
-        """The sum of m a . dr/dq: less the virtual work of the forces of inertia"""
+        """The sum of m a . dr/dq: minus the virtual work of the inertial forces"""
         return sum((m * _dot(a, _along(r, q)) for m, r, a in self._moving(2)), Integer(0))
 
     def turning_along(self, q: Symbol) -> Expr:
-        """The sum of m v . d(dr/dq)/dt, what the kinetic energy gains per unit of q; and that of d(q A . dr/dq)/dt"""
+        """The sum of m v . d(dr/dq)/dt, the derivative of T by q; and the time derivative of the sum of q A . dr/dq"""
         found: Expr = self._rates((self.field_momentum_along(q),), 1)[0] if self.fields else Integer(0)
         for m, r, v in self._moving(1):
             found += m * _dot(v, self._rates(_along(r, q), 1))
@@ -182,7 +182,7 @@ class Matter(Fact):
         return self.stored_force_along(q) + self.deflection_along(q) + self.other_force_along(q)
 
     def other_force_along(self, q: Symbol) -> Expr:
-        """The virtual work of the forces that no term of a Lagrangian stands for"""
+        """The virtual work of the forces without a term in the Lagrangian"""
         return sum((load.work_along(q) for load in self.others), Integer(0))
 
     def deflection_along(self, q: Symbol) -> Expr:
@@ -200,7 +200,7 @@ class Matter(Fact):
         return _rates_of(v, self.coordinates, order)
 
 
-@lru_cache(maxsize=256)  # each momentum, force and equation of motion asks for those of the same points
+@lru_cache(maxsize=256)  # each momentum, force and equation of motion needs the rates of the same points
 def _rates_of(v: Vector, coordinates: tuple[Symbol, ...], order: int) -> Vector:
     return tuple(by_functions_of_time(x, coordinates, order) for x in v)
 

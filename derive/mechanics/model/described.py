@@ -1,4 +1,4 @@
-"""What the witness is given of a system: the parts as they were described, before any condition is used."""
+"""Input of the witness for a system: its parts as described, before any constraint is used."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from derive.witness import description as plain
 
 XYZ = (0, 1, 2)
 SOLVED = "answers.solved_for"
-CONSERVED = "hamilton.conserved"  # the rule of momenta that keep their value
+CONSERVED = "hamilton.conserved"  # the rule of conserved momenta
 
 
 @dataclass(frozen=True)
 class Described(Witness):
-    """The system that a quantity belongs to, as the witness sees it."""
+    """The system of a quantity, as the witness sees it."""
 
     missing = "does not belong to a described system"
     description: plain.Description
@@ -63,7 +63,7 @@ def letter_of_momentum(q: Symbol) -> Symbol:
 
 
 def body_of(placed: PlacedBody) -> plain.Body:
-    """A body by its known point, the arm from there to its centre of mass, and its second moments."""
+    """A body by its known point, the displacement of its centre of mass from there, and its second moments."""
     axes = placed.in_plane if placed.is_plane else XYZ
     arm = explicit(ImmutableDenseMatrix(placed.body.middle.position - placed.point.position))
     turns = placed.turned.turns if isinstance(placed.turned, Axes) else ((2, placed.turned),)
@@ -91,9 +91,9 @@ def described(
     coordinates: Mapping[Symbol, str],
     lagrangian: Expr | None = None,
 ) -> plain.Description:
-    """Particles, bodies and what acts on them; or a given Lagrangian with what acts along its coordinates.
+    """Particles, bodies and the forces on them; or a given Lagrangian with the forces along its coordinates.
 
-    known   coordinates that a condition gives by others; here the condition is kept instead
+    known   coordinates that a condition expresses by others; the condition is kept as a constraint here
     """
     bodies = [part for part in parts if isinstance(part, PlacedBody)]
     charges = [part for part in parts if isinstance(part, Charge)]
@@ -118,7 +118,7 @@ def described(
 
 
 def _pair(force: GivenForce) -> list[GivenForce]:
-    """The force and the one that acts back."""
+    """The force and its reaction, if there is one."""
     return [force] if force.opposite is None else [force, force.opposite]
 
 
@@ -127,17 +127,17 @@ def _force(force: GivenForce, bodies: Sequence[PlacedBody]) -> plain.Force:
 
 
 def _place(acting: GivenForce | Damper) -> plain.Vector:
-    """Where it acts: on a body at that place of it, on a particle wherever this is."""
+    """The place of action: on a body that place of it; on a particle the place of the particle."""
     return acting.at if acting.point.held else acting.point.place
 
 
 def _number(of: Any, bodies: Sequence[PlacedBody]) -> int | None:
-    """The number of the body whose particle it is."""
+    """The index of the body that contains the particle."""
     return next((i for i, body in enumerate(bodies) if body is of or body == of), None)
 
 
 def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
-    """The numbers of the places that move with no body, no particle and not with the ground."""
+    """The indices of the places that move with no body or particle and not with the ground."""
     moving = {q for q, _ in of.coordinates}
     asked = [i for i, place in enumerate(places) if any(explicit(c).free_symbols & moving for c in place)]
     if not asked or of.lagrangian is not None:
@@ -148,7 +148,7 @@ def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]
 
 
 def conditions_that_nothing_keeps(of: plain.Description) -> list[plain.Condition]:
-    """Those whose gradient vanishes wherever they hold."""
+    """The constraints whose gradient vanishes wherever they hold."""
     if not any(each.multiplier is not None for each in of.conditions):
         return []
     from derive.witness.constraints import without_gradient

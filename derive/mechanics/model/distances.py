@@ -1,4 +1,4 @@
-"""How far apart two places of a system are, as a step with a letter of its own, where the formula is long."""
+"""Steps for long distances between two places of a system, each with a symbol."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ __all__: list[str] = []
 
 Lengths: TypeAlias = list[Quantity]
 
-LONG = 4  # so many terms under a root are a formula to be written once
+LONG = 4  # a root of this number of terms is written only once
 LETTERS = ("s", "u", "w")
 
 
 def long_distances(system: System) -> Lengths:
-    """The lengths of springs, and other distances of which a potential energy is one, that are long formulas."""
+    """The lengths of springs, and other distances in potential energies, whose formulas are long."""
     long = [each for each in system.between if _is_long(each.length)]
     letter = next((each for each in LETTERS if not _is_taken(each, system)), LETTERS[0])
     names = [f"{letter}_{i}" for i in range(1, len(long) + 1)] if len(long) > 1 else [letter]
@@ -51,7 +51,7 @@ DISTANCE = Rule(
 
 
 def _distance(system: System, each: Central, name: str) -> Quantity:
-    """Distance of two places, s = sqrt((x_2 - x_1)^2 + (y_2 - y_1)^2 + ...), in m.
+    """Distance between two places, s = sqrt((x_2 - x_1)^2 + (y_2 - y_1)^2 + ...), in m.
 
     Second route: the law of cosines, s^2 = r_1^2 + r_2^2 - 2 r_1 . r_2.
     Outcomes: spring (the only one), springs, other (no spring).

@@ -1,7 +1,7 @@
-"""What acts on a system besides its weight and its springs: given forces and couples, drag, charges in fields, and any
+"""Forces on a system other than its weight and its springs: given forces and torques, drag, charges in fields, and any
 potential energy of the coordinates.
 
-A couple on an angle, and a drag on a coordinate, act along that coordinate alone; everything else acts at a place.
+A couple on an angle, and a drag on a coordinate, act only along that coordinate; all other forces act at a place.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class GivenForce:
-    """A force at a place, N, or along a coordinate what does the work Q dq: for an angle a couple, N m.
+    """A force at a place, N; or along a coordinate the Q of its work Q dq: for an angle a torque, N m.
 
-    of   what it acts on, if that is stated: a body, a particle, or "massless"
-    by   what exerts it: a body or particle, on which the opposite force acts, or "ground"
+    of   the body or particle that it acts on, if stated, or "massless"
+    by   the body or particle that exerts it, on which the opposite force acts, or "ground"
     """
 
     components: Vector
@@ -43,7 +43,7 @@ class GivenForce:
 
     @cached_property
     def point(self) -> MaterialPoint:
-        """What it acts on, as that moves."""
+        """The material point that it acts on."""
         return material_point("force", self.of, Location(self.at))
 
     def load(self, moving: Sequence[Symbol]) -> Load:
@@ -51,7 +51,7 @@ class GivenForce:
 
     @property
     def opposite(self) -> GivenForce | None:
-        """The force on what exerts this one, at the same place."""
+        """The opposite force, on the body that exerts this one, at the same place."""
         if self.by is None or self.by == GROUND:
             return None
         return GivenForce(tuple(-c for c in self.components), self.at, self.by, self.of)
@@ -67,7 +67,7 @@ class Damper:
 
     @cached_property
     def point(self) -> MaterialPoint:
-        """What it acts on, as that moves."""
+        """The material point that it acts on."""
         return material_point("damping", self.of, Location(self.at))
 
     def velocity(self, moving: Sequence[Symbol]) -> Vector:
@@ -80,32 +80,32 @@ class Damper:
 
 @dataclass(frozen=True)
 class StoredEnergy:
-    """A potential energy of the coordinates and the time, J."""
+    """A potential energy of the coordinates and time, J."""
 
     energy: Expr
 
     def loads(self, moving: Sequence[Symbol]) -> list[Load]:
-        """Along each coordinate the force -dU/dq; as the time passes it loses -dU/dt."""
+        """The force -dU/dq along each coordinate; with time, the energy decreases at the rate -dU/dt."""
         slopes = [(q, -diff(self.energy, q)) for q in (*moving, TIME)]
         return [Load((slope,), (q,)) for q, slope in slopes if slope != 0]
 
 
 @dataclass(frozen=True)
 class InUniformField(StoredEnergy):
-    """The energy of a charge in a uniform electric field; the force q E at its place is known without it."""
+    """The energy of a charge in a uniform electric field; its force q E at a place is known independently."""
 
     force: Vector
     at: Vector
 
     def loads(self, moving: Sequence[Symbol]) -> list[Load]:
-        """The force; and as the field changes, the energy loses (dF/dt) . r."""
+        """The force; and as the field changes, the energy decreases at the rate (dF/dt) . r."""
         changes = Add(*(diff(f, TIME) * c for f, c in zip(self.force, self.at, strict=True)))
         return [Load(self.force, self.at), *([Load((changes,), (TIME,))] if changes != 0 else [])]
 
 
 @dataclass(frozen=True)
 class Charge:
-    """A charge in given fields, which need not be the same everywhere: the force q(E + v x B)."""
+    """A charge in given fields, uniform or not: the force q(E + v x B)."""
 
     charge: Expr
     at: Location
@@ -114,7 +114,7 @@ class Charge:
 
     @property
     def stored(self) -> StoredEnergy:
-        """In a uniform electric field, U = -q E . r."""
+        """The potential energy in a uniform electric field, U = -q E . r."""
         place = self.at.components
         energy = -self.charge * Add(*(e * c for e, c in zip(self.electric, place, strict=True)))
         return InUniformField(energy, tuple(self.charge * e for e in self.electric), place)
@@ -127,7 +127,7 @@ class Charge:
 def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
     values = given.components if isinstance(given, Location) else given
     if not isinstance(values, tuple | list) or len(values) != count:
-        message = f"`{verb}` needs {count} components as its `{role}`, as many as its place has"
+        message = f"`{verb}` needs {count} components as its `{role}`, the number of components of its place"
         raise Rejected(Complaint("wrong-argument", message))
     try:
         return tuple(as_expr(value) for value in values)
@@ -144,34 +144,34 @@ def _place(verb: str, at: Any) -> Location:
 def force(components: Any, at: Location, of: Any = None, by: Any = None) -> GivenForce:
     """A given force at a place, N: constants, formulas of the coordinates, or of the time t.
 
-    of   the body or particle that it acts on, where the place does not move with it; "massless" for a part without mass
+    of   the body or particle that it acts on, if the place does not move with it; "massless" for a part without mass
     by   the body or particle that exerts it, on which the opposite force acts; or "ground"
     """
     place = _place("force", at)
     found = GivenForce(_vector("force", "components", components, len(place.components)), place.components, of, by)
     for each in (found, found.opposite):
         if each is not None:
-            each.load(())  # which refuses what nothing can act on
+            each.load(())  # raises an error if nothing can be acted on
     return found
 
 
 def couple(torque: Any, on: Any) -> GivenForce:
-    """A given torque that turns by an angle, N m; a coordinate, or an angle made of coordinates."""
+    """A given torque along an angle, N m; the angle is a coordinate, or a formula of coordinates."""
     along = as_expr(on)
     if not coordinates_in(along):
-        raise Rejected(Complaint("wrong-argument", f"`couple` turns something, but {along} does not move"))
+        raise Rejected(Complaint("wrong-argument", f"`couple` needs an angle that varies, but {along} is constant"))
     return GivenForce((as_expr(torque),), (along,))
 
 
 def damping(constant: Any, at: Any, of: Any = None) -> Damper:
     """A drag against the velocity of a place, -c v with c in kg/s, or of a coordinate, -c q_dot.
 
-    of   the body or particle whose particle at that place it acts on, where the place does not move with it
+    of   the body or particle whose particle at that place it acts on, if the place does not move with it
     """
     require_constant("damping", "constant", constant)
     if isinstance(at, Location):
         found = Damper(constant, at.components, of)
-        found.load(())  # which refuses what nothing can act on
+        found.load(())  # raises an error if nothing can be acted on
         return found
     if not isinstance(at, Coordinate | Expr) or not coordinates_in(as_expr(at)):
         message = "`damping` acts against the velocity of a place or against the rate of a coordinate"
@@ -180,7 +180,7 @@ def damping(constant: Any, at: Any, of: Any = None) -> Damper:
 
 
 def potential(energy: Any) -> StoredEnergy:
-    """A potential energy of the coordinates, J, and of the time where it is driven."""
+    """A potential energy of the coordinates, J, and of time for a driven system."""
     given: Expr = explicit(as_expr(energy))
     moving = coordinates_in(given)
     fast = [q for q in moving if given.has(rate(q), rate(q, 2))]
@@ -195,8 +195,8 @@ def potential(energy: Any) -> StoredEnergy:
 def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
     """A charge, C, at a place in a uniform electric field E, V/m, and a uniform magnetic field B, T.
 
-    E   as many components as the place has
-    B   three components; in a plane the one across it, towards the reader
+    E   as many components as the place
+    B   three components; in a plane only the perpendicular one, towards the reader
     """
     place = _place("charge", at)
     count = len(place.components)
@@ -212,7 +212,7 @@ def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
         for component in field:
             if coordinates_in(component):
                 help_line = "give another field by `potential` or `force`"
-                message = f"`charge` needs a uniform {role}, but {component} changes from place to place"
+                message = f"`charge` needs a uniform {role}, but {component} depends on the place"
                 raise Rejected(Complaint("changes", message, help=help_line))
     for component in magnetic:
         require_constant("charge", "magnetic field", component)

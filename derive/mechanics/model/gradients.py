@@ -1,7 +1,7 @@
-"""Whether a multiplier is a force: the length of the gradient of its condition in space.
+"""The factor between a multiplier and its force: the length of the gradient of its condition in space.
 
-A multiplier lambda does the work lambda df. Where the gradient of f has length 1 on every particle that it acts on,
-lambda is the size of the force; else the force on a particle is lambda times that gradient.
+A multiplier lambda does the work lambda df. If the gradient of f has the length 1 on the only particle, lambda is the
+magnitude of the force; otherwise the force on a particle is lambda times that gradient.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4; Lanczos, *The Variational Principles of Mechanics*,
 section III.2.
@@ -20,8 +20,8 @@ from derive.steps.step import Quantity
 
 
 def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
-    """The length of the gradient of a condition on the places of one particle, by whose coordinates it moves freely;
-    nothing where there are several particles, or it is not a condition on places."""
+    """The length of a condition's gradient by the place of a single particle whose coordinates leave it free to move;
+    None for several particles, for bodies, or for a condition on rates."""
     described = next((known for q in lagrangian.ancestors() if (known := q.fact(Described)) is not None), None)
     description = described.description if described is not None else None
     if description is None or description.bodies or len(description.particles) != 1 or kept.in_rates:
@@ -41,7 +41,7 @@ def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
 
 
 def _where_kept(square: Expr, kept: Constraint) -> Expr:
-    """4 l^2, not 4 x^2 + 4 y^2, where the condition is x^2 + y^2 = l^2."""
+    """4 l^2, not 4 x^2 + 4 y^2, for the condition x^2 + y^2 = l^2."""
     moving = list(kept.coordinates)
     divided, condition = square.as_poly(*moving), kept.residual.as_poly(*moving)
     if divided is None or condition is None or divided.total_degree() < condition.total_degree():

@@ -1,4 +1,4 @@
-"""Where something is: the components of a place as steps of their own, and conditions on rates, integrated."""
+"""Positions as steps: the components of a place, and integrated conditions on rates."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ INTEGRATED = Rule(
 
 
 def integrated(condition: Quantity, key: str | None = None) -> Quantity:
-    """A condition on rates with constant factors, integrated: s = R theta of s_dot = R theta_dot.
+    """A condition on rates with constant factors, integrated: s = R theta from s_dot = R theta_dot.
 
-    condition   as `no_slip` yields it, where it gives one rate by others with constant factors
-    Coordinates are counted from where all of them are zero.
-    Check: differentiated as a function of t it is the condition again; and all are zero together.
+    condition   from `no_slip`, if it expresses one rate by others with constant factors
+    The origin of the coordinates is where all of them are zero.
+    Check: its time derivative is the condition again; and all coordinates are zero together.
     Errors: the condition cannot be integrated.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
@@ -65,16 +65,16 @@ def integrated(condition: Quantity, key: str | None = None) -> Quantity:
 
 
 def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence[str] = ()) -> tuple[Quantity, ...]:
-    """The components of a place, or of the centre of mass of a body, with what conditions of rolling make of them.
+    """The components of a place, or of the centre of mass of a body, with conditions of rolling substituted.
 
     of           a body that is placed or held, or a place, m
-    conditions   as `no_slip` yields them: the coordinates that they give by others are put in
-    names        of the components, which are their keys; x, y and z, the last of them upwards, unless given
-    A place that `point` makes of them is called by their letters in speeds and energies.
-    Check: the velocity, with what the conditions make of the rates, is that of the result; and so is the place
+    conditions   from `no_slip`: the coordinates that they express by others are substituted
+    names        of the components, which are their keys; by default x, y and z, the last of them upwards
+    A `point` with these components appears by their symbols in speeds and energies.
+    Check: the velocity, with the conditions for the rates substituted, is that of the result; the same for the place
     where all coordinates are zero.
     Outcomes: centre (of a body), place.
-    Errors: a condition cannot be integrated; the names are not as many as the components.
+    Errors: a condition cannot be integrated; the numbers of names and components differ.
     Source: Taylor, *Classical Mechanics*, section 7.3.
     """
     place = of.centre if isinstance(of, PlacedBody) else of
@@ -98,7 +98,7 @@ COMPONENT = Rule(
 def _component(
     body: PlacedBody | None, component: Expr, i: int, conditions: Mapping[str, Quantity], name: str
 ) -> Quantity:
-    """One of them.
+    """One component.
 
     Outcomes: centre, place.
     Source: that of `components`.

@@ -1,7 +1,7 @@
-"""Material points: the particle that a body has at a place, and how it moves.
+"""Material points: the particle of a body at a place, and its motion.
 
-A place in space may move like no particle at all, as the contact point of a ball that slides. What acts on a body acts
-on the particle that is there.
+A place in space may move differently from every particle, such as the contact point of a sliding ball. A force on a
+body acts on the particle at that place.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ GROUND, MASSLESS = "ground", "massless"
 
 @dataclass(frozen=True)
 class MaterialPoint:
-    """A particle: its place, with letters for where it is in its body, and what these letters are.
+    """A particle: its place, in terms of symbols for its position in its body, with the values of these symbols.
 
-    place   to be differentiated, with the letters held constant
-    held    letter -> its value, to be substituted afterwards
+    place   to be differentiated with these symbols constant
+    held    symbol -> its value, to be substituted afterwards
     """
 
     place: Vector
@@ -38,7 +38,7 @@ class MaterialPoint:
 
 
 def particle_of(body: PlacedBody, at: Location) -> MaterialPoint:
-    """The particle that a rigid body has at a place: r(q) + R(q) rho with rho = R^T (r_place - r) held constant."""
+    """The particle of a rigid body at a place: r(q) + R(q) rho with constant rho = R^T (r_place - r)."""
     arm = ImmutableDenseMatrix((at - body.at).components)
     names = [stand_in(f"rho_{i}") for i in range(len(arm))]
     turn = body.turned.in_space if isinstance(body.turned, Axes) else after(((2, body.turned),))[:2, :2]
@@ -55,9 +55,9 @@ def at_rest_in(axes: Axes, at: Location) -> MaterialPoint:
 
 
 def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
-    """What moves at a place: the particle of a body, a particle itself, or the place as it is given.
+    """The material point at a place: the particle of a body, a given particle, or the place itself.
 
-    of   a placed body; a particle, wherever it is; "massless" for a part without mass that moves as the place does
+    of   a placed body; a particle, wherever it is; "massless" for a part without mass that moves with the place
     """
     if of is None or of == MASSLESS:
         return MaterialPoint(at.components)

@@ -42,16 +42,16 @@ def no_slip(
 ) -> Quantity | tuple[Quantity, ...]:
     """Condition of rolling without slipping, v + omega x (r_contact - r) = 0, solved for a rate.
 
-    body     a body that is placed or held; v is the velocity of the point r where that is
-    at       where it touches the surface, m
-    ground   a place of the surface, where that moves without rotating, or the axes in which the surface is at rest, as
-             for a turntable; by default it is at rest
-    fixes    the coordinate whose rate is to stand alone, if it can; by default that of the body's last turn
-    One condition for each rate that it fixes. Given to a `System` as one of its
-    parts, it gives a coordinate by others where it can be integrated.
-    Second route: the place that the particle at the contact has in the body, held fast and differentiated with it; the
-    condition follows from that being at rest, and is no more.
-    Errors: the body is at rest there in any case, or cannot roll.
+    body     a body that is placed or held; v is the velocity of the point r of the body whose place is given
+    at       the place where it touches the surface, m
+    ground   a place of the surface, if the surface moves without rotation, or the axes in which the surface is at rest,
+             for example for a turntable; by default the surface is at rest
+    fixes    the coordinate whose rate is isolated, if possible; by default that of the last rotation of the body
+    The result is one condition for each rate that it fixes. As a part of a `System`, a condition expresses a coordinate
+    by others, if it can be integrated.
+    Second route: the position in the body of the particle at the contact is held constant and differentiated; the
+    condition follows from the vanishing velocity of this particle, and is not stronger.
+    Errors: the body is always at rest there, or cannot roll.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
     found: dict[Symbol, Quantity] = {}
@@ -64,7 +64,7 @@ def no_slip(
 def rolling_constraint(
     body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
-    """The conditions of rolling, each kept by a force: F, or F_1, F_2 where there are several."""
+    """The conditions of rolling, each kept by a force: F, or F_1, F_2 for several conditions."""
     conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
     _check_against_particle(body, at, ground, conditions)
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
@@ -74,10 +74,10 @@ def rolling_constraint(
 
 
 def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr]:
-    """The components of the velocity of slipping along directions at right angles: friction has the same components.
+    """The components of the slip velocity along perpendicular directions: friction has the same components.
 
-    The velocity is a sum of the conditions, each times a vector; the directions are those of these vectors, made
-    perpendicular to one another.
+    The slip velocity is a sum of the conditions, each times a vector; the directions come from these vectors by
+    orthogonalization.
     """
     vectors: list[ImmutableMatrix] = []
     for each in conditions:
@@ -98,7 +98,7 @@ def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr
 
 
 def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
-    """By its rates; a condition alone stays as it is."""
+    """The sum, collected by its rates; a single condition with the factor 1 is unchanged."""
     parts = [(share, each.left) for share, each in zip(shares, conditions, strict=True) if share != 0]
     if len(parts) == 1 and parts[0][0] == 1:
         return parts[0][1]
@@ -109,21 +109,21 @@ def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
 
 
 def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
-    """No line of a page shows that these say neither more nor less than that the particle at the contact is at rest."""
+    """Check the constraints, which have no step: together they say only that the particle at the contact is at rest."""
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     at_rest = velocity_of_particle(body, at, ground)
     ranks = {_rank(lines, moving) for lines in (at_rest, conditions, [*at_rest, *conditions])}
     if len(ranks) > 1:
-        message = "the conditions of rolling are not those of a particle that is at rest where the body touches"
+        message = "the conditions of rolling are not equivalent to a contact particle at rest"
         raise Unverified(Complaint("unverified", message))
     if not _are_as_long(conditions, at_rest):
-        message = "the conditions of rolling are not components of the velocity of slipping"
+        message = "the conditions of rolling are not components of the slip velocity"
         raise Unverified(Complaint("unverified", message))
 
 
 @dataclass(frozen=True)
 class Rolling(Fact):
-    """The body that rolls, the place of contact, and a place of what it rolls on, if that moves."""
+    """The rolling body, the place of contact, and the ground, if it moves."""
 
     missing = "is not a condition of rolling"
     body: PlacedBody
@@ -132,7 +132,7 @@ class Rolling(Fact):
 
 
 class _Condition:
-    """A sum of rates that vanishes, and the coordinate for whose rate it is solved."""
+    """A vanishing sum of rates, and the coordinate whose rate it determines."""
 
     def __init__(self, left: Expr, q: Symbol, known: dict[Symbol, Expr]):
         self.left, self.q, self.known = left, q, known
@@ -149,7 +149,7 @@ class _Condition:
 def _independent(
     body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None = None
 ) -> Iterator[_Condition]:
-    """Conditions of which none follows from the others."""
+    """Independent conditions: none follows from the others."""
     _check(body, at, ground)
     known: dict[Symbol, Expr] = {}
     first = [fixes.symbol] if fixes is not None else []
@@ -161,13 +161,13 @@ def _independent(
         q = next(iter([*steady, *present]), None)
         if q is None:
             if not is_zero(rest):
-                raise Rejected(Complaint("wrong-argument", f"the body cannot roll there: {rest} would have to vanish"))
+                raise Rejected(Complaint("wrong-argument", f"the body cannot roll there: {rest} must vanish"))
             continue
         condition = _Condition(rest, q, dict(known))
         known[rate(q)] = condition.rate
         yield condition
     if not known:
-        raise Rejected(Complaint("wrong-argument", "the particle of the body at the contact is at rest in any case"))
+        raise Rejected(Complaint("wrong-argument", "the particle of the body at the contact is always at rest"))
 
 
 def _check(body: Any, at: Location, ground: Ground | None) -> None:
@@ -177,7 +177,7 @@ def _check(body: Any, at: Location, ground: Ground | None) -> None:
             Complaint(
                 "wrong-argument",
                 message,
-                help=Spelled("put it somewhere with `.placed` or `.held`", "give its `centre`, or `held` and `on`"),
+                help=Spelled("place it with `.placed` or `.held`", "give its `centre`, or `held` and `on`"),
             )
         )
     for place in (at, ground):
@@ -186,12 +186,12 @@ def _check(body: Any, at: Location, ground: Ground | None) -> None:
             and not isinstance(place, Axes)
             and (not isinstance(place, Location) or len(place.components) != len(body.at.components))
         ):
-            raise Rejected(Complaint("wrong-argument", "`no_slip` needs a contact with as many components as the body"))
+            raise Rejected(Complaint("wrong-argument", "`no_slip` needs a contact in the plane or space of the body"))
     _check_reaches(body, at)
 
 
 def _check_reaches(body: PlacedBody, at: Location) -> None:
-    """A round body touches what is not beyond its radius."""
+    """Reject a contact of a round body that is farther from its centre than its radius."""
     radius = getattr(body.body, "radius", None)
     if not isinstance(radius, Expr) or not body.is_plane:
         return
@@ -199,12 +199,12 @@ def _check_reaches(body: PlacedBody, at: Location) -> None:
     beyond = tidied(Add(*(c**2 for c in way)) - radius**2)
     if not coordinates_in(ImmutableDenseMatrix([beyond])) and strict_sign_within(beyond) == 1:
         where = ", ".join(map(str, at.components))
-        message = f"{body.body.name} of radius {radius} does not reach ({where}), so it does not touch anything there"
-        raise Rejected(Complaint("no-contact", message, help="give the place where it touches as `at`"))
+        message = f"{body.body.name} of radius {radius} does not reach ({where}), so it has no contact there"
+        raise Rejected(Complaint("no-contact", message, help="give the place of contact as `at`"))
 
 
 def _order(body: PlacedBody, at: Location) -> list[Symbol]:
-    """The coordinates of the last turn first, then those of the turns before it, and then the others."""
+    """The coordinates of the last rotation first, then those of earlier rotations, then the others."""
     if isinstance(body.turned, Axes):
         turning = [q for _, angle in reversed(body.turned.turns) for q in coordinates_in(angle)]
     else:
@@ -214,7 +214,7 @@ def _order(body: PlacedBody, at: Location) -> list[Symbol]:
 
 
 def contact_velocity(body: PlacedBody, at: Location, ground: Ground | None) -> ImmutableMatrix:
-    """Of the particle of the body at the contact, as seen from the surface: v + omega x (r_contact - r)."""
+    """Velocity of the particle of the body at the contact, relative to the surface: v + omega x (r_contact - r)."""
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     arm = ImmutableDenseMatrix((at - body.at).components)
     v = ImmutableDenseMatrix([explicit(TimeRate(c, *moving)) for c in body.at.components])
@@ -234,7 +234,7 @@ def contact_velocity(body: PlacedBody, at: Location, ground: Ground | None) -> I
 
 
 def _velocity_of_ground(ground: Ground, at: Location) -> ImmutableMatrix:
-    """Of the surface at the contact: of axes that turn, omega x r with omega from R_dot R^T."""
+    """Velocity of the surface at the contact: for rotating axes, omega x r with omega from R_dot R^T."""
     if isinstance(ground, Location):
         return ImmutableDenseMatrix([explicit(TimeRate(c, *coordinates_in(c))) for c in ground.components])
     turn, moving = ground.in_space, list(coordinates_in(ground.in_space))
@@ -243,7 +243,7 @@ def _velocity_of_ground(ground: Ground, at: Location) -> ImmutableMatrix:
 
 
 def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
-    """What vanishes: of components that are multiples of one expression in the rates, that one alone."""
+    """The vanishing components; only one of them if all are multiples of the same expression in the rates."""
     parts = [_rates_alone(component) for component in velocity if component != 0]
     if parts and all(is_zero(part - parts[0]) or is_zero(part + parts[0]) for part in parts):
         return parts[:1]
@@ -251,7 +251,7 @@ def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
 
 
 def _rates_alone(component: Expr) -> Expr:
-    """The component without the factors that hold no rate."""
+    """The component without its factors that contain no rate."""
     fast = {s for q in coordinates_in(component) for s in (rate(q),)}
     kept = [f for f in Mul.make_args(factor(component)) if f.free_symbols & fast]
     return Mul(*kept) if kept else component
@@ -267,19 +267,19 @@ NO_SLIP = Rule(
 def _solved(
     body: PlacedBody, at: Location, ground: Ground | None, condition: _Condition, key: str, fixes: Coordinate | None
 ) -> Quantity:
-    """The condition as the rate that it fixes."""
+    """The condition, solved for the rate that it fixes."""
     q, found = condition.q, condition.rate
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     marks = [stand_in(f"delta_{i}") for i in range(len(at.components))]
 
     def at_rest(relation: Relation) -> tuple[Expr, Expr]:
-        """The particle of the body at the contact is at rest there, all conditions taken together."""
+        """The particle of the body at the contact is at rest, by all conditions together."""
         velocity = velocity_of_particle(body, at, ground)
         known = {**_all_rates(body, at, ground, fixes), relation.left: relation.right}
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """It follows from the particle being at rest: as a further line it leaves the rank of that as it is."""
+        """The condition follows from the particle at rest: as a further row it does not change the rank."""
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 
@@ -289,7 +289,7 @@ def _solved(
     facts: list[Fact] = [Rolling(body, at, ground)]
     if constant:
         function = Add(*(c * other for c, other in zip(coefficients, moving, strict=True)))
-        facts.append(KnownCoordinate(q, function))  # but for a constant, which is zero where both angles are
+        facts.append(KnownCoordinate(q, function))  # up to a constant, zero by choice of origins
     factors = tuple(f.as_base_exp()[0] for f in Mul.make_args(condition.factor) if not f.is_nonzero)
     for each in factors:
         assume(Relation(each, "!=", ZERO))
@@ -314,7 +314,7 @@ def _solved(
 
 
 def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
-    """Of linear conditions on the rates, at a place of no significance."""
+    """The rank of linear conditions on the rates, at a generic point."""
     rates = [rate(q) for q in moving]
     still = dict.fromkeys(rates, ZERO)
     rows = Matrix([[*(slope(line, v) for v in rates), line.xreplace(still)] for line in lines])
@@ -324,7 +324,7 @@ def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
 
 
 def _are_as_long(components: list[Expr], vector: list[Expr]) -> bool:
-    """Whether the squares of both add up to the same, with a number for every letter."""
+    """Whether both have the same sum of squares, numerically at a generic point."""
     apart = Add(*(c**2 for c in components), *(-(c**2) for c in vector))
     there = {s: Rational(5 * i + 3, 3 * i + 8) for i, s in enumerate(sorted(apart.free_symbols, key=str))}
     return bool(abs(apart.xreplace(there).evalf(30)) < Rational(1, 10**15))
@@ -339,7 +339,7 @@ def _all_rates(body: PlacedBody, at: Location, ground: Ground | None, fixes: Coo
 
 
 def velocity_of_particle(body: PlacedBody, at: Location, ground: Ground | None) -> list[Expr]:
-    """The particle is where the contact is: held fast in the body, its place is differentiated as a function of t."""
+    """Velocity of the particle at the contact: its position in the body is constant, its place a function of t."""
     point = particle_of(body, at)
     place = list(point.place)
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))

@@ -1,4 +1,4 @@
-"""How a body turns, and the inertia with which it does: about the point at which it is held, or its centre of mass."""
+"""Angular velocity of a body, and its inertia: about the point at which it is held, or its centre of mass."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from derive.steps.subject import NOTHING, Subject
 
 __all__ = ["angular_velocity"]
 
-Inertia: TypeAlias = Quantity | Expr  # a step, or the letter of a moment across the plane
-_SQUARES = (lambda value: value, TR5, TR6)  # as it is, by cosines, by sines
+Inertia: TypeAlias = Quantity | Expr  # a step, or the symbol of a moment about the axis across the plane
+_SQUARES = (lambda value: value, TR5, TR6)  # unchanged, by cosines, by sines
 
 
 ANGULAR_VELOCITY = Rule(
@@ -48,30 +48,28 @@ def angular_velocity(
     symbol: str = "omega",
     key: str = "angular_velocity",
 ) -> Quantity:
-    """Angular velocity of axes that turn, omega = sum of alpha_i_dot n_i over their turns, in 1/s.
+    """Angular velocity of rotating axes, omega = sum of alpha_i_dot n_i over their rotations, in 1/s.
 
-    axes    each of their turns is about one of the axes that the turns before it led to
-    along   the axes along which its components are: `space`, or those after some of the turns; by default all turns
-    body    the body that turns with the axes, where it has a name of its own
+    axes    each of their rotations is about one of the axes after the rotations before it
+    along   the axes of the components: `space`, or those after some of the rotations; by default after all of them
+    body    the body that rotates with the axes, if it has a name
     Second route: the rotation matrix R differentiated as a function of t: the antisymmetric matrix R_dot R^T.
-    Outcomes: body (components along the axes themselves), following (along axes that share all turns but the last
-    ones), space.
-    Errors: the axes do not turn; `along` are none that the turns pass.
+    Outcomes: body (components along the axes themselves), following (along axes that share all rotations except the
+    last ones), space.
+    Errors: the axes do not rotate; `along` is not one of the intermediate axes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     count = len(axes.turns) if along is None else len(along.turns)
     if along is not None and axes.turns[:count] != along.turns:
-        message = "`angular_velocity` has components along axes from which, or to which, these axes are turned"
-        raise Rejected(Complaint("wrong-axis", message, help="give `along=space`, or axes between space and these"))
+        message = "`along` in `angular_velocity` must be an intermediate stage of these axes"
+        raise Rejected(Complaint("wrong-axis", message, help="use `along=space`, or axes after some of the rotations"))
     moving = list(coordinates_in(axes.in_space))
     terms = [
         (explicit(TimeRate(angle, *moving)), _seen_from(axes, i, count)) for i, (_, angle) in enumerate(axes.turns)
     ]
     turning = [(speed, around) for speed, around in terms if speed != 0]
     if not turning:
-        raise Rejected(
-            Complaint("wrong-argument", "`angular_velocity` needs axes that turn, but these stay as they are")
-        )
+        raise Rejected(Complaint("wrong-argument", "`angular_velocity` needs rotating axes, but these are constant"))
     whole = [scaled(speed, around) for speed, around in turning]
 
     def by_rotation_matrix() -> ImmutableMatrix:
@@ -116,7 +114,7 @@ def _minuses_below(value: Expr) -> int:
 
 
 def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
-    """The unit vector about which the turn of this number goes, along the axes after so many turns."""
+    """The unit vector of this rotation's axis, along the axes after `count` rotations."""
     about = column(*(int(k == axes.turns[i][0]) for k in range(3)))
     if i < count:
         return ImmutableDenseMatrix(after(axes.turns[i + 1 : count]).T * about)
@@ -124,9 +122,9 @@ def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
 
 
 def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
-    """Those along which the inertia of a body in space is constant, and the components of its angular velocity short.
+    """Axes along which the inertia of a body in space is constant and its angular velocity has short components.
 
-    Where the last turns are about an axis of symmetry, these are the axes before them.
+    If the last rotations are about an axis of symmetry, these are the axes before them.
     """
     axes: Any = placed.turned
     count = len(axes.turns)
@@ -144,14 +142,14 @@ def _is_symmetric(inertia: ImmutableMatrix, axis: int) -> bool:
 
 
 def turning_rate_of(placed: PlacedBody) -> Expr:
-    """Of a body in a plane, without its sign."""
+    """The angular speed of a body in a plane, up to its sign."""
     angle: Any = placed.turned
     found: Expr = tidied(TimeRate(angle, *coordinates_in(as_expr(angle))))
     return -found if found.could_extract_minus_sign() else found
 
 
 def is_about_the_point(placed: PlacedBody) -> bool:
-    """Whether the body is held, and its inertia is known about the point at which it is."""
+    """Whether the body is held, with a known inertia about the point at which it is held."""
     if not placed.is_held:
         return False
     body, point = placed.body, placed.point
@@ -168,9 +166,9 @@ def _at_centre(placed: PlacedBody) -> bool:
 
 
 def inertia_of(placed: PlacedBody) -> Inertia:
-    """The tensor of a body in space, the moment across the plane of one in a plane.
+    """The tensor of a body in space, or the moment of a body in a plane about the perpendicular axis.
 
-    Errors: the moments that are given are about another point than the one needed.
+    Errors: the given moments are about a point other than the one needed.
     """
     body, axis = placed.body, placed.across
     about = "centre" if _at_centre(placed) or not is_about_the_point(placed) else placed.point.name
@@ -185,11 +183,11 @@ def inertia_of(placed: PlacedBody) -> Inertia:
 
 
 def _check_moments(placed: PlacedBody) -> None:
-    """Moments about the pivot serve a body that is held there; all others are about the centre of mass."""
+    """Require moments about the pivot for a body held there, and about the centre of mass for all others."""
     body = placed.body
     if body.about == "fixed_point" and any(body.centre) and not is_about_the_point(placed):
         where = "moves freely" if not placed.is_held else f"is held at its {placed.point.name}"
-        message = f"the moments of {body.name} are about its pivot, but it {where}"
+        message = f"the moments of {body.name} are about its pivot, but the body {where}"
         help_line = 'give the moments about the centre of mass, with `about="centre_of_mass"`'
         raise Rejected(Complaint("wrong-point", message, help=help_line))
     if body.about == "fixed_point" and any(body.centre):
@@ -197,6 +195,6 @@ def _check_moments(placed: PlacedBody) -> None:
             at = getattr(found.subject.point, "name", None)
             if found.symbol in body.moments and at in ("centre", "centre_of_mass"):
                 message = (
-                    f"`{found.key}` is about the centre of mass, but {body.name} has it as a moment about its pivot"
+                    f"`{found.key}` is about the centre of mass, but {body.name} uses it as a moment about its pivot"
                 )
-                raise Rejected(Complaint("wrong-point", message, help="find the moments about the pivot"))
+                raise Rejected(Complaint("wrong-point", message, help="derive the moments about the pivot"))

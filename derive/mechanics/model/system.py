@@ -1,7 +1,7 @@
-"""A mechanical system: particles and bodies, the forces on them, and the conditions on their motion.
+"""Mechanical systems: particles and bodies, the forces on them, and the conditions on their motion.
 
-Places are formulas in the coordinates, so that whatever ties particles together is built into them. The energies are
-made of the places alone; so are the mass points and forces by which every second route goes (d'Alembert's principle).
+Places are formulas in the coordinates, so they contain the geometric constraints between particles. The energies derive
+only from the places; so do the mass points and forces of every second route (d'Alembert's principle).
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ DISTANCE = Dummy("r", positive=True)
 
 @dataclass(frozen=True)
 class Particle:
-    """A particle of a constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1.
+    """A particle of constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1.
 
-    name   what it is, for its drawing: a "bob" hangs on a rod, a "bead" is on a wire
+    name   its kind for a drawing: a "bob" hangs on a rod, a "bead" is on a wire
     """
 
     mass: Expr
@@ -49,7 +49,7 @@ class Particle:
 
     def __post_init__(self) -> None:
         if not isinstance(self.mass, Expr | int) or not isinstance(self.at, Location):
-            message = "`Particle` needs the expression of a mass and a place that `point` or `place` gives"
+            message = "`Particle` needs an expression for its mass and a place that `point` or `place` gives"
             raise Rejected(Complaint("wrong-argument", message))
         require_constant("Particle", "mass", self.mass)
         require_positive("`Particle`", "mass", self.mass)
@@ -57,16 +57,16 @@ class Particle:
 
 @dataclass(frozen=True)
 class Weight:
-    """The weight of every particle, downwards along the last axis, with the gravity g in m/s^2."""
+    """The weight of every particle, downwards along the last axis, with the gravitational acceleration g in m/s^2."""
 
     gravity: Expr
 
 
 @dataclass(frozen=True)
 class Central:
-    """A potential energy U(r) of the distance between two places, J, and the pull along the line between them, N.
+    """A potential energy U(r) of the distance between two places, J, and the force along the line between them, N.
 
-    branch   which of u and -u is the distance |u| of two places on one line, where the system takes one of them
+    branch   u or -u for the distance |u| of two places on one line, if the system chooses one of them
     """
 
     start: Location
@@ -83,7 +83,7 @@ class Central:
 
     @cached_property
     def along(self) -> Expr | None:
-        """What has the distance as its absolute value, where the way between the places stays on one line."""
+        """The expression whose absolute value is the distance, if the line between the places has a fixed direction."""
         components = [c for c in (self.end - self.start).components if c != 0]
         if len(components) == 1 and _is_sum_of_letters(components[0]):
             return components[0]
@@ -96,7 +96,7 @@ class Central:
 
     @cached_property
     def length(self) -> Expr:
-        """The distance; one of its branches where the system takes one, and then the page states the condition."""
+        """The distance; if the system chooses a branch, that branch, and the page states the condition."""
         if self.branch is not None:
             assume(Relation(self.branch, ">", ZERO), self.is_spring)
             return self.branch
@@ -105,7 +105,7 @@ class Central:
         return sqrt(factor(tidied(Add(*(c**2 for c in (self.end - self.start).components)))))
 
     def pulls(self) -> tuple[Load, Load]:
-        """The forces at its two ends, towards each other where the energy grows with the distance."""
+        """The forces at its two ends, towards each other if the energy increases with the distance."""
         way = (self.end - self.start).components
         size = self.pull.xreplace({self.distance: self.length})
         pull = tuple(size * c / self.length for c in way)
@@ -119,9 +119,9 @@ def weight(gravity: Expr) -> Weight:
 
 
 def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO, massless: bool = False) -> Central:
-    """A spring without mass between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m.
+    """A massless spring between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m.
 
-    massless   whether it may end at a joint without mass; else each end moves with a body, a particle or the ground
+    massless   whether it may end at a massless joint; otherwise each end moves with a body, a particle or the ground
     """
     require_constant("spring", "spring constant", constant)
     require_constant("spring", "natural length", natural)
@@ -136,7 +136,7 @@ def central(energy: Expr, distance: Symbol, start: Location, end: Location, mass
     """
     if TIME in energy.free_symbols:
         raise Rejected(
-            Complaint("changes", "`central` needs an energy of the distance alone, but it depends on the time t")
+            Complaint("changes", "`central` needs an energy of the distance only, but it depends on the time t")
         )
     return Central(start, end, distance, energy, diff(energy, distance), massless)
 
@@ -149,36 +149,36 @@ _PARTS = (Particle, PlacedBody, Weight, Central, StoredEnergy, Charge, GivenForc
 
 @dataclass(frozen=True)
 class KnownCoordinate(Fact):
-    """A coordinate that a condition makes a function of others, with the function."""
+    """A coordinate that a condition expresses by others, with its formula."""
 
-    missing = "is not a condition that gives a coordinate by others"
+    missing = "is not a condition that expresses a coordinate by others"
     coordinate: Symbol
     function: Expr
 
 
 @dataclass(frozen=True)
 class Eliminated(Fact):
-    """The coordinates that conditions of a system give by others: what rests on it does not depend on them."""
+    """The coordinates that conditions of a system express by others: later quantities do not depend on them."""
 
-    missing = "has no coordinate that is given by others"
+    missing = "has no coordinate that is expressed by others"
     eliminates: tuple[Symbol, ...]
 
 
 class System:
     """Particles and bodies, the forces on them, and the conditions on their motion.
 
-    name   "first": keys of its steps begin with `first_`, letters have the index `first`
+    name   "first": keys of its steps begin with `first_`, symbols have the index `first`
     """
 
     def __init__(self, *parts: PartOfSystem, name: str = ""):
         unknown = [part for part in parts if not isinstance(part, _PARTS)]
         if unknown:
             made_of = "particles, placed bodies, a weight, springs and other forces, and constraints"
-            message = f"`System` is made of {made_of}, not of {type(unknown[0]).__name__}"
-            help_line = "put a body somewhere with `.placed` or `.held`" if isinstance(unknown[0], Placeable) else None
+            message = f"`System` needs {made_of}, not a {type(unknown[0]).__name__}"
+            help_line = "place a body with `.placed` or `.held`" if isinstance(unknown[0], Placeable) else None
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
         if name and not re.fullmatch(r"[a-z]+( [a-z]+)?", name):
-            help_line = 'give one or two words in small letters, "first"'
+            help_line = 'use one or two words of small letters, "first"'
             raise Rejected(Complaint("name", f"`{name}` is not a name for a system", help=help_line))
         self.called = name
         self.conditions = tuple(part for part in parts if isinstance(part, Quantity))
@@ -213,9 +213,9 @@ class System:
             if taken_positive(explicit(mass)) != 1:
                 raise Rejected(Complaint("no-such-body", f"a mass of a `System` must be positive, but {mass} is not"))
         if len(self.weights) > 1:
-            raise Rejected(Complaint("wrong-argument", "a `System` has one weight, that of all its particles"))
+            raise Rejected(Complaint("wrong-argument", "a `System` can have only one weight, of all its particles"))
         if len({len(place.components) for place in self.places}) > 1:
-            message = "some places of this `System` have two components, others three: the last one is upwards"
+            message = "some places of this `System` have two components, others have three"
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
         if not self.coordinates:
             message = "nothing in this `System` moves: its places depend on no coordinate"
@@ -232,7 +232,7 @@ class System:
             _check_kept(condition)
         letters = [each.force.name for each in self.constraints]
         if len(set(letters)) < len(letters):
-            message = "two constraints of this `System` have forces of one letter"
+            message = "two constraints of this `System` have the same symbol for their forces"
             raise Rejected(
                 Complaint(
                     "letter-clash",
@@ -242,19 +242,19 @@ class System:
             )
 
     def _check_what_acts(self) -> None:
-        """Forces and constraints are those of what moves here, and of nothing else."""
+        """Require forces and constraints to depend only on coordinates of this system."""
         acting = [ImmutableDenseMatrix([e.energy]) for e in self.stored]
         acting += [ImmutableDenseMatrix(each.at) for each in self._others]
         acting += [ImmutableDenseMatrix([each.residual]) for each in self.constraints]
         for values in acting:
             for q in coordinates_in(values):
                 if q not in self.coordinates:
-                    message = f"a force or constraint of this `System` depends on {q.name}, but nothing in it moves so"
+                    message = f"a force or constraint of this `System` depends on {q.name}, which no place depends on"
                     raise Rejected(Complaint("wrong-argument", message))
 
     @property
     def places(self) -> list[Location]:
-        """Those of its particles and bodies, and the ends of what acts between them."""
+        """The places of its particles and bodies, and the ends of springs and central forces."""
         at = [particle.at for particle in self.particles] + [placed.centre for placed in self.bodies]
         at += [each.at for each in self.charges]
         return at + [end for s in self.between for end in (s.start, s.end)]
@@ -275,13 +275,13 @@ class System:
 
     @cached_property
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Those that its places and the turning of its bodies depend on, with their kinds."""
+        """The coordinates of its places and of the rotation of its bodies, with their kinds."""
         entries = [c for place in self.places for c in place.components]
         return coordinates_in(ImmutableDenseMatrix([*entries, *(e for b in self.bodies for e in b.depends_on)]))
 
     @property
     def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
-        """The places at which parts act of which it is not stated on what, with these parts and what they are."""
+        """Parts that do not state what they act on: each with its name and its place."""
         found: list[tuple[Any, str, tuple[Expr, ...]]] = []
         for each in (part for part in self._described if isinstance(part, GivenForce | Damper)):
             if each.of is None and len(each.at) > 1:
@@ -294,12 +294,12 @@ class System:
 
     @property
     def described_bodies(self) -> list[PlacedBody]:
-        """Its bodies as they were described, in the order in which the witness has them."""
+        """Its bodies as described, in the order of the witness."""
         return [part for part in self._described if isinstance(part, PlacedBody)]
 
     @cached_property
     def described(self) -> Described:
-        """What the witness is given of it: its parts before coordinates that conditions give by others are left out."""
+        """The input of the witness: its parts before conditions eliminate coordinates."""
         gravity = self.weights[0].gravity if self.weights else None
         moving = {**self.coordinates, **coordinates_in(ImmutableDenseMatrix([*self.known, ZERO]))}
         particles = [plain.Particle(p.mass, p.at.components) for p in self._described if isinstance(p, Particle)]
@@ -331,9 +331,9 @@ class System:
 def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
     found = condition.fact(KnownCoordinate)
     if found is None:
-        message = f"`{condition.key}` does not give a coordinate by others, so it cannot be put into the energies"
+        message = f"`{condition.key}` does not express a coordinate by others, so the energies cannot use it"
         help_line = Spelled(
-            "a condition of rolling that cannot be integrated is kept by forces: `*rolling_constraint(...)`",
+            "keep a rolling condition that cannot be integrated by forces: `*rolling_constraint(...)`",
             "keep it by a force: add `force: F` under `rolling`",
         )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
@@ -341,7 +341,7 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
 
 
 def _check_kept(condition: Quantity) -> None:
-    """With the coordinate that it gives by others, a condition on rates holds whatever these do."""
+    """Check that the formula of the coordinate satisfies the condition, or the condition on rates for all rates."""
     q, function = _known_by(condition)
     value = explicit(condition.value)
     if isinstance(value, Relation):
@@ -350,17 +350,17 @@ def _check_kept(condition: Quantity) -> None:
     else:
         left = value - function
     if not is_zero(left):
-        raise Unverified(Complaint("unverified", f"`{condition.key}` is not kept by {q} = {function}"))
+        raise Unverified(Complaint("unverified", f"`{condition.key}` is not satisfied by {q} = {function}"))
 
 
 def _is_put_into(condition: Quantity, parts: Sequence[PartOfSystem]) -> bool:
-    """Whether a part depends on the coordinate that a condition gives by others."""
+    """Whether a part depends on the coordinate that a condition expresses by others."""
     known = dict([_known_by(condition)])
     return any(_with_known(part, known) != part for part in parts if not isinstance(part, Quantity))
 
 
 def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:
-    """A part of a system with some of the coordinates given by others."""
+    """A part of a system with formulas substituted for some coordinates."""
     if isinstance(part, PlacedBody):
         return part.moved(known)
     if isinstance(part, Particle):
@@ -384,9 +384,9 @@ def _moved(place: Location, known: Mapping[Symbol, Expr]) -> Location:
 
 
 def mass_points(placed: PlacedBody) -> list[MassPoint]:
-    """The mass of a body at its centre of mass, and second moments on unit vectors that turn as it does.
+    """The mass of a body at its centre of mass, and second moments on unit vectors that rotate with the body.
 
-    The moments are those of its particles, so that no inertia tensor is used.
+    The moments come from its particles, so no inertia tensor is used.
     """
     spread = central_second_moments(placed.body)
     points = [MassPoint(placed.body.mass, placed.centre.components)]
@@ -401,13 +401,13 @@ def mass_points(placed: PlacedBody) -> list[MassPoint]:
 
 
 def _with_branches(system: System) -> tuple[Central, ...]:
-    """Springs and other potentials of a distance, each with the branch of |x - d| that it has near rest.
+    """Springs and other potentials of a distance, each with its branch of |x - d| near equilibrium, if there is one.
 
-    A distance along a line is |u|, and which of u and -u it is depends on the side. One of the two is taken only where
-    the place at which all coordinates are zero is singled out: there the spring has its natural length, or there all
-    forces with a potential energy balance. Then the coordinates are displacements from that place, as for carts at
-    x_1 and d + x_2, and the page states that u keeps its sign. Elsewhere, as for a cart at x with a spring to a wall at
-    d, nothing favours a side: |x - d| stays, and whatever solves for x solves for both sides.
+    A distance along a line is |u|, so it is u or -u, depending on the side. A branch is chosen only if the place with
+    all coordinates zero is special: there the spring has its natural length, or all forces with a potential energy
+    balance. Then the coordinates are displacements from that place, as for carts at x_1 and d + x_2, and the page
+    states that u keeps its sign. Otherwise, as for a cart at x with a spring to a wall at d, no side is special:
+    |x - d| remains, and equations for x are solved for both sides.
     """
     sided = tuple(_near_rest(each) for each in system.between)
     balanced = all(each is not None for each in sided) and _is_balanced(system, [each for each in sided if each])
@@ -418,7 +418,7 @@ def _with_branches(system: System) -> tuple[Central, ...]:
 
 
 def _near_rest(each: Central) -> Central | None:
-    """With the branch that is positive where all coordinates are zero; itself where there are no branches."""
+    """The potential with the branch that is positive where all coordinates are zero; unchanged without branches."""
     if each.along is None:
         return each
     at_rest = _undriven(each.along)
@@ -432,7 +432,7 @@ def _has_natural_length(each: Central) -> bool:
 
 
 def _is_balanced(system: System, between: Sequence[Central]) -> bool:
-    """Whether no coordinate has a force with a potential energy where all coordinates are zero."""
+    """Whether all forces with a potential energy vanish where all coordinates are zero."""
     energy = Add(*(each.energy.xreplace({each.distance: each.branch or each.length}) for each in between))
     energy += Add(*(each.energy for each in system.stored))
     energy += Add(*(mass * system.gravity * at.height for mass, at in system.masses))
@@ -444,10 +444,10 @@ def _at_zero(value: Expr) -> Expr:
 
 
 def _undriven(way: Expr) -> Expr:
-    """The way between two places where all coordinates are zero, without what a prescribed motion adds to it."""
+    """The displacement between two places where all coordinates are zero, without the terms of a prescribed motion."""
     return Add(*(term for term in Add.make_args(_at_zero(way).expand()) if not term.has(TIME)))
 
 
 def _is_sum_of_letters(way: Expr) -> bool:
-    """Whether it is a sum of letters, each with its sign and nothing else: such a sum is in no factors."""
+    """Whether it is a sum of symbols with signs and no other factors."""
     return way.is_Add and all(term.is_Symbol or (-term).is_Symbol for term in way.args)

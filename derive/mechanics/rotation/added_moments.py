@@ -1,4 +1,4 @@
-"""The moment of inertia of a body of parts about one axis: that of each part, with its parallel axis, added up."""
+"""The moment of inertia of a composite body about one axis: a sum over its parts, with the parallel-axis theorem."""
 
 from __future__ import annotations
 
@@ -39,16 +39,16 @@ MOMENT_OF_PARTS = Rule(
 
 
 def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
-    """Moment of inertia of a body of parts about an axis through a point, I = sum of I_part + m d^2 over its parts.
+    """Moment of inertia of a composite body about an axis through a point, I = sum of I_part + m d^2 over its parts.
 
-    body    its parts; what is cut out is subtracted
+    body    its parts; cavities are subtracted
     axis    "x", "y" or "z"
-    point   through which the axis goes
-    The moment of each part about its own centre is a step of its own. Nothing is yielded where a part is turned so
-    that the axis is none of its own, or where a turned part has parts itself.
+    point   a point on the axis
+    A step derives the moment of each part about its centre. The result is None if the rotation of a part leaves none of
+    its body axes parallel to the axis, or if a rotated part has parts itself.
     Second route: mass times distance squared, summed over the equimomental particles of all parts; the integral of
     the squared distance over the whole body.
-    Outcomes: moved (some centre is beside the axis), on_axis, alone (of all parts one has a moment).
+    Outcomes: moved (some centre is off the axis), on_axis, alone (only one part has a moment).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes).
     """
     k = AXES.index(axis)
@@ -90,12 +90,12 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
 
 
 def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity:
-    """Moment of inertia of a part about an axis through its centre; of a flat round one across its own axis half of
-    that about it, because I_x + I_y = I_z.
+    """Moment of inertia of a part about an axis through its centre; half of the moment about the symmetry axis for a
+    diameter of a flat round part, because I_x + I_y = I_z.
 
     body     the part
-    axis     which of its own axes
-    turn     the axes of the whole as the part sees them, by columns: the letter has the one that is parallel
+    axis     a body axis of the part
+    turn     columns: the axes of the whole along those of the part; the index of the symbol is the parallel axis
     Second route: mass times distance squared, summed over its equimomental particles; the integral.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
@@ -132,7 +132,7 @@ def _by_shape(
     inputs: Mapping[str, Quantity],
     turn: MatrixBase,
 ) -> Quantity:
-    """A moment about an axis through the centre of a part that is found without an integral.
+    """A moment about an axis through the centre of a part, without an integral.
 
     Outcomes: none (all of the mass is on the axis), flat.
     Source: that of `own_moment`.
@@ -171,13 +171,13 @@ def _is_flat(body: Any) -> bool:
 
 
 def _parallel_to(turn: MatrixBase) -> dict[str, str]:
-    """Axis of the whole -> the axis of the part that is parallel to it, where one is."""
+    """Axis of the whole -> the axis of the part that is parallel to it, if there is one."""
     pairs = ((j, k) for j in range(3) for k in range(3) if is_zero(turn[j, k] ** 2 - 1))
     return {AXES[k]: AXES[j] for j, k in pairs}
 
 
 def _of_whole(called: str) -> dict[str, str]:
-    """The axis of the whole to which that of the part is parallel, where one is."""
+    """The axis of the whole that is parallel to that of the part, if there is one."""
     return {"whole": called} if called in AXES else {}
 
 

@@ -1,7 +1,7 @@
-"""A body made of bodies: parts anywhere, turned, or cut out; its mass, its centre of mass, its tensor about any point.
+"""Composite bodies: parts at any place and in any orientation, and cavities; mass, centre of mass, inertia tensor.
 
-The tensor of each part is that about its own centre, turned as the part is, and moved by the theorem of parallel axes;
-those of all parts are added, that of a cavity subtracted.
+The tensor of each part about its centre is rotated to the axes of the whole and shifted by the parallel-axis theorem;
+then the tensors of all parts are added, and those of cavities subtracted.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class PointMass(Body):
 
 
 def minus(part: Body | PlacedPart) -> PlacedPart:
-    """What is cut out of a body: `Composite(ball, minus(Ball(r, m).at(0, 0, d)))`."""
+    """A cavity of a body: `Composite(ball, minus(Ball(r, m).at(0, 0, d)))`."""
     placed = part if isinstance(part, PlacedPart) else _placed(part)
     return replace(placed, sign=-placed.sign)
 
@@ -86,7 +86,7 @@ def _placed(part: Any) -> PlacedPart:
     if isinstance(part, PlacedPart):
         return part
     if not isinstance(part, Body):
-        message = f"`Composite` is made of bodies, not of {type(part).__name__}"
+        message = f"`Composite` needs bodies, not a {type(part).__name__}"
         raise Rejected(Complaint("wrong-argument", message, help="write Composite(Rod(l, m).at(0, 0, -l/2), ...)"))
     if isinstance(part, PointMass):
         return PlacedPart(part, "centre", ORIGIN.position)
@@ -94,14 +94,14 @@ def _placed(part: Any) -> PlacedPart:
 
 
 class Composite(Body):
-    """A body made of parts: `Composite(Rod(l, m).at(0, 0, -l/2), Ball(R, M).at(0, 0, -l), points={"pivot": (0, 0)})`.
+    """A composite body: `Composite(Rod(l, m).at(0, 0, -l/2), Ball(R, M).at(0, 0, -l), points={"pivot": (0, 0)})`.
 
-    parts    bodies as they lie, or `.at(x, y, z)` with their centre of mass, or `of=` another of their points, there;
-             `.turned("x", angle)` about that point; `minus(part)` is cut out
-    mass     of the whole, where it is uniform and the masses of the parts go by their sizes
+    parts    bodies in place, or `.at(x, y, z)` for the place of the centre of mass, or with `of=` of another point;
+             `.turned("x", angle)` rotates about that point; `minus(part)` is a cavity
+    mass     of the whole, if it is uniform and the masses of the parts are proportional to their sizes
     points   names for places of the whole, such as a pivot
-    Two parts of one sort have names of their own: `Rod(l, m).named("upper rod").at(...)`.
-    Errors: no part; parts that cannot be told apart; a mass that vanishes; parts of different sorts with one mass.
+    Two parts of one sort need names: `Rod(l, m).named("upper rod").at(...)`.
+    Errors: no part; two parts of the same name; a mass that vanishes; parts of different dimensions with one mass.
     """
 
     name: ClassVar[str] = "a body of several parts"
@@ -122,7 +122,7 @@ class Composite(Body):
             self.shares, self.parts = _shared(self, mass)
         self.given_mass = mass
         if is_zero(self.mass):
-            raise Rejected(Complaint("no-mass", "what is cut out of this body has all of its mass"))
+            raise Rejected(Complaint("no-mass", "the cavities of this body have as much mass as its parts"))
         check_parts(self.parts)
         require_positive(self.name, "mass", self.mass)
 
@@ -133,7 +133,7 @@ class Composite(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """Only its parts have measures."""
+        """Empty: only its parts have measures."""
         return {}
 
     def points(self) -> Mapping[str, Point]:
@@ -143,10 +143,10 @@ class Composite(Body):
         return [particle for part in self.parts for particle in part.particles]
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
-        raise Rejected(Complaint("no-region", "a body of several parts is not integrated over as a whole"))
+        raise Rejected(Complaint("no-region", "a body of several parts has no single region of integration"))
 
     def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
-        """Part by part, that of what is cut out subtracted."""
+        """A sum over the parts, with cavities subtracted."""
         total: Any = None
         for part in self.parts:
             found = part.body.over_mass(lambda r, part=part: integrand(point.seen(part.seen(r))), ORIGIN)
@@ -155,17 +155,17 @@ class Composite(Body):
 
     @property
     def flat_across(self) -> str | None:
-        """The axis along which no part of it reaches, if there is one; "x" of what is all on one of the others."""
+        """The axis along which no part has an extent, if there is one; "x" for a body that lies on another axis."""
         return next((axis for k, axis in enumerate("xyz") if all(is_zero(r[k]) for _, r in self.particles())), None)
 
     @cached_property
     def whole_mass(self) -> Quantity:
-        """The step that adds up the masses."""
+        """The step for the sum of the masses."""
         return _total_mass(self)
 
     @property
     def density(self) -> Quantity:
-        """The step on which its mass rests."""
+        """The step that gives its mass."""
         return self.shares[0] if self.shares else self.whole_mass
 
     def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity:
@@ -180,12 +180,12 @@ class Composite(Body):
 
 
 def PointMasses(*masses: tuple[Expr, Sequence[Any]]) -> Composite:
-    """Particles held together without mass between them: `PointMasses((m, (a, 0, 0)), (2*m, (0, a, a)))`."""
+    """Particles rigidly connected by massless links: `PointMasses((m, (a, 0, 0)), (2*m, (0, a, a)))`."""
     return Composite(*(_placed(PointMass(as_expr(mass))).at(*place) for mass, place in masses))
 
 
 def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:
-    """Each part that is more than a particle under a name: its own, or that of its sort."""
+    """The parts, where each that is not a particle has a name: the given one, or that of its sort."""
     found = [
         part if isinstance(part.body, PointMass) or part.body.called else part.named(_noun(part.body)) for part in parts
     ]
@@ -194,13 +194,13 @@ def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:
         twice = next((name for name, times in Counter(taken).items() if times > 1), None)
         if twice is not None:
             message = f"two parts are both called `{twice}`"
-            help_line = 'give them names that begin differently: Rod(l, m).named("upper rod")'
+            help_line = 'give them names whose first words differ: Rod(l, m).named("upper rod")'
             raise Rejected(Complaint("parts", message, help=help_line))
     return tuple(found)
 
 
 def _noun(body: Body) -> str:
-    """a thick shell: thick shell."""
+    """The name without its article: "thick shell" for "a thick shell"."""
     return body.name.partition(" ")[2].replace("-", " ")
 
 
@@ -209,10 +209,10 @@ def _index(part: PlacedPart) -> str:
 
 
 def _shared(body: Composite, mass: Expr) -> tuple[tuple[Quantity, ...], tuple[PlacedPart, ...]]:
-    """The masses of the parts of a uniform body, as their sizes."""
+    """The steps for the masses of the parts of a uniform body, proportional to their sizes, and the parts."""
     if len({part.body.filling for part in body.parts}) > 1 or any(isinstance(p.body, PointMass) for p in body.parts):
-        message = "one mass is not shared out to volumes, areas, lengths and particles together"
-        raise Rejected(Complaint("parts", message, help="give each part a mass of its own"))
+        message = "one mass cannot be divided between volumes, areas, lengths and particles"
+        raise Rejected(Complaint("parts", message, help="give each part a mass"))
     shares = tuple(_share_of_mass(body, part, mass) for part in body.parts)
     parts = []
     for part, share in zip(body.parts, shares, strict=True):
@@ -231,10 +231,10 @@ SHARE_OF_MASS = Rule(
 
 
 def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
-    """Mass of a part of a uniform body, M times its size over that of the whole.
+    """Mass of a part of a uniform body, M times its size divided by that of the whole.
 
     body   the whole
-    part   one of its parts, or what is cut out
+    part    one of its parts, or a cavity
     mass   of the whole
     Second route: the density of the whole integrated over the part.
     Outcomes: part, hole.
@@ -308,7 +308,7 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
 
     body    its parts
     start   the point
-    Second route: the integral of r dm over all parts; the mean place of the particles that stand for them.
+    Second route: the integral of r dm over all parts; the mean place of their equimomental particles.
     Outcomes: generic, cut_out.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
@@ -347,7 +347,7 @@ TENSOR_OF_PARTS = Rule(
 
 
 def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Quantity:
-    """Inertia tensor of the whole about a point, the sum of those of the parts.
+    """Inertia tensor of the whole about a point, the sum of the tensors of the parts.
 
     body    its parts
     point   the point, and the axes
@@ -383,12 +383,12 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
 
 
 def _told(point: Point) -> str:
-    """The word for a point; no part need have the same centre."""
+    """The word for a point; the centre of the whole is "centre_of_mass", since parts have other centres."""
     return "centre_of_mass" if point.name == "centre" else point.name
 
 
 def _for_the_whole(part: Quantity) -> Quantity:
-    """What is known of a part, as something about the whole: the sum has the names of the whole."""
+    """A quantity of a part without its subject, since the sum belongs to the whole."""
     return replace(part, subject=NOTHING)
 
 
@@ -414,9 +414,9 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
     """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d).
 
     body    the whole
-    part    one of its parts, turned by R, its centre of mass at d from the point
+    part    one of its parts, rotated by R, its centre of mass at d from the point
     point   the point, and the axes
-    Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part where it is.
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part in its place.
     Outcomes: turned_there (its centre is at the point), moved, turned_moved.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
@@ -465,12 +465,12 @@ WAY_TO_PART = Rule(
 
 
 def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
-    """Where the centre of mass of a part is, from a point of the whole.
+    """Displacement of the centre of mass of a part from a point of the whole.
 
     part    the part
     point   the point
-    d       what its place and its turn make of its own centre of mass
-    Second route: the mean position of its particles where they are.
+    d       the displacement, from the place and the rotation of the part
+    Second route: the mean position of its particles in their places.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
 

@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of rotation: conditions under which an outcome, or a fact that its sentence names, is correct."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def is_away_from_the_centre(facts: Judged) -> bool:
 
 
 def entry(*pairs: str, round_body: bool = False) -> Predicate:
-    """Which entry of a tensor it is, by its letter; of a round body, that it is round by its particles."""
+    """The entry of a tensor, by the index of its symbol; optionally, the body must be round by its particles."""
 
     def is_so(facts: Judged) -> bool:
         return facts.symbol.name[-2:] in pairs and (not round_body or is_round(facts))
@@ -43,7 +43,7 @@ def entry(*pairs: str, round_body: bool = False) -> Predicate:
 
 
 def is_mirrored(facts: Judged) -> bool:
-    """A moment of a body of which nothing that is odd in x, in y or in z is left by integration."""
+    """A diagonal entry; by integration, moments of the mass that are odd in x, in y or in z vanish."""
     body, point = facts.subject.body, facts.subject.point
     odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
     return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
@@ -66,7 +66,7 @@ def _moments_of(tensor: Any) -> list[Expr]:
 
 
 def tensor(different: int | None, round_body: bool = False) -> Predicate:
-    """A diagonal tensor with so many different moments; None for one that is not diagonal."""
+    """A diagonal tensor with this number of different moments; None for a tensor that is not diagonal."""
 
     def is_so(facts: Judged) -> bool:
         tensor = facts.result
@@ -90,7 +90,7 @@ def moments(different: int, diagonal: bool) -> Predicate:
 
 
 def axis_of(different: int, alone: bool | None = None) -> Predicate:
-    """Of how many different moments the axis is; whether its own is the single one of three of which two are equal."""
+    """The number of different moments; and whether the moment of this axis is the single one beside two equal ones."""
 
     def is_so(facts: Judged) -> bool:
         moments, k = facts.inputs["moments"], int(facts.symbol.name[-1]) - 1
@@ -106,7 +106,7 @@ def axis_of_symmetry(facts: Judged) -> bool:
 
 
 def moments_compared(wanted: str) -> Predicate:
-    """Equal moments; or one that is always the greater; else the relation says where they are equal."""
+    """All moments equal; one always greater; or a relation at which the moments are equal."""
 
     def is_so(facts: Judged) -> bool:
         moments = facts.inputs["moments"]
@@ -135,12 +135,12 @@ def about_that_axis(facts: Judged, letter: Any) -> bool:
 
 
 def steady_component(facts: Judged, along: Any) -> bool:
-    """Its rate is what the equation says that is of second order, and it is not in the linear one."""
+    """The equation `slow` contains its rate, which is of second order, and the linear equation does not contain it."""
     return explicit(facts.quantities["slow"].value).has(rate(along)) and not explicit(facts.result).has(along)
 
 
 def to_first_order(facts: Judged, speed: Any) -> bool:
-    """With that speed about the axis, what is of first order in the two small components is the linear equation."""
+    """With that speed about the axis, the terms of first order in the small components give the linear equation."""
     exact, small = explicit(facts.quantities["motion"].value).residual, Symbol("s_small", real=True)
     across = [facts.inputs["small_1"], facts.inputs["small_2"]]
     along = facts.inputs["along"]
@@ -151,24 +151,24 @@ def to_first_order(facts: Judged, speed: Any) -> bool:
 
 
 def another_component(facts: Judged, letter: Any) -> bool:
-    """The two that are small are the two other components of the same vector."""
+    """The small components are the other two components of the same vector."""
     named = [facts.inputs[role] for role in ("along", "small_1", "small_2")]
     return len(set(named)) == 3 and letter.name.rpartition("_")[0] == named[0].name.rpartition("_")[0]
 
 
 def small_one(which: str) -> Naming:
-    """Its rate is that of the linear equation which the sentence names there."""
+    """Its rate is in the linear equation that the sentence names at that point."""
     return lambda facts, letter: explicit(facts.quantities[which].value).has(rate(letter))
 
 
 def moment_across(facts: Judged, moment: Any) -> bool:
-    """The angular momentum divided by it goes round with the result, and it is a moment of that angular momentum."""
+    """The result times this moment is the magnitude of the angular momentum."""
     L = explicit(facts.inputs["momentum"])
     return is_zero((explicit(facts.result) * explicit(moment)) ** 2 - sum((c**2 for c in L), Integer(0)))
 
 
 def turned_by(facts: Judged, angle: Any) -> bool:
-    """Turned about the axis that is named by that angle, in components."""
+    """The tensor is rotated by that angle about the named axis, by its components."""
     i = AXES.index(facts.words["along"])
     turn = Matrix.eye(3)
     j, k = (i + 1) % 3, (i + 2) % 3
@@ -185,7 +185,7 @@ def across(facts: Judged) -> Any:
 
 
 def turns(wanted: str) -> Predicate:
-    """The component along the axis is negative where the body is said to turn left-handed, and there only."""
+    """The component along the axis is negative if and only if the outcome is left-handed."""
 
     def is_so(facts: Judged) -> bool:
         along = tidied(explicit(Dot(facts.result, facts.inputs["axis"])))
@@ -195,7 +195,7 @@ def turns(wanted: str) -> Predicate:
 
 
 def cosine_is(wanted: int | None, of: Callable[[Any], Any] = lambda cosine: cosine) -> Predicate:
-    """Parallel, opposite, perpendicular by the cosine 1, -1, 0; None for a cosine that is none of them."""
+    """Parallel, opposite, perpendicular for the cosine 1, -1, 0; None for any other cosine."""
 
     def is_so(facts: Judged) -> bool:
         cosine = of(facts.result)
@@ -213,7 +213,7 @@ def rotation_cos(angle: Expr) -> Expr:
 
 
 def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
-    """Whether the rate vanishes in space, and in the body where that rate was put in; None: it was not."""
+    """Whether the rate vanishes in space and in the body; None in space: the rate in the body was not substituted."""
 
     def is_so(facts: Judged) -> bool:
         seen = facts.inputs.get("in_body")
@@ -225,9 +225,9 @@ def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
 
 
 def euler(torque: bool, coupled: str) -> Predicate:
-    """Whether a torque acts, and whether products of components are left.
+    """Whether a torque acts, and whether products of components remain.
 
-    coupled   "here": in this one; "elsewhere": not here but in another; "nowhere"
+    coupled   "here": in this equation; "elsewhere": only in another; "nowhere"
     """
 
     def is_so(facts: Judged) -> bool:
@@ -246,7 +246,7 @@ def euler(torque: bool, coupled: str) -> Predicate:
 
 
 def given_as(sort: str) -> Predicate:
-    """By the verb that the script calls, and by the components that it gives."""
+    """The verb in the script is of this sort, and the components are the given ones."""
 
     def is_so(facts: Judged) -> bool:
         given = all(is_zero(one - other) for one, other in zip(facts.result, facts.inputs["given"], strict=True))
@@ -260,7 +260,7 @@ def all_is_added(facts: Judged) -> bool:
 
 
 def moved(moved: bool, turned: bool) -> Predicate:
-    """Whether there is a way to the part, and whether its axes are not those of the whole."""
+    """Whether the part is displaced, and whether its axes differ from those of the whole."""
 
     def is_so(facts: Judged) -> bool:
         way, turn = facts.inputs.get("way"), facts.inputs["turn"]
@@ -270,7 +270,7 @@ def moved(moved: bool, turned: bool) -> Predicate:
 
 
 def beside_the_axis(facts: Judged) -> bool:
-    """Whether the mean place of the particles of some part is beside the axis."""
+    """Whether the centre of mass of some part, by its particles, is off the axis."""
     about, k = facts.subject.point, "xyz".index(str(facts.subject.axis))
     for part in facts.subject.body.parts:
         mean = sum((m * about.seen(r) for m, r in part.particles), start=about.position * 0) / part.mass
@@ -284,7 +284,7 @@ def with_moments(facts: Judged) -> int:
 
 
 def is_flat(facts: Judged) -> bool:
-    """No particle is off the plane that is spoken of, and the moment is about an axis in it."""
+    """No particle is out of the plane, and the moment is about an axis in the plane."""
     body = facts.subject.body
     return all(is_zero(place[2]) for _, place in body.particles()) and facts.subject.axis in ("x", "y")
 
@@ -295,12 +295,12 @@ def on_its_axis(facts: Judged) -> bool:
 
 
 def part_of_sign(sign: int) -> Predicate:
-    """The part has the name that is told; what is cut out counts as negative."""
+    """The part has the stated name; a cavity has a negative sign."""
     return lambda facts: facts.inputs["sign"] == sign and facts.words["part"] == facts.inputs["part_of"].called
 
 
 def edges_along_the_axes(facts: Judged, outcome: str) -> bool:
-    """Where edges are spoken of every coordinate has limits of its own."""
+    """If the sentence mentions edges, all limits of the coordinates are constant."""
     if "edged" not in facts.words:
         return True
     body = facts.subject.body
@@ -314,7 +314,7 @@ def turned_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def inward(facts: Judged, outcome: str) -> bool:
-    """Only of a tensor that is not about the centre of mass it is not said that it is."""
+    """The sentence mentions the centre of mass unless the tensor is about another point."""
     about_centre = facts.words.get("about") in {"centre", "centre_of_mass"}
     return about_centre != (outcome == "outward") and edges_along_the_axes(facts, outcome)
 
@@ -327,7 +327,7 @@ def _sign(value: Expr) -> int | None:
 
 
 def order_is(wanted: str) -> Predicate:
-    """By the moment about the axis: the greatest of all, the least, between the others, or as great as one of them."""
+    """The rank of the moment about the axis: the greatest, the least, between the others, or equal to one of them."""
 
     def is_so(facts: Judged) -> bool:
         moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
@@ -351,8 +351,8 @@ def excess_is(sign: int | None) -> Predicate:
 
 
 def root_is(grows: bool, *squares: str) -> Predicate:
-    """Whether the square of the rate is negative, and which word it had; the root of one that is not known to be is
-    written all the same."""
+    """Whether the square of the rate is negative, and the outcome of its step; a square of unknown sign gets the
+    form of a positive one."""
 
     def is_so(facts: Judged) -> bool:
         word = facts.quantities["squared"].step.outcome
@@ -365,18 +365,18 @@ _KINDS = {"omega": "angular speed", "inertia": "moment of inertia", "momentum": 
 
 
 def of_their_kinds(facts: Judged, outcome: str) -> bool:
-    """Whether each role that is a vector or a tensor of rotation is one."""
+    """Whether each vector or tensor of rotation has the kind of its role."""
     return all(q.step.kind == _KINDS.get(role, q.step.kind) for role, q in facts.quantities.items())
 
 
 def of_their_kinds_by_euler(facts: Judged, outcome: str) -> bool:
-    """Euler's equations are named where the axes are principal ones."""
+    """The sentence names Euler's equations if and only if the axes are principal axes."""
     along_principal_axes = is_zero(facts.inputs["inertia"] - Matrix.diag(*facts.inputs["inertia"].diagonal()))
     return of_their_kinds(facts, outcome) and along_principal_axes == ("euler" in facts.words)
 
 
 def vanish_again(facts: Judged, outcome: str) -> bool:
-    """Products of inertia vanish here too where a tensor about another point, from which this one is, has none."""
+    """Products of inertia vanish here too, if an earlier tensor about another point has none."""
     tensor = facts.quantities["inertia"]
     before = [e.value for e in tensor.ancestors() if isinstance(e.value, MatrixBase) and e.value.shape == (3, 3)]
     again = any(each.is_diagonal() and each != tensor.value for each in before)
@@ -388,18 +388,18 @@ def rate_of_the_component(facts: Judged, outcome: str) -> bool:
 
 
 def inward_or_outward(facts: Judged, outcome: str) -> bool:
-    """The tensor exceeds that about the centre of mass, or is less than the other: it depends on where one starts."""
+    """The tensor about the centre of mass is the smaller one: the outcome says at which point the shift begins."""
     if facts.words["start"] != facts.quantities["centre"].needed(CountedFrom).start.name:
         return False
-    if "entry" not in facts.quantities:  # a product that vanishes at the centre of mass
+    if "entry" not in facts.quantities:  # a product of inertia that vanishes about the centre of mass
         return outcome == "outward"
     point = facts.quantities["entry"].subject.point
     return point is None or (point.name in {"centre", "centre_of_mass"}) == (outcome == "outward")
 
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
-    """An axis of the whole, of which a part has a moment, is that in the letter of the moment, I_z, and is parallel to
-    the axis of the part."""
+    """The axis of the whole in the sentence is the index of the moment's symbol, I_z, and is parallel to the axis of
+    the part."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles
@@ -410,13 +410,13 @@ def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
 
 
 def component_of_its_letter(facts: Judged, outcome: str) -> bool:
-    """The axis of the component is the last index of its letter, v_x."""
+    """The axis of the component is the last index of its symbol, v_x."""
     index = facts.symbol.name.rpartition("_")[2]
     return index in AXES and is_zero(explicit(facts.inputs["vector"])[AXES.index(index)] - explicit(facts.result))
 
 
 def rates_of_its_equations(facts: Judged, outcome: str) -> bool:
-    """Each of the equations that are named is that of its component: the third says that the last is constant."""
+    """Each named equation contains the rate of its component: the third says that the last component is constant."""
     letters = (facts.inputs["around"], facts.inputs["beside"], facts.inputs["along"])
     named = [facts.quantities[role].value for role in ("first", "second", "third")]
     return all(rate(w) in explicit(equation).free_symbols for w, equation in zip(letters, named, strict=True))

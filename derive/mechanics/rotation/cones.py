@@ -1,7 +1,7 @@
-"""A free symmetric body at one moment: its axis, the cones on which the angular velocity lies, and its precession.
+"""A free symmetric body at one instant: its axis, the cones of its angular velocity, and its precession.
 
-The angular velocity w = (L/I) L_dir - Omega_b e goes round the axis e in the body, on the body cone, and round the
-constant angular momentum L in space, on the space cone; so does the axis, at the rate L/I.
+The angular velocity w = (L/I) L_dir - Omega_b e rotates about the axis e in the body, on the body cone, and about the
+constant angular momentum L in space, on the space cone; the axis also rotates about L, at the rate L/I.
 """
 
 from __future__ import annotations
@@ -50,10 +50,10 @@ AXIS_OF_SYMMETRY = Rule(
 
 
 def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_symmetry") -> Quantity:
-    """The unit vector along the axis of a body of which two principal moments are equal: that of the third.
+    """The unit vector along the symmetry axis of a body with two equal principal moments: the axis of the third moment.
 
     inertia   tensor (3, 3), kg m^2, in principal axes
-    Second route: the second moments of the body, the integral of r r dm, are alike in all directions across it.
+    Second route: the second moments of the body, the integral of r r dm, are equal in all directions across the axis.
     Errors: the axes are not principal; the moments all differ, or are all equal.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
@@ -62,7 +62,7 @@ def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_s
     body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
 
     def spread(found: Any) -> tuple[Any, Any]:
-        """Of r r dm without its part along the axis, what is left is the unit tensor across it."""
+        """Without its part along the axis, the integral of r r dm is a multiple of the unit tensor across the axis."""
         moments = ImmutableDenseMatrix(3, 3, lambda i, j: explicit(body.over_mass(lambda r: r[i] * r[j], point)))
         along = (found.T * moments * found)[0, 0]
         across = (moments.trace() - along) / 2
@@ -83,10 +83,10 @@ def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_s
 
 
 def axis_number(inertia: Quantity) -> int:
-    """Which of the axes is that of symmetry."""
+    """The index of the symmetry axis."""
     moments = inertia.value
     if not moments.is_diagonal():
-        message = f"`{inertia.key}` is not along principal axes, of which one might be an axis of symmetry"
+        message = f"`{inertia.key}` is not diagonal, so its axes are not principal axes"
         raise Rejected(Complaint("no-symmetry", message))
     found = [k for k in range(3) if is_zero(moments[(k + 1) % 3, (k + 1) % 3] - moments[(k + 2) % 3, (k + 2) % 3])]
     if len(found) != 1:
@@ -108,18 +108,18 @@ def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "
     """Tangent of the angle between two vectors, |a x b|/(a.b).
 
     a, b    vectors (3), not zero and not at right angles, same axes
-    angle   the letter of the angle
-    Second route: the part of b along a, and the length of what is left of b, by turning it onto an axis.
+    angle   the symbol of the angle
+    Second route: rotate a onto an axis; then the component of b along it, and the length of the rest of b.
     Outcomes: generic, parallel (it vanishes).
     Errors: one of them vanishes; they are at right angles.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 1.2 and 1.4.
     """
     for v in (a, b):
         if is_zero(v.value):
-            raise Rejected(Complaint("zero-vector", f"`{v.key}` vanishes, so that it makes no angle with anything"))
+            raise Rejected(Complaint("zero-vector", f"`{v.key}` vanishes, so it has no direction"))
     along = tidied(Dot(a.value, b.value))
     if is_zero(along):
-        message = f"`{a.key}` and `{b.key}` are at right angles, so that the angle has no tangent"
+        message = f"`{a.key}` and `{b.key}` are perpendicular, so the angle has no tangent"
         raise Rejected(Complaint("no-tangent", message))
     u, w = explicit(a.value), explicit(b.value)
 
@@ -165,23 +165,23 @@ PRECESSION_RATE = Rule(
 def precession_rate(
     inertia: Quantity, momentum: Quantity, symbol: str = "Omega_p", key: str = "precession_rate"
 ) -> Quantity:
-    """Rate at which the axis of a free symmetric body goes round its angular momentum in space, Omega_p = L/I.
+    """Rate at which the axis of a free symmetric body rotates about its angular momentum in space, Omega_p = L/I.
 
     inertia    tensor (3, 3), kg m^2, in principal axes, two of its moments equal to I
     momentum   angular momentum L, vector (3), kg m^2/s, same axes
-    Second route: the axis e moves with w x e, which is Omega_p L_dir x e; and the angular momentum of this turning with
-    one about e alone, by particles, is L.
-    Errors: no axis of symmetry; L is along that axis, which then stays where it is.
+    Second route: the axis e moves with w x e, which is Omega_p L_dir x e; and, by particles, w minus the precession
+    Omega_p L_dir gives no angular momentum across the axis.
+    Errors: no axis of symmetry; L is along that axis, whose direction is then constant.
     Source: Landau, Lifshitz, *Mechanics*, section 33.
     """
     require_kind("precession_rate", "inertia", inertia, "moment of inertia")
     require_kind("precession_rate", "momentum", momentum, "angular momentum")
-    require_constant("precession_rate", "angular momentum in the body", momentum, "give it at one moment by `start`")
+    require_constant("precession_rate", "angular momentum in the body", momentum, "for one instant use `start`")
     which = axis_number(inertia)
     axis, L = column(*(int(k == which) for k in range(3))), momentum.value
     beside = tidied(Norm(Cross(axis, L)))
     if is_zero(beside):
-        message = f"`{momentum.key}` is along the axis of symmetry, which stays where it is"
+        message = f"`{momentum.key}` is along the axis of symmetry, whose direction is then constant"
         raise Rejected(Complaint("no-cone", message))
     across = inertia.value[(which + 1) % 3, (which + 1) % 3]
     omega = next(q for q in momentum.parents if q.fact(Through) is not None)
@@ -192,8 +192,8 @@ def precession_rate(
         return round_it, explicit(Cross(omega.value, axis)) * length_by_turning(L)
 
     def leaves_a_spin(found: Expr) -> tuple[Any, Any]:
-        """What the angular velocity has beyond the precession is along the axis: by particles it gives no angular
-        momentum across it."""
+        """The angular velocity minus the precession is along the axis: by particles, it gives no angular momentum
+        across the axis."""
         rest = explicit(omega.value) * length_by_turning(L) - L * found
         moved = explicit(body.over_mass(lambda r: Cross(r, Cross(rest, r)), point))
         return explicit(Cross(axis, moved)), column(0, 0, 0)
@@ -226,9 +226,9 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
 
     of     vector (3), any unit
     axis   "x", "y" or "z"
-    Check: a turn of the axes by which the three take each other's places, after which it is the first.
+    Check: a cyclic permutation of the axes, a rotation, which makes this component the first.
     Outcomes: generic, zero.
-    Errors: no vector; no such axis.
+    Errors: not a vector; no such axis.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4.
     """
     if getattr(of.value, "shape", None) != (3, 1) or axis not in AXES:

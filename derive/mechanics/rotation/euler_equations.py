@@ -1,7 +1,7 @@
-"""Free rotation: Euler's equations for a body of which only the principal moments of inertia are known.
+"""Free rotation: Euler's equations for a body whose principal moments of inertia are known.
 
-Components are along the body's principal axes, which turn with it. Second routes go back to particles: each one's
-acceleration is that of a place in a turning body, and no tensor is used.
+Components are along the body's principal axes, which rotate with it. Second routes use the accelerations of the body's
+particles in a rotating body, and no tensor.
 """
 
 from __future__ import annotations
@@ -70,13 +70,13 @@ NO_TORQUE = (Integer(0), Integer(0), Integer(0))
 class RigidBody(Placeable, OfParticles):
     """A rigid body of any shape. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
-    mass      kg, where more is asked than its free rotation
-    moments   its principal moments of inertia, three, kg m^2; axes x, y, z along the principal axes. For a motion in a
-              plane the one about the axis across it, a letter or the step that found it
-    centre    where its centre of mass is, from the point where its axes begin, the "pivot", m
-    about     the point the moments are about: "centre_of_mass", or "fixed_point", the pivot; that is so where a centre
-              is given and nothing is said
-    look      a body of a shape, as which it is drawn; its middle is where the centre of mass is
+    mass      kg, needed for results other than its free rotation
+    moments   its principal moments of inertia, three, kg m^2; axes x, y, z along the principal axes. For plane motion,
+              the moment about the axis perpendicular to the plane, a symbol or the step that derived it
+    centre    the position of its centre of mass from the "pivot", the origin of the body axes, m
+    about     the point of the moments: "centre_of_mass", or "fixed_point", the pivot; if a centre is given, the pivot
+              is the default
+    look      a body whose shape is drawn; its centre is the centre of mass
     """
 
     mass: Expr | None = None
@@ -86,8 +86,8 @@ class RigidBody(Placeable, OfParticles):
     name: ClassVar[str] = "a rigid body"
     called: str = ""
     look: Any = field(default=None, compare=False)
-    across_plane: ClassVar[Quantity | None] = None  # the step that found the moment across the plane
-    is_plane: ClassVar[bool] = False  # whether only the moment across a plane is known
+    across_plane: ClassVar[Quantity | None] = None  # the step that derived the moment across the plane
+    is_plane: ClassVar[bool] = False  # whether the moment across the plane is the only known one
 
     def __post_init__(self) -> None:
         if not isinstance(self.moments, tuple | list):
@@ -100,7 +100,7 @@ class RigidBody(Placeable, OfParticles):
         object.__setattr__(self, "centre", (*self.centre, *(Integer(0),) * (3 - len(self.centre))))
         object.__setattr__(self, "about", self.about or ("fixed_point" if any(self.centre) else "centre_of_mass"))
         if len(self.moments) != 3:
-            raise Rejected(Complaint("wrong-argument", "`RigidBody` needs three moments, or the one across a plane"))
+            raise Rejected(Complaint("wrong-argument", "`RigidBody` needs three moments, or one for plane motion"))
         if self.about not in _POINTS:
             known = " or ".join(f'"{point}"' for point in _POINTS)
             raise Rejected(Complaint("wrong-argument", f"the moments of a `RigidBody` are about {known}"))
@@ -110,11 +110,11 @@ class RigidBody(Placeable, OfParticles):
             require_constant("RigidBody", "mass", self.mass)
         for axis, spread in zip(AXES, self.second_moments, strict=True):
             if sign_known(spread) == -1:
-                message = f"no body has such moments: that about {axis} is more than the other two together"
+                message = f"no body has such moments: the one about {axis} is greater than the sum of the other two"
                 raise Rejected(Complaint("no-such-body", message))
 
     def named(self, called: str) -> RigidBody:
-        """The same body under a name of its own, "upper rod", for a page that has another."""
+        """The same body with a name, "upper rod", for a page with several bodies."""
         twin = replace(self, moments=(self.across_plane or self.moments[2]) if self.is_plane else self.moments)
         object.__setattr__(twin, "called", called)
         return twin
@@ -132,8 +132,8 @@ class RigidBody(Placeable, OfParticles):
 
     @cached_property
     def central_second_moments(self) -> ImmutableMatrix:
-        """The integrals of r_i r_j over the mass, r from the centre of mass: less M c_i c_j where they are about the
-        pivot."""
+        """The integrals of r_i r_j over the mass, r from the centre of mass: minus M c_i c_j if the moments are about
+        the pivot."""
         about_point = ImmutableDenseMatrix(diag(*self.second_moments))
         if self.about == "centre_of_mass" or not any(self.centre):
             return about_point
@@ -142,7 +142,7 @@ class RigidBody(Placeable, OfParticles):
 
     @cached_property
     def second_moments(self) -> tuple[Expr, Expr, Expr]:
-        """The integrals of x^2, y^2 and z^2 over the mass: I_x is that of y^2 + z^2, and so on."""
+        """The integrals of x^2, y^2 and z^2 over the mass: I_x is the integral of y^2 + z^2, and so on."""
         x, y, z = (tidied(sum(self.moments, Integer(0)) / 2 - moment) for moment in self.moments)
         return x, y, z
 
@@ -155,19 +155,19 @@ class RigidBody(Placeable, OfParticles):
         return principal_tensor(self)
 
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Six particles, two on each axis, at unit distance to either side: they have the body's second moments."""
+        """Six particles, two on each axis at the distances +-1, with the body's second moments."""
         places = [(i, sign) for i in range(3) for sign in (1, -1)]
         return [(self.second_moments[i] / 2, column(*(sign * (k == i) for k in range(3)))) for i, sign in places]
 
     def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
-        """The sum over the particles of their mass times a function of the place, of second order in it."""
+        """The sum over the particles of mass times a quadratic function of the place."""
         first, *others = [mass * explicit(integrand(place)) for mass, place in self.particles()]
         return sum(others, first)
 
 
 @dataclass(frozen=True)
 class MotionOfBody(Fact):
-    """What the equations of motion make of the angular accelerations."""
+    """The angular accelerations from the equations of motion."""
 
     missing = "does not come from equations of motion"
     motion: Mapping[Symbol, Expr]
@@ -215,9 +215,9 @@ CHANGING_ANGULAR_VELOCITY = Rule(
 def changing_angular_velocity(
     through: str = "centre_of_mass", symbol: str = "omega", key: str = "angular_velocity"
 ) -> Quantity:
-    """An angular velocity that changes in any way, omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
+    """An angular velocity with an arbitrary time dependence, omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
 
-    through   the point of the body that the axis goes through at every time
+    through   the point of the body on the axis of rotation at every instant
 
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
     """
@@ -251,13 +251,13 @@ RATE_IN_SPACE = Rule(
 def rate_in_space(
     momentum: Quantity, omega: Quantity, in_body: Quantity | None = None, key: str = "momentum_rate"
 ) -> Quantity:
-    """Rate of change in space of a vector known by its components in the body, dL/dt = (dL/dt)_body + omega x L.
+    """Rate of change in space of a vector with given body components, dL/dt = (dL/dt)_body + omega x L.
 
     momentum   angular momentum L, vector (3), kg m^2/s, body axes
     omega      angular velocity of the body, vector (3), 1/s, body axes
-    in_body    its rate of change in the body by the equations of motion, if that is to be put in
-    Second route: L turned with the body by a rotation matrix and differentiated; the sum of m r x a over particles;
-    the component along a direction that is fixed in space, and so turns backwards in the body.
+    in_body    its rate of change in the body from the equations of motion, if this is to be substituted
+    Second route: rotate L with the body by a rotation matrix and differentiate; the sum of m r x a over particles;
+    the component along a direction that is fixed in space, and so rotates backwards in the body.
     Outcomes: zero (constant in space), zero_in_both (and in the body), driven (a torque acts), generic.
     Errors: arguments of other kinds.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
@@ -288,9 +288,9 @@ def rate_in_space(
         lines=Lines(
             between=_rates_worked(momentum, omega, in_body),
             put_in=None,
-            # That in the body was found from the torque: what the two parts add up to is no news, but a check.
+            # The rate in the body came from the torque, so the sum of the two parts is a check, not a new result.
             law=Level.FULL if in_body else Level.BRIEF,
-            result=in_body is not None,  # else Euler's equations have its components
+            result=in_body is not None,  # otherwise Euler's equations state its components
             arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
             means=motion,
         ),
@@ -311,7 +311,7 @@ def rate_in_space(
 
 
 def _constancy(rate: Any, in_body: Quantity | None) -> str:
-    """Whether the vector is constant in space, and in the body too; unknown before the equations are put in."""
+    """Whether the vector is constant in space, and in the body too; unknown until the equations are substituted."""
     if in_body is None:
         return "generic"
     if not is_zero(rate):
@@ -320,7 +320,7 @@ def _constancy(rate: Any, in_body: Quantity | None) -> str:
 
 
 def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None) -> list[Form]:
-    """The two parts of the rate: with their components, or with that in the body as the equations of motion give it."""
+    """The two parts of the rate: by components, or with the rate in the body from the equations of motion."""
     if in_body is not None:
         seen = in_body.step.chain[0].expr
         parts = seen.args if isinstance(seen, MatAdd) else (seen,)
@@ -330,13 +330,13 @@ def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None)
 
 
 def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE) -> tuple[Quantity, Quantity, Quantity]:
-    """Euler's equations, I_x omega_x_dot - (I_y - I_z) omega_y omega_z = N_x and so on round: dL/dt = N by components.
+    """Euler's equations, I_x omega_x_dot - (I_y - I_z) omega_y omega_z = N_x and cyclically: dL/dt = N by components.
 
     rate     rate of change in space of the angular momentum, vector (3), N m, principal axes of the body
-    torque   N about the same point, three components in N m in the same axes; none acts unless it is given
+    torque   N about the same point, three components in N m in the same axes; by default zero
     Second route: the components of the sum of m r x a over particles.
-    Outcomes: coupled, driven (with a torque), uncoupled (no product of components is left in it, so that its own is
-    constant), isotropic (in none of the three).
+    Outcomes: coupled, driven (with a torque), uncoupled (no product of components remains, so this component is
+    constant), isotropic (no product remains in any of the three).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.5.
     """
     x, y, z = (_euler_equation(rate, i, torque) for i in range(3))
@@ -385,7 +385,7 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
 
 
 def _coupling(rates: Any, moving: Sequence[Expr], i: int, torque: Sequence[Expr]) -> str:
-    """Whether a torque acts, and else whether products of components are left in the equation."""
+    """Whether a torque acts, or else whether products of components remain in the equation."""
     uncoupled = [not entry.has(*moving) for entry in rates]
     if any(component != 0 for component in torque):
         return "driven"
@@ -406,13 +406,13 @@ RATE_IN_BODY = Rule(
 def rate_in_body(
     momentum: Quantity, omega: Quantity, equations: Sequence[Quantity], key: str = "momentum_rate_in_body"
 ) -> Quantity:
-    """Rate of change of the angular momentum as seen in the body, (dL/dt)_body = N - omega x L.
+    """Rate of change of the angular momentum in the rotating body, (dL/dt)_body = N - omega x L.
 
     momentum    angular momentum L, vector (3), kg m^2/s, body axes
     omega       angular velocity of the body, vector (3), 1/s, body axes
-    equations   Euler's equations, for the axes x, y and z in turn
-    Check: the components I_x omega_x and so on differentiated, the angular accelerations as the equations give
-    them.
+    equations   Euler's equations, in the order x, y, z
+    Check: differentiate the components I_x omega_x and so on, and substitute the angular accelerations of the
+    equations.
     Outcomes: zero (constant in the body), in_general, driven (a torque acts).
     Errors: arguments of other kinds.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.

@@ -1,4 +1,4 @@
-"""Facts that results hand on besides their value, for the steps that rest on them."""
+"""Facts about rotation that results pass to the steps that use them."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class Disturbed(Fact):
-    """A steady rotation about a principal axis that is disturbed.
+    """A disturbed steady rotation about a principal axis.
 
     axis    "x", "y" or "z"
     speed   its rate
-    of      the rate of its angular momentum, of which each component vanishes
+    of      the rate of its angular momentum, whose components all vanish for the steady rotation
     """
 
     missing = "is not an equation of a disturbed rotation"
@@ -57,14 +57,14 @@ class Disturbed(Fact):
 
     @cached_property
     def moments(self) -> tuple[Expr, ...]:
-        """What the particles have before the angular acceleration about each axis."""
+        """The coefficients of the angular accelerations in the torque from the particles."""
         torque = explicit(self.by_particles())
         return tuple(tidied(diff(torque[k], rate(w))) for k, w in enumerate(self.moving))
 
 
 @dataclass(frozen=True)
 class RateOfMomentum(Fact):
-    """The rate of an angular momentum: by the particles of the body, and the components of omega that change."""
+    """The rate of an angular momentum: from the particles of the body, with the components of omega that change."""
 
     missing = "is not the rate of an angular momentum"
     of: RateByParticles
@@ -76,14 +76,14 @@ class RateOfMomentum(Fact):
 
 
 class RateByParticles(Fact):
-    """The rate of change of a quantity of a body, without its equations of motion; each has its class."""
+    """The rate of change of a quantity of a body, without equations of motion; a subclass for each quantity."""
 
-    missing = "is not made of particles"
+    missing = "does not come from particles"
 
     def rate(self) -> Any:
-        """What the particles contribute, by their accelerations."""
+        """The sum over the particles, by their accelerations."""
         raise NotImplementedError
 
     def in_any_axes(self, torque: Any) -> Any:
-        """The same for a torque, of a body whose tensor is not diagonal."""
+        """The rate for a torque and a body whose tensor is not diagonal."""
         raise NotImplementedError

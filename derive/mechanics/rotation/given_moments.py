@@ -1,4 +1,4 @@
-"""A moment of inertia that was derived and is given to a body: it must be that of the body's mass, about its centre."""
+"""Check of a derived moment of inertia for a body: it must belong to the body's mass, and be about its centre."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__: list[str] = []
 
 
 def check_given_moment(verb: str, mass: Any, inertia: Quantity) -> None:
-    """Of this mass, about the centre of mass, and about an axis across the plane of a flat body."""
+    """Require this mass, the centre of mass, and for a flat body an axis perpendicular to its plane."""
     body, about = inertia.subject.body, inertia.subject
     require_kind(verb, "moments", inertia, "moment of inertia")
     require_constant(verb, "moment of inertia", inertia)
@@ -25,12 +25,12 @@ def check_given_moment(verb: str, mass: Any, inertia: Quantity) -> None:
             help_line = 'give the moment with about="centre"'
             raise Rejected(Complaint("wrong-point", message + called(about.point), help=help_line))
     if about.mass is not None and mass is not None and not is_zero(about.mass - mass):
-        message = f"`{verb}`: `{inertia.key}` is the moment of a mass {called(about.mass)}, not of {called(mass)}"
+        message = f"`{verb}`: `{inertia.key}` is the moment of the mass {called(about.mass)}, not of {called(mass)}"
         raise Rejected(Complaint("different-subjects", message))
     if getattr(body, "filling", "") == "length" and is_zero(inertia.value):
-        message = f"`{inertia.key}` is about the line of {called(body)} itself, which lies in the plane"
+        message = f"`{inertia.key}` is about the line of {called(body)}, which lies in the plane of motion"
         raise Rejected(Complaint("wrong-axis", message, help='give the moment with axis="x"'))
     across = getattr(body, "flat_across", None)
     if across is not None and about.axis not in (None, across):
-        message = f"`{inertia.key}` is about an axis in the plane of {called(body)}, which moves in that plane"
+        message = f"`{inertia.key}` is about an axis in the plane of {called(body)}, but the motion is in that plane"
         raise Rejected(Complaint("wrong-axis", message, help=f'give the moment with axis="{across}"'))

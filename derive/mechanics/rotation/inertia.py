@@ -1,6 +1,6 @@
-"""The inertia tensor: by integration about a point, and moved from point to point.
+"""The inertia tensor: by integration about a point, and shifted to other points.
 
-I_ij = integral of (r.r delta_ij - r_i r_j) dm, in kg m^2, a symmetric (3, 3) tensor in the body's axes.
+I_ij = integral of (r.r delta_ij - r_i r_j) dm, in kg m^2, a symmetric (3, 3) tensor along the body axes.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ Moment: TypeAlias = Quantity
 Pair = tuple[int, int]
 
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
-MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # what mirror planes across the axes leave
-ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # what symmetry about the z axis leaves: across it and along it
+MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # not zero by symmetry if the planes across the axes are mirror planes
+ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # not zero or equal by symmetry about the z axis: across it and along it
 
 
 INERTIA_TENSOR = Rule(
@@ -72,13 +72,13 @@ def inertia_tensor(
     """Inertia tensor about a point, J = integral of (r.r 1 - r r) dm.
 
     body         mass M
-    about        a point that the body has: "centre", "corner", "apex", ...; axes those of the body
-    coordinates  "cartesian" or "cylindrical", where the body has both
-    Each of the six entries is a step of its own; of a body that is round about z, the two that symmetry leaves; of one
-    that is its own image in the plane across each axis, the three moments.
+    about        a named point of the body: "centre", "corner", "apex", ...; axes are the body axes
+    coordinates  "cartesian" or "cylindrical", if the body has both
+    A step derives each of the six entries; for a body that is round about z, only the two that symmetry leaves; for
+    a body with three mirror planes across its axes, only the three moments.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles, whose
-    centre of mass is the body's; of a body told by a map, over its cells in numbers.
-    Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; of a
+    centre of mass is the body's; for a body defined by a position map, a numerical sum over its cells.
+    Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; for a
     body that is round about z, round or round_isotropic.
     Errors: no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -116,12 +116,12 @@ def inertia_tensor(
 
 
 def _mirrored(pairs: tuple[Pair, ...]) -> dict[str, str]:
-    """Whether mirror planes have left the moments alone, as the sentence of the first of them says."""
+    """Whether only the moments remain by mirror symmetry, for the sentence of the first of them."""
     return {"mirrored": "centre"} if pairs == MIRRORED else {}
 
 
 def _edged(body: Body) -> dict[str, str]:
-    """Whether its axes are along edges, which start from a corner."""
+    """Whether its axes are along edges from a corner."""
     return {"edged": "corner"} if body.reference == "corner" else {}
 
 
@@ -131,10 +131,10 @@ def moment_of_inertia(
     """Moment of inertia about one axis through a point, I = integral of the squared distance from it dm.
 
     body    mass M
-    axis    "x", "y" or "z": parallel to which of the body's axes
-    about   a point that the body has, through which the axis goes
-    Second route: the sum of m times the squared distance over the body's equimomental particles; of a body told by a
-    map, over its cells in numbers.
+    axis    "x", "y" or "z": the parallel body axis
+    about   a named point of the body on the axis
+    Second route: the sum of m times the squared distance over the body's equimomental particles; for a body defined
+    by a position map, a numerical sum over its cells.
     Errors: no such point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
@@ -159,11 +159,11 @@ def moment_seen(
     seen: Mapping[str, str],
     turn: MatrixBase | None = None,
 ) -> Moment:
-    """A moment of inertia whose axis the sentence names as the problem does, which need not be by the body's own axes.
+    """A moment of inertia whose sentence names the axis as the problem does, not always as a body axis.
 
-    seen   own, mapped (no coordinates are measured from the point), across_plane (the plane of the motion), or part,
-           with `whole`, the axis of the whole to which it is parallel
-    turn   the axes of that whole as the part sees them, by columns
+    seen   own, mapped (no coordinates are measured from the point), across_plane (the plane of motion), or part, with
+           `whole`, the parallel axis of the whole
+    turn   columns: the axes of the whole along those of the part
     Source: that of `moment_of_inertia`.
     """
     point, i = body.point(about), "xyz".index(axis)
@@ -194,8 +194,8 @@ def moment_seen(
 
 
 def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
-    """The entries to be worked out: of a round body seen from its axis, I_yy is I_xx and the products vanish; these do
-    as well where the plane across each axis is a mirror of the body."""
+    """The entries to integrate: for a round body about a point of its axis, I_yy = I_xx and products vanish; products
+    also vanish if the plane across each axis is a mirror plane of the body."""
     if body.is_round and point.position[0] == point.position[1] == 0:
         return ROUND
     is_one_region = body.is_of_particles and not hasattr(body, "parts")
@@ -210,7 +210,7 @@ INERTIA_DEFINITION = Rule(
 
 
 def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
-    """J = integral of (r.r 1 - r r) dm, r from the point: what the symbol means."""
+    """J = integral of (r.r 1 - r r) dm, r from the point: the definition of the symbol."""
     return establish(
         INERTIA_DEFINITION,
         tensor(name),
@@ -227,7 +227,7 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
 
 
 def _law(region: Region, density: Expr) -> Any:
-    """The integral of (r.r 1 - r r) dm, not carried out."""
+    """The unevaluated integral of (r.r 1 - r r) dm."""
     r = vector("r")
     integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
     return region.with_section_put_in().mass_integral(integrand, density)
@@ -242,7 +242,7 @@ def _by_pair(entries: dict[Pair, Quantity]) -> dict[str, Quantity]:
 
 
 def _assembled(pairs: tuple[Pair, ...], found: Sequence[Any]) -> Any:
-    """The symmetric tensor of its entries; what is not among them symmetry about z gives."""
+    """The symmetric tensor from its entries; symmetry about z determines the missing entries."""
     at = dict(zip(pairs, found, strict=True))
     if pairs == ROUND:
         at |= {(1, 1): at[(0, 0)]}
@@ -299,7 +299,7 @@ def _entry_by_integration(
 
 
 def entry_weight(region: Region, pair: Pair) -> Expr:
-    """What is integrated over the mass: the squared distance from the axis, or minus the product of two coordinates."""
+    """The integrand over the mass: the squared distance from the axis, or minus the product of two coordinates."""
     i, j = pair
     at = region.position
     weight = sum((x**2 for k, x in enumerate(at) if k != i), Integer(0)) if i == j else -at[i] * at[j]
@@ -307,7 +307,7 @@ def entry_weight(region: Region, pair: Pair) -> Expr:
 
 
 def _without_angles(weight: Expr) -> Expr:
-    """r^2 cos^2 + r^2 sin^2 is written r^2; what depends on the angle stays as it is."""
+    """r^2 cos^2 + r^2 sin^2 is written r^2; a weight that depends on the angle is unchanged."""
     if not weight.atoms(sin, cos):
         return weight
     plain = weight.expand().replace(
@@ -320,7 +320,7 @@ def _without_angles(weight: Expr) -> Expr:
 
 
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
-    """The squared distance from the axis of a moment, and the same as |e x r|^2."""
+    """The squared distance from the axis of a moment, and its form |e x r|^2."""
     if pair[0] != pair[1]:
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)
@@ -328,7 +328,7 @@ def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[An
 
 
 def _entry_by_moments(r: Any, pair: Pair) -> Any:
-    """Of a mass at r: n.I n at n = e_i + e_j less the two moments is twice the entry I_ij."""
+    """For a mass at r: n.I n at n = e_i + e_j minus the two moments is twice the entry I_ij."""
     axes = [column(*(int(k == axis) for k in range(3))) for axis in pair]
     if pair[0] == pair[1]:
         return squared_distance(r, axes[0])
@@ -343,15 +343,15 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     centre          vector (3), m: the body's centre of mass, from that point and in the same axes
     Second route: each entry, and the tensor as a whole, by direct integration about the centre; the trace as twice the
     integral of r.r dm.
-    Outcomes: as of `inertia_tensor`.
-    Errors: the tensor is already about the centre of mass; the centre is counted from another point.
+    Outcomes: the same as those of `inertia_tensor`.
+    Errors: the tensor is already about the centre of mass; the centre is measured from another point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
     body: Body = tensor_there.needed(OfBody).body
     start = tensor_there.needed(AboutPoint).point
     if start.position == body.middle.position:
         message = f"`{tensor_there.key}` is already about the centre of mass"
-        raise Rejected(Complaint("already-there", message, help="start from another point, or use the tensor as it is"))
+        raise Rejected(Complaint("already-there", message, help="start from another point, or use this tensor"))
     _check_start(tensor_there, centre, start)
     return _moved(tensor_there, centre, replace(body.middle, axes=start.axes), symbol, key)
 
@@ -360,10 +360,10 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     """Inertia tensor about another point of the body, J = I + M (c.c 1 - c c), from I about its centre of mass.
 
     inertia   tensor (3, 3), kg m^2, about the centre of mass
-    centre    vector (3), m: the centre of mass as seen from the other point, in the same axes
+    centre    vector (3), m: the centre of mass from the other point, in the same axes
     Second route: each entry, and the tensor as a whole, by direct integration about the other point; the trace.
     Outcomes: outward.
-    Errors: the tensor is not about the centre of mass; the axes are others.
+    Errors: the tensor is not about the centre of mass; the axes differ.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
     body: Body = inertia.needed(OfBody).body
@@ -385,7 +385,7 @@ MOVED_TO = Rule(
 
 
 def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: str) -> Quantity:
-    """The tensor about another point by parallel axes, of two points of which one is the centre of mass.
+    """The tensor about another point by the parallel-axis theorem; one of the two points is the centre of mass.
 
     Outcomes: isotropic, two_equal, diagonal, generic; round, round_isotropic; outward (from the centre of mass).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
@@ -416,11 +416,11 @@ def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: s
 
 
 def _check_start(tensor_there: Quantity, centre: Quantity, start: Point) -> None:
-    """Parallel axes hold from the point of the tensor: the centre must be counted from there."""
+    """The parallel-axis theorem needs the centre of mass measured from the point of the tensor."""
     counted = centre.fact(CountedFrom)
     if counted is None or counted.start != start:
         told = f"from the {counted.start.name}" if counted else "from another point"
-        message = f"`{tensor_there.key}` is about the {start.name}, but `{centre.key}` is counted {told}"
+        message = f"`{tensor_there.key}` is about the {start.name}, but `{centre.key}` is measured {told}"
         help_line = f'use centre_of_mass(body, origin="{start.name}")'
         raise Rejected(Complaint("another-origin", message, help=help_line))
 
@@ -447,8 +447,8 @@ ENTRY_MOVED = Rule(
 
 
 def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, key: str, pair: Pair) -> Quantity:
-    """One entry by parallel axes, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z); away from the
-    centre with the opposite signs."""
+    """One entry by the parallel-axis theorem, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z);
+    with opposite signs from the centre to another point."""
     i, j = pair
     body: Body = there.needed(OfBody).body
     other = centre.needed(CountedFrom).start
@@ -457,9 +457,11 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
     pairs = pairs_left_by_symmetry(body, other)
     entry = next((parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}")), None)
     if entry is None and (i == j or not is_zero(there.value[i, j])):
-        message = f"the entries of `{there.key}` are no steps of their own"
-        raise Rejected(Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` finds it elsewhere'))
-    # From a point of the axis of a round body, the distance along the axis is all there is.
+        message = f"no step derives this entry of `{there.key}`"
+        raise Rejected(
+            Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` derives them elsewhere')
+        )
+    # From a point on the axis of a round body, only the displacement along the axis contributes.
     apart = [k for k in range(3) if k != i and not (pairs == ROUND and centre.value[k] == 0)]
 
     def law(mass: Expr, c: Any, *at_start: Expr) -> Expr:
@@ -498,18 +500,18 @@ AGREEMENT = Rule(
 
 
 def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quantity:
-    """Two ways to the same tensor agree, I' = I.
+    """Agreement of two derivations of the same tensor, I' = I.
 
     found   tensor (3, 3), kg m^2
-    again   the tensor of the same body about the same point, found in another way, perhaps along axes that are turned
-    Check: the tensor found in the other way, turned to the axes of the first.
-    Outcomes: generic; turned, where z was counted the other way.
-    Errors: the tensors are not of one body about one point.
+    again   the tensor of the same body about the same point by another derivation, possibly along rotated axes
+    Check: the other tensor, rotated to the axes of the first.
+    Outcomes: generic; turned, if z has the opposite direction.
+    Errors: the tensors are not of the same body about the same point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     points = [tensor.needed(AboutPoint).point for tensor in (found, again)]
     if found.needed(OfBody) != again.needed(OfBody) or points[0].position != points[1].position:
-        message = f"`{found.key}` and `{again.key}` are not tensors of one body about one point"
+        message = f"`{found.key}` and `{again.key}` are not tensors of the same body about the same point"
         raise Rejected(Complaint("not-the-same", message))
     turn = points[0].axes.T * points[1].axes
     return establish(

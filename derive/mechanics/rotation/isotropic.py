@@ -1,4 +1,4 @@
-"""Where the principal moments of a body become equal, so that every axis is a principal one."""
+"""The condition that all principal moments of a body are equal, so every axis is a principal axis."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ ISOTROPIC_WHERE = Rule(
 
 
 def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") -> Quantity:
-    """Case in which all three principal moments are equal, I_1 = I_3, solved for one letter: h = 2R.
+    """Case in which all three principal moments are equal, I_1 = I_3, solved for one symbol: h = 2R.
 
-    moments   principal moments (3), kg m^2, of which two are equal
-    letter    a letter that stands for a positive number; or what was given for it, 2b for h
-    Check: with the letter put in, the tensor is one moment times the unit tensor; and the two moments differ,
-    one way or the other, where the letter is a little greater and a little less.
-    Outcomes: special; always, where they are equal as it is; never, where one is greater whatever the letters are.
-    Errors: the three moments are all different; the equation has not one positive root for that letter.
+    moments   principal moments (3), kg m^2, two of them equal
+    letter    the symbol of a positive number; or the expression given for it, 2b for h
+    Check: with the result substituted, the tensor is a multiple of the unit tensor; and the two moments differ, with
+    opposite signs, for slightly greater and slightly smaller values of the symbol.
+    Outcomes: special; always, if they are equal already; never, if one is greater for all values of the symbols.
+    Errors: the three moments are all different; the equation does not have exactly one positive root for that symbol.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     one, other = _two_to_compare(moments)
@@ -69,7 +69,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
 
 
 def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, key: str) -> Quantity:
-    """The moments are equal as they are, or one is always the greater."""
+    """The step for moments that are always equal, or of which one is always greater."""
     mark = "=" if is_zero(difference) else ">" if difference.is_positive else "<"
     return establish(
         ISOTROPIC_WHERE,
@@ -89,28 +89,28 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
 
 
 def _two_to_compare(moments: Quantity) -> tuple[int, int]:
-    """Of two equal moments and a third, one of the two and the third."""
+    """The indices of one of the two equal moments, and of the third."""
     alone = lone_moment(moments.value)
     if alone is not None:
         return (0 if alone else 1), alone
     if all(is_zero(moments.value[k] - moments.value[0]) for k in (1, 2)):
         return 0, 2
-    message = f"the three moments of `{moments.key}` all differ, so that one equation does not make them equal"
+    message = f"the three moments of `{moments.key}` all differ, so one equation cannot make them equal"
     raise Rejected(Complaint("all-different", message))
 
 
 def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, Expr, int]:
-    """The letter, or the first one that will do of what was given for it, h of h + R; its root, and by which power."""
+    """The symbol, or the first suitable one in its given expression, such as h in h + R; its root; the power."""
     for symbol in sorted(letter.free_symbols & difference.free_symbols, key=str):
         root = _root(difference, symbol)
         if root is not None:
             return symbol, *root
-    message = f"where the moments of `{moments.key}` are equal cannot be told from {letter} alone"
-    raise Rejected(Complaint("no-condition", message, help="give another of the letters they depend on"))
+    message = f"the equation of the moments of `{moments.key}` does not have exactly one positive root for {letter}"
+    raise Rejected(Complaint("no-condition", message, help="solve for another symbol in the moments"))
 
 
 def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
-    """The one positive root, and the power of the letter that it is found by; nothing if there is not just one."""
+    """The only positive root, and the power of the symbol in the equation; None if there is not exactly one."""
     core = difference.as_numer_denom()[0]
     parts = [part for part in Mul.make_args(factor(core)) if part.has(letter) and not part.is_positive]
     found = isolated(parts[0].as_base_exp()[0], letter) if len(parts) == 1 else None
@@ -122,19 +122,19 @@ def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
 
 
 def _lengths_in(difference: Expr) -> list[Any]:
-    """The letters on which it depends whether the moments are equal."""
+    """The symbols that determine whether the moments are equal."""
     terms = Add.make_args(expand(difference))
     common = common_factor(list(terms))
     return [letter for letter in difference.free_symbols if (expand(difference) / common).expand().has(letter)]
 
 
 def _letters_only(factor: Expr) -> Expr:
-    """The factor without its number: both sides are divided by M, not by 3 M/80."""
+    """The factor without its numeric coefficient: both sides are divided by M, not by 3 M/80."""
     return factor.as_coeff_Mul()[1]
 
 
 def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, Any]:
-    """The tensor with the letter put in, and one moment times the unit tensor; nothing but an equation will do."""
+    """The tensor with the value substituted, and a moment times the unit tensor; nan unless there is an equation."""
     if found.mark != "=":
         return nan, nan
     letter, bound = found.sides
@@ -143,10 +143,10 @@ def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, An
 
 
 def _differences_beside(difference: Expr, found: Relation) -> tuple[Any, Any]:
-    """The difference of the moments a little beyond the root and a little before it, and their opposite signs."""
+    """The difference of the moments slightly above and below the root, and values of opposite sign to compare with."""
     letter, bound = found.sides
     u = Dummy("u", positive=True)
     beyond, before = (tidied(difference.subs(letter, bound * (1 + u) ** sign)) for sign in (1, -1))
     rises = 1 if beyond.is_positive else -1
-    expected = [rises * Abs(beyond), -rises * Abs(before), Abs(bound)]  # the last: the letter is a positive number
+    expected = [rises * Abs(beyond), -rises * Abs(before), Abs(bound)]  # last: the symbol is positive
     return ImmutableDenseMatrix([beyond, before, bound]), ImmutableDenseMatrix(expected)

@@ -1,7 +1,7 @@
-"""How a body turns on when its axis is disturbed: steady rotation about a principal axis, and the symmetric top.
+"""Disturbed rotations: small perturbations of a steady rotation about a principal axis, and the symmetric top.
 
-Euler's equations to first order in the two components across the axis. Second routes go back to particles: each one's
-acceleration is that of a place in a turning body.
+Euler's equations are linearised in the two components across the axis. Second routes use the accelerations of the
+particles of a rotating body.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ def linearised_rotation(
 ) -> tuple[Quantity, Quantity]:
     """Euler's equations to first order about a steady rotation: I_x omega_x_dot = (I_y - I_z) omega omega_y, and so on.
 
-    equations   Euler's equations for the axes x, y and z in turn, without torque
-    axis        "x", "y" or "z": the principal axis about which the body turns
+    equations   Euler's equations in the order x, y, z, without torque
+    axis        "x", "y" or "z": the principal axis of the steady rotation
     speed       its constant rate omega, 1/s
-    Second route: the sum of m r x a over the particles of the body, half the difference of its values for opposite
+    Second route: the sum of m r x a over the particles of the body; half the difference of its values for opposite
     disturbances.
-    Errors: the body cannot turn steadily about that axis, as where a torque acts; no such axis.
+    Errors: no steady rotation about that axis is possible, for example because a torque acts; no such axis.
     Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
     """
     if axis not in AXES:
@@ -47,18 +47,18 @@ def linearised_rotation(
     steady = {**disturbed.steadily, **{rate(w): ZERO for w in of.moving}}
     for equation in equations:
         if not is_zero(_left(equation).xreplace(steady)):
-            message = f"a steady rotation about {axis} does not fulfil `{equation.key}`"
-            raise Rejected(Complaint("not-steady", message, help="a torque acts, or the axis is no principal axis"))
+            message = f"a steady rotation about {axis} does not satisfy `{equation.key}`"
+            raise Rejected(Complaint("not-steady", message, help="a torque acts, or the axis is not a principal axis"))
     first, second = (_linear_equation(equations, disturbed, k, key) for k in disturbed.across)
     return first, second
 
 
 def _rate_of(equations: Sequence[Quantity]) -> RateOfMomentum:
-    """The rate of the angular momentum, of which the equations are the components."""
+    """The rate of the angular momentum whose components are in the equations."""
     found = [parent.fact(RateOfMomentum) for equation in equations for parent in equation.parents]
     rates = [fact for fact in found if fact is not None]
     if len(equations) != 3 or not rates:
-        raise Rejected(Complaint("wrong-argument", "a disturbed rotation needs the three equations of Euler"))
+        raise Rejected(Complaint("wrong-argument", "a disturbed rotation needs all three Euler equations"))
     return rates[0]
 
 
@@ -81,7 +81,7 @@ PERTURBED_ROTATION = Rule(
 
 
 def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int, key: str) -> Quantity:
-    """One of the two linear equations: what stands at the steady rotation before each component and each rate.
+    """One of the two linear equations: the coefficients of each component and each rate at the steady rotation.
 
     Source: that of `linearised_rotation`.
     """
@@ -93,7 +93,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
     whole = Add(*(factor * letter for factor, letter in factors if factor != 0), evaluate=False)
 
     def by_opposite_disturbances() -> Relation:
-        """Products of two small quantities are the same for opposite ones, so that they cancel."""
+        """Products of two small quantities are equal for opposite disturbances, so they cancel in the difference."""
         exact = explicit(disturbed.by_particles())[k]
         ahead, back = (
             exact.subs(
@@ -102,7 +102,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
             )
             for sign in (1, -1)
         )
-        beside = moving[disturbed.axis]  # what is left of it stands beside a small quantity, which is left out
+        beside = moving[disturbed.axis]  # the remaining factor of a small quantity, of second order, so omitted
         return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
 
     return establish(
@@ -131,7 +131,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
 
 @dataclass(frozen=True)
 class WobbleOf(Fact):
-    """The disturbed rotation that a square of a rate belongs to, and the linear equations."""
+    """The disturbed rotation and the linear equations of a squared rate."""
 
     missing = "is not the square of a rate of wobbling"
     equations: tuple[Quantity, Quantity]
@@ -153,12 +153,12 @@ PERTURBATION_RATE_SQUARED = Rule(
 def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str = "wobble_squared") -> Quantity:
     """Square of the rate at which a disturbed axis wobbles, Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y) about z.
 
-    linear   the two linear equations, as `linearised_rotation` yields them
-    Second route: on the surface of given angular momentum the energy has a minimum or a maximum where the curvatures
-    have one sign, and their product gives the rate; the accelerations of particles, of which the trace of the squared
-    matrix of the motion is -2 Omega^2.
+    linear   the two linear equations from `linearised_rotation`
+    Second route: on the surface of constant angular momentum the energy has a minimum or a maximum if the curvatures
+    have the same sign, and their product gives the rate; the accelerations of particles, whose linear motion has a
+    squared matrix with the trace -2 Omega^2.
     Outcomes: greatest, least (positive: the moment about the axis is the greatest of the three, or the least), unstable
-    (negative), marginal (zero: a moment across is equal to that about the axis), symmetric (the two moments across are
+    (negative), marginal (zero: a moment across the axis equals that about it), symmetric (the two moments across are
     equal), conditional (it depends on the order of the moments).
     Source: Landau, Lifshitz, *Mechanics*, section 37; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
@@ -203,7 +203,7 @@ def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str =
 
 
 def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
-    """(I_z - I_x)(I_z - I_y) where these are letters: the moment about the axis stands first in each difference."""
+    """(I_z - I_x)(I_z - I_y) if these are symbols: the moment about the axis is first in each difference."""
     found = tidied(value)
     about = disturbed.moments[disturbed.axis]
     across = [disturbed.moments[k] for k in disturbed.across]
@@ -216,8 +216,8 @@ def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
 
 
 def _by_curvatures(disturbed: Disturbed) -> Expr:
-    """I omega_dot = -(grad T x grad (L^2/2))/(I_x I_y I_z) I keeps T and L^2; near the axis that is the product of the
-    curvatures of L^2/2 - I_z T, times the squared rate, over the squares of the moments across."""
+    """I omega_dot = -(grad T x grad (L^2/2))/(I_x I_y I_z) I conserves T and L^2; near the axis its squared rate is the
+    product of the curvatures of L^2/2 - I_z T, times omega^2, divided by the squares of the moments across."""
     moments, moving = disturbed.moments, disturbed.moving
     energy = sum((I * w**2 for I, w in zip(moments, moving, strict=True)), ZERO) / 2
     momentum = sum((I**2 * w**2 for I, w in zip(moments, moving, strict=True)), ZERO) / 2
@@ -228,8 +228,8 @@ def _by_curvatures(disturbed: Disturbed) -> Expr:
 
 
 def _trace_of_squared_motion(disturbed: Disturbed) -> Expr:
-    """Angular accelerations from particles, differentiated by the components at the steady rotation; its eigenvalues
-    are 0 and +-i Omega."""
+    """The Jacobian of the angular accelerations from particles by the components at the steady rotation; its
+    eigenvalues are 0 and +-i Omega."""
     torque = explicit(disturbed.by_particles())
     rates = [rate(w) for w in disturbed.moving]
     (solution,) = linsolve(list(torque), rates)
@@ -267,19 +267,19 @@ PERTURBATION_RATE = Rule(
 
 
 def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble_rate") -> Quantity:
-    """Rate Omega at which a disturbed axis goes round, the root of its square; where that is negative, that of growth.
+    """Rate Omega at which a disturbed axis oscillates, the root of its square; if that is negative, the rate of growth.
 
-    squared   as `wobble_squared` yields it, 1/s^2
-    Check: components that go as e^(i Omega t), or as e^(kappa t), put into the two linear equations, whose
-    determinant then vanishes; and it is not negative.
+    squared   the result of `wobble_squared`, 1/s^2
+    Check: components proportional to e^(i Omega t), or e^(kappa t), make the determinant of the two linear equations
+    zero; and the rate is not negative.
     Outcomes: stable, symmetric, conditional, unstable (the rate kappa of growth).
-    Errors: the square vanishes, so that a disturbance grows as the time and not as an exponential.
+    Errors: the square vanishes, so a disturbance grows linearly in time, not exponentially.
     Source: Landau, Lifshitz, *Mechanics*, section 37.
     """
     of, disturbed = squared.needed(WobbleOf), squared.needed(Disturbed)
     outcome = {"greatest": "stable", "least": "stable"}.get(squared.step.outcome, squared.step.outcome)
     if outcome == "marginal":
-        message = f"`{squared.key}` vanishes: a disturbance grows as the time itself, at no rate of its own"
+        message = f"`{squared.key}` vanishes: a disturbance grows linearly in time, without a rate"
         raise Rejected(Complaint("no-rate", message))
     grows = outcome == "unstable"
     value = explicit(squared.value)
@@ -296,8 +296,8 @@ def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble
         return a * c * square, b * d
 
     def not_negative(found: Expr) -> tuple[Expr, Expr]:
-        """The determinant does not know the sign of the rate, which cannot change unless the rate vanishes: one place
-        tells, at which the square of the rate is positive."""
+        """The determinant does not determine the sign of the rate, which changes only where the rate vanishes: so one
+        point where the square of the rate is positive is enough."""
         letters = sorted(value.free_symbols, key=str)
         for turn in range(len(letters) + 1):
             ordered = letters[turn:] + letters[:turn]
@@ -323,7 +323,7 @@ def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble
 
 
 def _root_of(square: Expr) -> Expr:
-    """What can be taken out of the root stands before it."""
+    """The root with square factors taken out in front."""
     return tidied(sqrt(tidied(square)))
 
 
@@ -338,12 +338,12 @@ BODY_CONE_RATE = Rule(
 
 
 def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: str = "body_cone_rate") -> Quantity:
-    """Rate at which omega goes round the axis of a free symmetric body, Omega_b = (I_z - I_x) omega_z/I_x.
+    """Rate at which omega rotates about the axis of a free symmetric body, Omega_b = (I_z - I_x) omega_z/I_x.
 
-    equations   Euler's equations for the axes x, y and z in turn, without torque, of a body with I_x = I_y
+    equations   Euler's equations in the order x, y, z, without torque, for a body with I_x = I_y
     Second route: the rate of the angle of omega about the axis, (omega_x omega_y_dot - omega_y omega_x_dot)/(omega_x^2
     + omega_y^2), with the accelerations of particles.
-    Outcomes: oblate (it goes round as the body turns), prolate (against it), generic (that depends on the moments).
+    Outcomes: oblate (in the same sense as the body), prolate (in the opposite sense), generic (depends on the moments).
     Errors: the moments about x and y differ; all three are equal; a torque acts.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6; Taylor, *Classical Mechanics*, section 10.8.
     """
@@ -351,17 +351,13 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
     x, y, z = of.moving
     lefts = [_left(equation) for equation in equations]
     if any(not is_zero(left.xreplace(dict.fromkeys((*of.moving, *map(rate, of.moving)), ZERO))) for left in lefts):
-        raise Rejected(Complaint("not-free", "`body_cone_rate` is about a body on which no torque acts"))
+        raise Rejected(Complaint("not-free", "`body_cone_rate` needs a body without torque"))
     across, other, about = (tidied(diff(left, rate(w))) for left, w in zip(lefts, of.moving, strict=True))
     if not is_zero(across - other):
-        raise Rejected(
-            Complaint("no-symmetry", "`body_cone_rate` is about a body whose moments about x and y are equal")
-        )
+        raise Rejected(Complaint("no-symmetry", "`body_cone_rate` needs a body whose moments about x and y are equal"))
     if is_zero(about - across):
-        raise Rejected(
-            Complaint("no-cone", "the three moments are equal, so that the angular velocity stays where it is")
-        )
-    coupling = tidied(-diff(lefts[1], x, z))  # (I_z - I_x) omega_z omega_x is what omega_y changes by
+        raise Rejected(Complaint("no-cone", "the three moments are equal, so the angular velocity is constant"))
+    coupling = tidied(-diff(lefts[1], x, z))  # (I_z - I_x) omega_z omega_x drives omega_y
 
     def rate_of_angle() -> Expr:
         torque = explicit(of.by_particles())

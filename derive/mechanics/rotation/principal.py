@@ -1,7 +1,7 @@
 """Principal moments and principal axes: the axes along which angular momentum is parallel to angular velocity.
 
-A real symmetric tensor has three principal axes at right angles, I e_k = I_k e_k. Where two moments are equal every
-axis in the plane of theirs is principal, and where all three are, every axis is.
+A real symmetric tensor has three perpendicular principal axes, I e_k = I_k e_k. If two moments are equal, every axis
+in the plane of their axes is principal; if all three are equal, every axis is.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ __all__ = ["principal_axes", "principal_moments"]
 
 @dataclass(frozen=True)
 class PrincipalOf(Fact):
-    """The tensor that principal moments are those of."""
+    """The tensor of these principal moments."""
 
     missing = "is not the principal moments of a tensor"
     tensor: Quantity
@@ -50,10 +50,10 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
     """Principal moments of inertia: the three roots of det(I - lambda 1) = 0.
 
     inertia   symmetric tensor (3, 3), kg m^2
-    Of a diagonal tensor they are its diagonal, in the order of the axes; else they are given in increasing order.
+    They are the diagonal of a diagonal tensor, in the order of the axes; otherwise they are in increasing order.
     Check: sum, sum of products in pairs and product of the three are the invariants of the tensor.
-    Outcomes: isotropic (all equal), two_equal, distinct; where the tensor is not diagonal, two_equal_roots, roots.
-    Errors: the roots are those of a cubic that has no rational factor, so no closed form that one could use.
+    Outcomes: isotropic (all equal), two_equal, distinct; if the tensor is not diagonal, two_equal_roots, roots.
+    Errors: the roots are those of a cubic without a rational factor, so no useful closed form.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     require_kind("principal_moments", "inertia", inertia, "moment of inertia")
@@ -67,7 +67,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
         return column(*(whole[k, k] for k in range(3)))
 
     def axis_by_axis(found: Any) -> tuple[Any, Any]:
-        """A unit vector along each axis, multiplied by the tensor, is its own moment times that vector."""
+        """The tensor times a unit vector along each axis is the moment times that vector."""
         units = ImmutableDenseMatrix.eye(3)
         return inertia.value * units, ImmutableDenseMatrix.hstack(*(found[k] * units[:, k] for k in range(3)))
 
@@ -91,7 +91,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
 
 
 def _was_diagonal(inertia: Quantity) -> bool:
-    """Whether the tensor was found from one about another point that had no products of inertia either."""
+    """Whether the tensor came from a diagonal tensor about another point."""
     return inertia.step.rule == "rotation.moved_to" and inertia.step.outcome in {"round", "round_isotropic"}
 
 
@@ -101,8 +101,8 @@ def principal_axes(
     """Principal axes, unit vectors with I e_k = I_k e_k, right-handed.
 
     moments   the principal moments of a tensor
-    Where two moments are equal, their axes are at an angle that remains free; where all are, any three will do.
-    Check: each is put back into I e = I_k e; they are unit vectors, and each at right angles to the others.
+    If two moments are equal, their axes have a free angle; if all three are equal, any three axes are valid.
+    Check: each axis is substituted into I e = I_k e; the axes are unit vectors and perpendicular.
     Outcomes: single, or symmetry of a round body, free (two equal moments: the axis of the third and those across it);
     any; distinct.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
@@ -176,7 +176,7 @@ def _axis_outcome(moments: Quantity, place: int) -> str:
 
 
 def _is_round(moments: Quantity) -> bool:
-    """Whether the tensor is that of a body which is round about the axis of the single moment, z."""
+    """Whether the body is round about the axis of the single moment, z."""
     of, tensor = moments.fact(OfBody), moments.needed(PrincipalOf).tensor.value
     return (
         of is not None
@@ -187,13 +187,13 @@ def _is_round(moments: Quantity) -> bool:
 
 
 def _products(e: Any, before: list[Quantity]) -> list[Expr]:
-    """The scalar products with the axes found before, filled up to three."""
+    """The scalar products with the earlier axes, padded to three entries."""
     found = [explicit(Dot(e, other.value)) for other in before]
     return [*found, *[Integer(0)] * (3 - len(found))]
 
 
 def _volume(k: int, e: Any, before: list[Quantity]) -> Expr:
-    """e_1 . (e_2 x e_3), which is 1 for unit vectors that are right-handed."""
+    """e_1 . (e_2 x e_3), which is 1 for right-handed unit vectors."""
     named = {int(other.symbol.name[-1]) - 1: other.value for other in before} | {k: e}
     return explicit(ImmutableDenseMatrix.hstack(*(ImmutableDenseMatrix(named[i]) for i in range(3)))).det()
 
@@ -215,7 +215,7 @@ def _multiplicity_of_roots(moments: Any) -> str:
 
 
 def lone_moment(moments: Any) -> int | None:
-    """Which moment differs from two others that are equal."""
+    """The index of the moment that differs from two equal ones."""
     if _number_of_different(moments) != 2:
         return None
     for k in range(3):
@@ -226,7 +226,7 @@ def lone_moment(moments: Any) -> int | None:
 
 
 def _by_entries(inertia: Quantity) -> Any:
-    """The tensor by the names of its entries, as its own step writes it."""
+    """The tensor in terms of its entries' symbols, as in its step."""
     formula = inertia.step.chain[0].expr
     return formula if isinstance(formula, MatrixBase) else inertia.value
 
@@ -236,13 +236,13 @@ def _symmetric_sums(m: Any) -> tuple[Expr, Expr, Expr]:
 
 
 def _invariants(t: Any) -> tuple[Expr, Expr, Expr]:
-    """Trace, sum of the principal minors, determinant: what no turn of the axes changes."""
+    """Trace, sum of the principal minors, determinant: the invariants under rotation of the axes."""
     minors = sum((t[i, i] * t[j, j] - t[i, j] * t[j, i] for i, j in ((0, 1), (0, 2), (1, 2))), Integer(0))
     return t.trace(), minors, explicit(ImmutableDenseMatrix(t)).det(method="berkowitz")
 
 
 def _roots(inertia: Quantity) -> Any:
-    """The eigenvalues, those of a diagonal tensor in its order, others from the least to the greatest."""
+    """The eigenvalues: for a diagonal tensor in the order of its axes, otherwise in increasing order."""
     if inertia.value.is_diagonal():
         return column(*(inertia.value[k, k] for k in range(3)))
     common, rest = factored_matrix(inertia.value)
@@ -252,7 +252,7 @@ def _roots(inertia: Quantity) -> Any:
     for part, times in Poly(polynomial, unknown).factor_list()[1]:
         if part.degree() > 2:
             message = f"the principal moments of `{inertia.key}` are roots of a cubic without a rational factor"
-            raise Rejected(Complaint("no-closed-form", message, help="use a tensor about a point of more symmetry"))
+            raise Rejected(Complaint("no-closed-form", message, help="use a tensor about a point of higher symmetry"))
         found += [common * root for root in _of_low_degree(part) for _ in range(times)]
     return column(*sorted((tidied(root) for root in found), key=_size))
 
@@ -267,12 +267,12 @@ def _of_low_degree(part: Poly) -> list[Expr]:
 
 
 def _size(root: Expr) -> tuple[float, str]:
-    """For the order: by size, every letter taken as 1."""
+    """A sort key: the value with every symbol equal to 1, then the text."""
     return float(root.subs(dict.fromkeys(root.free_symbols, 1))), str(root)
 
 
 def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
-    """Three unit vectors, with an angle that remains free where two moments are equal."""
+    """Three unit vectors, with a free angle if two moments are equal."""
     tensor = moments.needed(PrincipalOf).tensor.value
     taken = {letter.name for letter in tensor.free_symbols}
     angle = scalar(next(name for name in ("phi", "psi", "chi", "alpha") if name not in taken))
@@ -289,7 +289,7 @@ def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
 
 
 def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
-    """Of a single moment, the vector at right angles to the rows of I - I_k 1; what is left, by vector products."""
+    """For a single moment, the vector perpendicular to the rows of I - I_k 1; the other vectors by vector products."""
     alone = lone_moment(moments)
     first = alone if alone is not None else 0
     i, j = (first + 1) % 3, (first + 2) % 3

@@ -1,4 +1,4 @@
-"""Rotation that is given by its components along the axes of the body: a steady one, or that of one moment."""
+"""Rotations given by their components along the body axes: steady ones, or the angular velocity at one instant."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["constant_angular_velocity", "momentary_angular_velocity"]
 def constant_angular_velocity(
     components: Sequence[Expr], through: str = "centre", symbol: str = "omega", key: str = "angular_velocity"
 ) -> Quantity:
-    """A constant angular velocity by its components along the axes of the body, in 1/s: a definition.
+    """A constant angular velocity by its components along the body axes, in 1/s: a definition.
 
     components   three, 1/s
     through      the point of the body that stays at rest
@@ -36,7 +36,7 @@ def constant_angular_velocity(
 def momentary_angular_velocity(
     components: Sequence[Expr], through: str = "centre", symbol: str = "omega", key: str = "angular_velocity"
 ) -> Quantity:
-    """The angular velocity at one moment by its components along the axes of the body, in 1/s: a definition.
+    """The angular velocity at one instant by its components along the body axes, in 1/s: a definition.
 
     components   three, 1/s
     through      the point of the body that stays at rest

@@ -1,4 +1,4 @@
-"""The torque of a steady rotation, which is what is left of Euler's equations. All vectors in body axes."""
+"""The torque of a steady rotation, from Euler's equations without angular accelerations. Vectors are in body axes."""
 
 from __future__ import annotations
 
@@ -42,23 +42,23 @@ TORQUE = Rule(
 
 
 def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = "torque") -> Quantity:
-    """Torque that keeps L turning with the body: tau = dL/dt = omega x L.
+    """Torque for a steady rotation, which carries L with the body: tau = dL/dt = omega x L.
 
     omega      vector (3), 1/s, body axes, constant
     momentum   vector (3), kg m^2/s, same axes, about a fixed point or the centre of mass, constant in the body
-    Second route: carry L round the axis by a rotation matrix and differentiate.
-    Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the letters).
-    Errors: omega or L changes, or is that of one moment; L belongs to another rotation than omega.
+    Second route: rotate L about the axis by a rotation matrix and differentiate.
+    Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the symbols).
+    Errors: omega or L changes, or is known at one instant only; L belongs to another rotation than omega.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
     """
     require_kind("torque", "omega", omega, "angular speed")
     require_kind("torque", "momentum", momentum, "angular momentum")
-    require_constant("torque", "angular velocity", omega, "`rate_in_space` is dL/dt for one that changes")
+    require_constant("torque", "angular velocity", omega, "for a changing one use `rate_in_space`, dL/dt")
     require_constant(
-        "torque", "angular momentum in the body", momentum, "`rate_in_space` is dL/dt for one that changes"
+        "torque", "angular momentum in the body", momentum, "for a changing one use `rate_in_space`, dL/dt"
     )
     if omega.fact(Momentary) is not None:
-        message = f"`torque` keeps a steady rotation up, but `{omega.key}` is that of one moment"
+        message = f"`torque` needs a steady rotation, but `{omega.key}` is known at one instant only"
         raise Rejected(Complaint("wrong-argument", message))
     about = momentum.needed(AboutPoint).point.name
     (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
@@ -93,7 +93,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
 
 
 def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
-    """Along principal axes: ((I_z - I_y) omega_y omega_z, ...), what Euler's equations leave of a steady rotation."""
+    """Along principal axes: ((I_z - I_y) omega_y omega_z, ...), Euler's equations for a steady rotation."""
     if not inertia.value.is_diagonal():
         return []
     named = {parent.key[-2:]: parent.symbol for parent in _moments(inertia)}
@@ -104,6 +104,6 @@ def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
 
 
 def _moments(inertia: Quantity) -> list[Quantity]:
-    """The steps that are entries of the diagonal."""
+    """The steps of the diagonal entries."""
     keys = {f"{inertia.key}_{axis * 2}" for axis in AXES}
     return [parent for parent in inertia.parents if parent.key in keys]

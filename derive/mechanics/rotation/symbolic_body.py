@@ -1,7 +1,7 @@
-"""A body known by letters alone: its mass, where its centre of mass is, its principal moments about a point.
+"""Bodies by symbols: the mass, the position of the centre of mass, and the principal moments about a point.
 
-What is derived for it holds for every body that has these; in the end `put_in(result, *body.values)` puts in the values
-of the one that was given.
+Results for such a body hold for every body with these quantities; then `put_in(result, *body.values)` substitutes the
+values of the given body.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ __all__ = ["in_letters"]
 
 @dataclass(frozen=True)
 class LetteredBody(RigidBody):
-    """A rigid body whose mass, centre of mass and moments are letters, with what they stand for.
+    """A rigid body whose mass, centre of mass and moments are symbols, with their values.
 
-    values   the steps that say it
-    shape    the body that has these values, and the name of its point that is the pivot
+    values   the steps that derive the values
+    shape    the body with these values, and the name of its point that is the pivot
     """
 
     values: tuple[Quantity, ...] = ()
@@ -40,14 +40,14 @@ class LetteredBody(RigidBody):
 
 
 def in_letters(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredBody:
-    """A body by its letters: M, the distance l of its centre of mass from a point of its z axis, and its principal
-    moments about that point, I_x and I_z of a round one; what they stand for are steps of their own.
+    """A body by symbols: M, the distance l of its centre of mass from a point of its z axis, and its principal moments
+    about that point, I_x and I_z for a round body; steps derive their values.
 
-    body     its axes are principal axes at the point, and its centre of mass is on the z axis through it
+    body     its body axes at the point are principal axes, and its centre of mass is on the z axis through the point
     about    the point, which becomes the "pivot" of the result
-    symbol   the letter of the moments
-    Second route: those of the steps; the mass points by which a motion of it is checked have these moments.
-    Errors: the axes through the point are no principal axes; the centre of mass is beside the z axis.
+    symbol   the symbol of the moments
+    Second route: those of the steps; the particles that check a motion of the body have these moments.
+    Errors: the axes through the point are not principal axes; the centre of mass is off the z axis.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     point = body.point(about)
@@ -55,7 +55,7 @@ def in_letters(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredB
     beside = [sum((m * r[k] for m, r in seen), Integer(0)) for k in (0, 1)]
     products = [sum((m * r[i] * r[j] for m, r in seen), Integer(0)) for i, j in ((0, 1), (0, 2), (1, 2))]
     if not all(map(is_zero, (*beside, *products))):
-        message = f"`in_letters`: the axes of {body.name} through its {about} are not principal, or beside its centre"
+        message = f"`in_letters`: the axes of {body.name} through its {about} are not principal, or miss its centre"
         raise Rejected(Complaint("wrong-axis", message))
     squares = [sum((m * r[k] ** 2 for m, r in seen), Integer(0)) for k in (0, 1)]
     is_symmetric = is_zero(squares[0] - squares[1])
@@ -81,7 +81,7 @@ def in_letters(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredB
 
 
 def _letter(quantity: Quantity) -> Expr:
-    """Nothing has a letter that is known to vanish."""
+    """The symbol of a quantity, or 0 if it vanishes."""
     found: Expr = quantity.symbol if quantity.value != 0 else Integer(0)
     return found
 
@@ -95,12 +95,12 @@ CENTRE_DISTANCE = Rule(
 
 
 def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantity:
-    """Where the centre of mass is on the z axis through a point, l = (m_1 z_1 + m_2 z_2 + ...)/M.
+    """Distance of the centre of mass along the z axis from a point, l = (m_1 z_1 + m_2 z_2 + ...)/M.
 
-    body    of parts, or one of which it is known where its centre of mass is
-    point   from which it is counted
-    mass    of the whole, where it is a step
-    Second route: the weights of the equimomental particles balance about that place.
+    body    a composite body, or one with a known centre of mass
+    point   the origin of the distance
+    mass    of the whole, if it is a step
+    Second route: the weights of the equimomental particles balance about the centre of mass.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     parts = [(part.mass, point.seen(part.centre)[2]) for part in getattr(body, "parts", ())]

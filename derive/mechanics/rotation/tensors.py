@@ -1,6 +1,6 @@
-"""What one asks of a tensor of inertia: its components along other axes, its moment about any axis, its entries.
+"""Quantities from an inertia tensor: components along other axes, the moment about any axis, single entries.
 
-For flat bodies also the theorem of perpendicular axes, and the angle of the principal axes in the plane.
+For flat bodies also the perpendicular-axis theorem, and the angle of the principal axes in the plane.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ MOMENT = "moment of inertia"
 
 
 def seen_particles(body: Any, point: Point) -> list[tuple[Expr, ImmutableMatrix]]:
-    """The particles that stand for a body, from a point and along its axes."""
+    """The equimomental particles of a body, relative to a point and along its axes."""
     return [(mass, ImmutableDenseMatrix(point.axes.T * (place - point.position))) for mass, place in body.particles()]
 
 
 def central_tensor(body: Any) -> ImmutableMatrix:
-    """The tensor about the centre of mass along the body's own axes, as its particles have it; no step, but a value."""
+    """The tensor about the centre of mass along the body axes, from the particles; a value, not a step."""
     return ImmutableDenseMatrix(summed(seen_particles(body, body.middle), tensor_at).applyfunc(tidied))
 
 
 def shape_of(found: Any) -> str:
-    """What one sees of a tensor: whether it is diagonal, and how many moments are equal."""
+    """The shape of a tensor: whether it is diagonal, and how many moments are equal."""
     if not found.is_diagonal():
         return "generic"
     return {1: "isotropic", 2: "two_equal"}.get(len({found[i, i] for i in range(3)}), "diagonal")
@@ -84,15 +84,15 @@ TURNED_TENSOR = Rule(
 def turned_tensor(
     inertia: Quantity, axis: str, angle: Expr, symbol: str | None = None, key: str = "turned_tensor"
 ) -> Quantity:
-    """The same tensor along axes that are turned, I' = R^T I R, the columns of R being the new axes.
+    """The same tensor along rotated axes, I' = R^T I R, the columns of R being the new axes.
 
     inertia   tensor (3, 3), kg m^2
-    axis      "x", "y" or "z": about which the axes are turned, right-handed
-    angle     by which
-    Second route: the sum of m (r.r 1 - r r) over the body's equimomental particles, as the turned axes see them; the
-    trace, which no turn changes.
+    axis      "x", "y" or "z": the axis of the right-handed rotation of the axes
+    angle     its angle
+    Second route: the sum of m (r.r 1 - r r) over the body's equimomental particles, relative to the rotated axes; the
+    trace, which is invariant.
     Outcomes: isotropic, two_equal, diagonal, generic.
-    Errors: no such axis; it is no tensor of inertia of a body.
+    Errors: no such axis; it is not an inertia tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2.
     """
     require_kind("turned_tensor", "inertia", inertia, MOMENT)
@@ -133,19 +133,19 @@ MOMENT_ABOUT = Rule(
 def moment_about(
     inertia: Quantity, direction: Sequence[Any] | Quantity, symbol: str = "I_n", key: str = "moment_about"
 ) -> Quantity:
-    """Moment of inertia about an axis of any direction through the point of the tensor, I_n = n.I n, n = d/|d|.
+    """Moment of inertia about an axis in any direction through the point of the tensor, I_n = n.I n, n = d/|d|.
 
     inertia     tensor (3, 3), kg m^2
     direction   d, three components, or a vector along the axis; the unit vector has the index of the symbol
     Second route: the sum of m |n x r|^2 over the body's equimomental particles.
-    Errors: the direction vanishes; it is no tensor of a body.
+    Errors: the direction vanishes; it is not a tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     require_kind("moment_about", "inertia", inertia, MOMENT)
     body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
     along = direction.value if isinstance(direction, Quantity) else column(*(as_expr(x) for x in direction))
     if is_zero(along):
-        raise Rejected(Complaint("zero-vector", "an axis along a vector that vanishes has no direction"))
+        raise Rejected(Complaint("zero-vector", "the vector along the axis vanishes, so the axis has no direction"))
     unit = ImmutableDenseMatrix((along / tidied(Norm(along))).applyfunc(tidied))
 
     n = _unit_vector(direction, body, symbol.partition("_")[2] or "n", key)
@@ -201,13 +201,13 @@ def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: 
     entry     "xx", "xy", ...
     Second route: the sum of m (r.r delta_ij - x_i x_j) over the body's equimomental particles.
     Outcomes: moment, product.
-    Errors: no such entry; it is no tensor of a body.
+    Errors: no such entry; it is not a tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     require_kind("tensor_entry", "inertia", inertia, MOMENT)
     if len(entry) != 2 or set(entry) - set("xyz"):
         message = f'a tensor has no entry "{entry}"'
-        raise Rejected(Complaint("no-such-entry", message, help='they are "xx", "xy" and so on'))
+        raise Rejected(Complaint("no-such-entry", message, help='entries are "xx", "xy" and so on'))
     body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
     i, j = ("xyz".index(letter) for letter in sorted(entry))
     name = symbol or entry_name(inertia.symbol.name, i, j).name
@@ -237,26 +237,24 @@ PRINCIPAL_ANGLE = Rule(
 def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "principal_angle") -> Quantity:
     """Angle from x of the principal axes in the plane of x and y, tan 2 theta = 2 I_xy/(I_xx - I_yy).
 
-    inertia   tensor (3, 3), kg m^2, of which I_xz and I_yz vanish
-    Second route: along axes turned by that angle the particles of the body have no product of inertia.
+    inertia   tensor (3, 3), kg m^2, with I_xz = I_yz = 0
+    Second route: along axes rotated by that angle, the particles of the body have no product of inertia.
     Outcomes: generic, zero (x and y are principal axes).
-    Errors: I_xz or I_yz does not vanish; I_xx and I_yy are equal, so that the angle is half a right angle, or any.
+    Errors: I_xz or I_yz does not vanish; I_xx and I_yy are equal, so the angle is 45 degrees, or arbitrary.
     Source: Fowles, Cassiday, *Analytical Mechanics*, section 9.2.
     """
     require_kind("principal_angle", "inertia", inertia, MOMENT)
     body, point, I = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point, inertia.value
     if not (is_zero(I[0, 2]) and is_zero(I[1, 2])):
-        message = (
-            f"the z axis is no principal axis of `{inertia.key}`, so that two others are not in the plane of x and y"
-        )
-        raise Rejected(Complaint("not-in-a-plane", message, help="`principal_axes` finds them in space"))
+        message = f"the z axis is not a principal axis of `{inertia.key}`, so no two are in the plane of x and y"
+        raise Rejected(Complaint("not-in-a-plane", message, help="`principal_axes` derives them in space"))
     if is_zero(I[0, 0] - I[1, 1]):
         what = (
             "every axis in their plane is principal"
             if is_zero(I[0, 1])
-            else "the principal axes halve the right angles"
+            else "the principal axes bisect the right angles"
         )
-        message = f"the moments of `{inertia.key}` about x and y are equal, so that {what}"
+        message = f"the moments of `{inertia.key}` about x and y are equal, so {what}"
         raise Rejected(Complaint("equal-moments", message, help="`principal_axes` gives the axes"))
     entries = {f"{'xyz'[i]}{'xyz'[j]}": _entry_of(inertia, i, j) for i, j in ((0, 1), (0, 0), (1, 1))}
     angle = scalar(symbol)
@@ -283,14 +281,14 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
 
 
 def _entry_of(inertia: Quantity, i: int, j: int) -> Quantity | Expr:
-    """The step that an entry is, where it is one; else its value."""
+    """The step of an entry, if there is one; otherwise its value."""
     name = entry_name(inertia.symbol.name, i, j)
     value: Expr = inertia.value[i, j]
     return next((parent for parent in inertia.parents if parent.symbol == name), value)
 
 
 def _shorter_sums(matrix: Any) -> ImmutableMatrix:
-    """Each entry multiplied out, with products of sines and cosines or with sums of them, whichever is shorter."""
+    """The matrix with each entry expanded, in products of sines and cosines or in their sums, whichever is shorter."""
     return ImmutableDenseMatrix(matrix.applyfunc(_shorter))
 
 
@@ -312,11 +310,11 @@ PERPENDICULAR_AXES = Rule(
 def perpendicular_axes(
     first: Quantity, second: Quantity, symbol: str | None = None, key: str = "perpendicular_axes"
 ) -> Quantity:
-    """Moment of a flat body about the axis across it, I_z = I_x + I_y, of those about two axes in its plane.
+    """Moment of a flat body about the axis perpendicular to it, I_z = I_x + I_y, from two axes in its plane.
 
     first, second   moments of inertia about two perpendicular axes in the plane, through one point, kg m^2
-    Second route: the squared distance from the axis across, summed over the body's equimomental particles.
-    Errors: the body is not flat, or one of the axes is across it.
+    Second route: the squared distance from the perpendicular axis, summed over the body's equimomental particles.
+    Errors: the body is not flat, or one of the axes is perpendicular to it.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical
     Mechanics*, section 8.2.
     """
@@ -324,8 +322,8 @@ def perpendicular_axes(
     axes = {first.subject.axis, second.subject.axis}
     across = getattr(body, "flat_across", None)
     if across is None or axes != set("xyz") - {across}:
-        message = "the theorem of perpendicular axes is about a flat body and two axes in its plane"
-        raise Rejected(Complaint("not-flat", message, help='`moment_of_inertia(body, "x")` and `"y"` of a flat body'))
+        message = "the perpendicular-axis theorem needs a flat body and two axes in its plane"
+        raise Rejected(Complaint("not-flat", message, help='use `moment_of_inertia(body, "x")` and `"y"`'))
     k = "xyz".index(across)
 
     return establish(
@@ -351,11 +349,11 @@ RADIUS_OF_GYRATION = Rule(
 
 
 def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_of_gyration") -> Quantity:
-    """Radius of gyration, k = sqrt(I/M): where the whole mass would have the same moment.
+    """Radius of gyration, k = sqrt(I/M): the distance at which the whole mass would have the same moment.
 
     moment   moment of inertia of a body about an axis, kg m^2
     Second route: the mean squared distance from the axis of the body's equimomental particles.
-    Errors: the moment is that of no body about an axis.
+    Errors: the moment does not belong to a body and an axis.
     Source: Fowles, Cassiday, *Analytical Mechanics*, section 8.3.
     """
     require_kind("radius_of_gyration", "moment", moment, MOMENT)

@@ -60,7 +60,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Through(Fact):
-    """The point of the body that stays at rest when it turns."""
+    """The point of the body that stays at rest during the rotation."""
 
     missing = "is not an angular velocity"
     point: str
@@ -68,15 +68,15 @@ class Through(Fact):
 
 @dataclass(frozen=True)
 class Momentary(Fact):
-    """That an angular velocity is that of one moment, and need not stay as it is."""
+    """The angular velocity is that of one instant, and may change."""
 
-    missing = "is not the angular velocity at one moment"
+    missing = "is not the angular velocity at one instant"
     point: str
 
 
 @dataclass(frozen=True)
 class RateOfEnergy(RateByParticles):
-    """d(1/2 w . I w)/dt is the sum of m v . a, and w . N."""
+    """d(1/2 w . I w)/dt is the sum of m v . a, and also w . N."""
 
     inertia: Quantity
     omega: Quantity
@@ -92,7 +92,7 @@ class RateOfEnergy(RateByParticles):
 
 @dataclass(frozen=True)
 class RateOfTurning(RateByParticles):
-    """d(I w)/dt is the sum of m r x a; along L it is L . N."""
+    """d(I w)/dt is the sum of m r x a; its component along L is that of N."""
 
     inertia: Quantity
     omega: Quantity
@@ -127,7 +127,7 @@ ANY_ANGULAR_VELOCITY = Rule(
 
 
 def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
-    """An angular velocity of which nothing is known: omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
+    """An arbitrary angular velocity, omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
 
     through   the point of the body that stays at rest
 
@@ -157,16 +157,16 @@ SPIN = Rule(
 def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "omega", key: str = "spin") -> Quantity:
     """Angular velocity of a steady rotation, omega d/|d|.
 
-    rate      angular speed, 1/s; with a minus sign left-handed
+    rate      angular speed, 1/s; a negative rate is left-handed
     along     vector (3) along the axis
-    through   the point of the body that the axis goes through, which stays at rest
-    Check: put back: its length is the size of the rate, and its scalar product with d that of parallel vectors.
+    through   the point of the body on the axis of rotation, which stays at rest
+    Check: its length is the magnitude of the rate, and its scalar product with d is that of parallel vectors.
     Outcomes: left_handed (the rate is negative), right_handed.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     body = along.subject.body
     if body is not None:
-        body.point(through)  # which says so, where the body has no such point
+        body.point(through)  # raises an error if the body has no such point
     length = tidied(Norm(along.value))
     return establish(
         SPIN,
@@ -190,14 +190,14 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
 
 
 def length_by_turning(v: Any) -> Expr:
-    """A vector's length: turn it about z into the xz plane, then about y onto z, and read off the component."""
+    """A vector's length: rotate it about z into the xz plane, then about y onto z, and take the z component."""
     size, (x, y, z) = size_and_rest(v)
     level = _turned_onto_first(x, y)
     return tidied(size * _turned_onto_first(level, z))
 
 
 def _turned_onto_first(p: Expr, q: Expr) -> Expr:
-    """The first component of (p, q) after the turn in their plane that makes the second one vanish."""
+    """The first component of (p, q) after the rotation in their plane that makes the second one vanish."""
     radius = tidied(p**2 + q**2) ** Rational(1, 2)
     return p if radius == 0 else p * (p / radius) + q * (q / radius)
 
@@ -214,27 +214,27 @@ def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
 
 
 def _left_by_turning(omega: Quantity) -> tuple[Any, Any]:
-    """L = I omega and I omega_dot = -omega x L of a free body in any axes of its own, its tensor not diagonal."""
+    """L = I omega and I omega_dot = -omega x L of a free body in arbitrary body axes, with a non-diagonal tensor."""
     xx, xy, xz, yy, yz, zz = (scalar(f"A_{pair}") for pair in ("xx", "xy", "xz", "yy", "yz", "zz"))
     momentum = explicit(applied(ImmutableDenseMatrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), omega.value))
     return momentum, -explicit(Cross(omega.value, momentum))
 
 
 def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str]:
-    """The tensor must be about the point that stays at rest; that point is the word of the step."""
+    """Require a tensor about the point that stays at rest, and return that point as the word of the step."""
     require_kind(verb, "inertia", inertia, "moment of inertia")
     require_kind(verb, "omega", omega, "angular speed")
     require_constant(verb, "inertia tensor", inertia, "a body whose size or mass changes is not rigid")
     point, at_rest = inertia.needed(AboutPoint).point.name, omega.needed(Through).point
     if point != at_rest:
         message = f"`{inertia.key}` is about the {point}, but the axis of `{omega.key}` goes through the {at_rest}"
-        help_line = f'move the tensor with `moved_to`, or write `through="{point}"` where the axis is given'
+        help_line = f'move the tensor with `moved_to`, or give the axis with `through="{point}"`'
         raise Rejected(Complaint("wrong-point", message, help=help_line))
     return {"about": point, "point": point}
 
 
 def whether_zero(v: Any) -> str:
-    """`zero`, `generic` if it is zero for no values of its letters, `in_general` if that is not known."""
+    """`zero`, `generic` if it vanishes for no values of its symbols, `in_general` if that is unknown."""
     if is_zero(v):
         return "zero"
     common, rest = factored_matrix(v)
@@ -256,7 +256,7 @@ def kinetic_energy(
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
-    Errors: the tensor is about another point than the axis goes through, or changes; arguments of other kinds.
+    Errors: the axis does not go through the point of the tensor; the tensor changes; arguments of other kinds.
     Second route: half the integral of |omega x r|^2 dm over the body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
@@ -288,9 +288,9 @@ def kinetic_energy(
 
 
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
-    """(1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2): the sum in sight, where it is of numbers along principal axes.
+    """(1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2): the explicit sum, for numbers along principal axes.
 
-    Moments that are equal leave nothing to be added up.
+    Equal moments need no such sum.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]
@@ -324,9 +324,9 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
-    Errors: the tensor is about another point than the axis goes through, or changes; arguments of other kinds.
+    Errors: the axis does not go through the point of the tensor; the tensor changes; arguments of other kinds.
     Second route: the integral of r x (omega x r) dm over the body.
-    Outcomes: parallel (omega is along a principal axis), generic (never), in_general (it depends on the letters).
+    Outcomes: parallel (omega is along a principal axis), generic (never), in_general (it depends on the symbols).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
     """
     words = _check_point("angular_momentum", inertia, omega)
@@ -362,7 +362,7 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
     """Cosine of the angle between two vectors, a.b/(|a||b|).
 
     a, b    vectors (3), not zero, same axes
-    angle   the letter of the angle
+    angle   the symbol of the angle
     Check: the law of cosines in the triangle whose sides are the two directions.
     Outcomes: parallel, opposite, perpendicular, generic.
     Errors: one of them vanishes; they belong to two bodies.
@@ -371,7 +371,7 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
     lengths = [tidied(Norm(v.value)) for v in (a, b)]
     for v, length in zip((a, b), lengths, strict=True):
         if length == 0:
-            raise Rejected(Complaint("zero-vector", f"`{v.key}` vanishes, so that it makes no angle with anything"))
+            raise Rejected(Complaint("zero-vector", f"`{v.key}` vanishes, so it has no direction"))
 
     def by_law_of_cosines() -> Expr:
         (f, u), (g, v) = (factored_matrix(q.value) for q in (a, b))
@@ -398,13 +398,13 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
 
 
 def _angle_by_components(u: Any, v: Any) -> Expr:
-    """The angle of v in the plane of u and v, counted from u."""
+    """The angle of v in the plane of u and v, measured from u."""
     across, along = tidied(Norm(Cross(u, v))), tidied(Dot(u, v))
     return atan2(across, along)
 
 
 def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]:
-    """The scalar product and the two lengths: with the sums of products in sight, then carried out."""
+    """The scalar product and the two lengths: first as explicit sums of products, then evaluated."""
     parts = [size_and_rest(v.value) for v in (a, b)]
     (_, u), (_, v) = parts
     signed = tidied(factored_matrix(a.value)[0] * factored_matrix(b.value)[0])
@@ -421,7 +421,7 @@ def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]
 
 
 def _as_root_of_squares(size: Expr, rest: Any, length: Expr) -> Expr:
-    """M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225); a length that is plain stays plain."""
+    """M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225); a length without a root is unchanged."""
     if not length.atoms(Pow) or all(power.exp.is_Integer for power in length.atoms(Pow)):
         return length
     squares = [entry**2 for entry in rest if entry != 0]
@@ -449,7 +449,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
 
     a, b    vectors (3), not zero, same axes
-    Check: |a x b| = |a||b| sin theta, and tan theta = |a x b|/(a.b), cross-multiplied: together they leave one
+    Check: |a x b| = |a||b| sin theta, and tan theta = |a x b|/(a.b), cross-multiplied: together they determine one
     angle from 0 to pi.
     Outcomes: parallel, opposite, perpendicular, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
@@ -477,7 +477,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
 
 
 def _angle_itself(angle: Expr) -> Expr:
-    """Of arccos(cos(alpha)) the angle, where it is known to lie between 0 and pi."""
+    """The angle alpha for arccos(cos(alpha)), if it is known to be between 0 and pi."""
     inner = angle.args[0] if isinstance(angle, acos) else None
     if not isinstance(inner, cos):
         return tidied(angle)

@@ -137,7 +137,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ),
         (
             "{shape: tube, inner: R, outer: R, height: h, mass: M}",
-            "5: a tube of the inner radius R and the outer radius R has nothing between them",
+            "5: a tube with the inner radius R and the outer radius R has no volume or area",
         ),
         ("{mass: M}", "5: a body needs `shape` or `position` or `parts`"),
         ("{mass: M, parts: {}}", "5: a body needs `shape` or `position` or `parts`"),
@@ -170,7 +170,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
             "{parts: {rod: {shape: rod, length: h, mass: M, of: end}}}",
             "5: `rod` needs `at`, the position of its point `of`",
         ),
-        ("{parts: {rod: {shape: rod, length: h, mass: M, turned: {w: pi}}}}", '5: a turn is about "x", "y" or "z"'),
+        ("{parts: {rod: {shape: rod, length: h, mass: M, turned: {w: pi}}}}", '5: a rotation is about "x", "y" or "z"'),
         (
             "{mass: M, parts: {rod: {shape: rod, length: h, mass: M}}}",
             "5: the mass of the whole is given and divided among its parts, so `rod` has no `mass`",

@@ -158,8 +158,8 @@ def test_brackets_of_formulas_in_coordinates_and_momenta(tmp_path: Path) -> None
         ("[x**2, p_x]", "[x**2, equations_of_motion]", "`equations_of_motion` denotes 3 answers"),
         ("[x**2, p_x]", "[x**2, p_w]", "`p_w` is not the name of an answer"),
         ("[x**2, p_x]", "[x_dot, p_x]", "but x_dot holds x_dot"),
-        ("{x: -y, y: x}", "{x: -y, m: x}", "`noether` shifts coordinates, but `m` is not one"),
-        ("{x: -y, y: x}", "{x: y, y: x}", "the shift is no symmetry"),
+        ("{x: -y, y: x}", "{x: -y, m: x}", "`noether` shifts coordinates, but `m` is not a coordinate"),
+        ("{x: -y, y: x}", "{x: y, y: x}", "the shift is not a symmetry"),
     ],
 )
 def test_what_is_no_bracket_or_symmetry_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
