@@ -300,8 +300,8 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
             told = Rational(str(found.xreplace(there).evalf(mp.dps)))
             rests.append(mp.mpf(str((abs(2 * half / told - 1) / small**order).evalf(mp.dps))))
     if not (rests[1] <= rests[0] * 0.6 or rests[1] <= NOISE):
-        return Verdict(Grade.REFUTED, f"the integral in numbers differs by {mp.nstr(rests[1], 5)} of the last power")
-    return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, in numbers")
+        return Verdict(Grade.REFUTED, f"the numerical integral differs by {mp.nstr(rests[1], 5)} of the last power")
+    return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, numerically")
 
 
 def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:

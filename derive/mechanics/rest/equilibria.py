@@ -91,7 +91,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
     """
     require_kind("potential_at_rest", "of", of, "energy")
     if explicit(of.value).has(TIME):
-        raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
+        raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
     moving, pushes = list(of.coordinates), _given_pushes(of)
     if not explicit(of.value).free_symbols & {rate(q) for q in moving} and not pushes:
         return of
@@ -158,13 +158,13 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     """
     require_kind("equilibria", "of", of, "energy")
     if explicit(of.value).has(TIME):
-        raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
+        raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
     potential = potential_at_rest(of)
     sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]
     _check_free(of, [q.symbol for q in coordinates] or list(of.coordinates))
     missing = [q.name for q in sought if not explicit(potential.value).has(q)]
     if missing or not sought:
-        message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: rest is anywhere"
+        message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: equilibrium at every value"
         raise Rejected(Complaint("wrong-argument", message))
     forces = {q: _factored(tidied(derivative(explicit(potential.value), q))) for q in sought}
     others = [q for q in potential.coordinates if q not in sought and any(f.has(q) for f in forces.values())]
