@@ -1,7 +1,6 @@
-"""What a verb is given, checked against its signature, so that a slip of a script is told in its own terms.
-
-A verb says in its annotations what it needs: a step (`Quantity`), a coordinate, an expression, a body. A plain matrix
-for a step, a step for an expression, a number with a point: each is one complaint that names verb and argument.
+"""The arguments of a verb, checked against its signature, so that an error is reported in the terms of the script.
+A verb declares in its annotations what it needs: a step (`Quantity`), a coordinate, an expression, a body. A plain
+matrix for a step, a step for an expression, a number with a decimal point: each error names verb and argument.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ _CALLED = {
 }
 
 
-# nouns that have what they are given among their own values, unchanged
+# nouns that keep their arguments unchanged among their values
 KEEPING = {
     "angular_impulse",
     "charge",
@@ -46,7 +45,7 @@ KEEPING = {
 
 
 def checked(verb: Callable[..., Any], called: str = "") -> Callable[..., Any]:
-    """The verb, which first looks at what it is given; `called` is its name in messages."""
+    """Return the verb with a check of its arguments before the call; `called` is its name in messages."""
     signature, called = inspect.signature(verb), called or verb.__name__
     keeps = verb.__name__ in KEEPING
 
@@ -80,13 +79,13 @@ def checked(verb: Callable[..., Any], called: str = "") -> Callable[..., Any]:
 
 
 def _told_of_call(verb: str, arguments: Mapping[str, Any]) -> str:
-    """The verb and what it is about: the steps and the coordinates that it was given."""
+    """Return the verb with the names of the steps and the coordinates among its arguments."""
     about = [f"`{name}`" for name in _names(tuple(arguments.values()))]
     return f"`{verb}`" + (f" of {', '.join(about[:4])}" if about else "")
 
 
 def _names(given: Any) -> Iterator[str]:
-    """The keys of the steps in it, and its letters and coordinates."""
+    """Yield the keys of the steps, and the letters and coordinates, in the arguments."""
     if isinstance(given, tuple | list):
         for each in given:
             yield from _names(each)
@@ -97,15 +96,15 @@ def _names(given: Any) -> Iterator[str]:
 
 
 def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:
-    """What is given is in what is made of it: law and route both read that, and would not see another sign."""
+    """Check that a noun keeps its arguments: law and route both read the noun, and would not find a changed sign."""
     kept = set(_values(made))
     for value in _values(tuple(arguments.values())):
         if value not in kept:
-            raise Unverified(Complaint("unverified", f"`{verb}` was given {value}, but what it made has another value"))
+            raise Unverified(Complaint("unverified", f"`{verb}` was given {value}, but its result has another value"))
 
 
 def _values(given: Any) -> Iterator[Any]:
-    """All expressions in it, numbers among them; names and what is left out are none."""
+    """Yield all expressions in the arguments, including numbers; names and omitted arguments are skipped."""
     if isinstance(given, tuple | list):
         for each in given:
             yield from _values(each)

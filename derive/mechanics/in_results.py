@@ -1,11 +1,11 @@
-"""How `results:` of a file calls a verb: by which name, with which keys, and what each of them holds.
+"""How `results:` of a file calls a verb: its name, its keys, and the kind of value of each key.
 
     @in_results("limit", "the limiting case", of="limit", letter="for: a letter", to="to: a value or `infinity`")
     def limiting_case(of: Quantity, letter: Letter, to: Value = 0, ...) -> Quantity: ...
 
-The decorator names the key of each argument, and what the manual says of it. The signature says the rest: an argument
-without default is a key that the verb needs, and its annotation is what the key holds. The reader of files, the schema
-for editors, the manual and the errors follow from these two.
+The decorator names the key of each argument, and its description in the manual. The signature has the rest: an
+argument without default is a key that the verb needs, and its annotation is the kind of value of the key. The reader
+of files, the schema for editors, the manual and the errors follow from these two.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 class Holds(Enum):
-    """What a key of a verb holds."""
+    """The kind of value of a key of a verb."""
 
     ANSWER = auto()  # the name of one answer
     ANSWERS = auto()  # the names of one or several
@@ -40,9 +40,9 @@ class Holds(Enum):
     ENDS = auto()  # a lower and an upper value
     ORDER = auto()  # a whole number
     WORD = auto()
-    SYMBOL = auto()  # the letter of what is found
-    SYMBOLS = auto()  # or one for each of several
-    FORMULA = auto()  # an expression in letters and answers: it, and the answers by their marks
+    SYMBOL = auto()  # the letter of the result
+    SYMBOLS = auto()  # one letter for each of several results
+    FORMULA = auto()  # an expression in letters and answers, with the answers by their placeholders
     FUNCTIONS = auto()  # two answers or expressions
     AXIS = auto()  # a direction
 
@@ -62,7 +62,7 @@ Ask = Callable[[str], Quantity]  # an argument `ask` is not a key: it asks for a
 
 @dataclass(frozen=True)
 class ResultKey:
-    """One key of a verb: its name, what it holds, what the manual says of it, and whether the verb needs it."""
+    """One key of a verb: its name, its kind of value, its description in the manual, and whether the verb needs it."""
 
     name: str
     holds: Holds
@@ -73,13 +73,12 @@ class ResultKey:
 @dataclass(frozen=True)
 class ResultVerb:
     """A verb of `results:`.
-
-    name       the key that names it, which holds its first argument
-    yields     what it finds, for the manual
-    function   which is called with what the keys hold, and with the name of the result as `key`
-    called     argument -> its key, and after a colon what the manual says of it
-    one_of     keys of which it needs at least one
-    excludes   pairs of keys of which the second has no effect next to the first
+    name       the key that names it, whose value is its first argument
+    yields     its result, for the manual
+    function   the function, called with the values of the keys, and with the name of the result as `key`
+    called     argument -> its key, and after a colon its description in the manual
+    one_of     keys; the verb needs at least one of them
+    excludes   pairs of keys; the second has no effect next to the first
     """
 
     name: str
@@ -91,7 +90,7 @@ class ResultVerb:
 
     @cached_property
     def arguments(self) -> dict[str, ResultKey]:
-        """The key of each argument that has one."""
+        """Return the key of each argument that has one."""
         hints = get_type_hints(self.function, include_extras=True)
         parameters = signature(self.function).parameters
         found = {}
@@ -103,7 +102,7 @@ class ResultVerb:
 
     @property
     def keys(self) -> dict[str, ResultKey]:
-        """The keys in addition to the one that names the verb, those that it needs first."""
+        """Return the keys except the one that names the verb, required keys first."""
         others = [key for key in self.arguments.values() if key.name != self.name]
         return {key.name: key for needed in (True, False) for key in others if key.needed is needed}
 
@@ -113,7 +112,7 @@ class ResultVerb:
 
     @property
     def own(self) -> ResultKey:
-        """The key that names the verb."""
+        """Return the key that names the verb."""
         return next(key for key in self.arguments.values() if key.name == self.name)
 
     def takes(self, argument: str) -> bool:
@@ -132,7 +131,7 @@ def in_results(
     excludes: tuple[tuple[str, str], ...] = (),
     **called: str,
 ) -> Callable[[F], F]:
-    """Say how `results:` calls a function; `called` has the key of each argument, "for: a letter"."""
+    """Register how `results:` calls a function; `called` has the key of each argument, "for: a letter"."""
 
     def declared(function: F) -> F:
         RESULT_VERBS[name] = ResultVerb(name, yields, checked(function, name), called, one_of, excludes)
@@ -142,7 +141,7 @@ def in_results(
 
 
 def _holds(argument: str, hint: Any) -> Holds:
-    """What a key of an argument with this annotation holds."""
+    """Return the kind of value of the key of an argument with this annotation."""
     if get_origin(hint) is Annotated:
         return next(each for each in get_args(hint)[1:] if isinstance(each, Holds))
     if argument in ("symbol", "symbols"):

@@ -1,8 +1,7 @@
-"""Theorems in their general form, which a page tells once, before the first step that uses one.
-
-Each is a formula of names and not a step, since it is not about a body or system of the problem; a step that uses it is
-checked itself. The rules of those steps quote it in their records. `tests/mechanics/test_theorems.py` puts bodies and
-motions into the formulas.
+"""Theorems in their general form, which a page states once, before the first step that uses one.
+Each is a formula of names and not a step, since it is not about a body or system of the problem; each step that uses it
+is checked. The rules of those steps quote it in their records. `tests/mechanics/test_theorems.py` substitutes bodies
+and motions in the formulas.
 """
 
 from __future__ import annotations
@@ -67,7 +66,7 @@ MULTIPLIERS = Theorem(
 )
 MULTIPLIERS_OF_RATES = Theorem(
     "multipliers_of_rates",
-    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),  # as of rolling
+    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),  # such as rolling
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     {"coordinate": q, "multiplier": MULTIPLIER, "constraint": CONSTRAINT},
     between=frozenset({"rates", "both"}),

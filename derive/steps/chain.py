@@ -1,6 +1,5 @@
-"""The lines of a step: what their names stand for, and the evidence that each follows from the one before.
-
-Here too a second route is compared with the result, by the same decision of what is equal.
+"""The lines of a step: the values of the names in them, and the evidence that each line follows from the one before.
+A second route is compared with the result here too, by the same decision of what is equal.
 """
 
 from __future__ import annotations
@@ -19,13 +18,12 @@ from derive.errors import Complaint, Unverified
 from derive.steps.rule import Rule
 from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Level, Quantity, Route
 
-BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
+BY_MOTION = "by the equations of motion"  # ends a claim that holds only for motions that obey these equations
 
 
 def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
-    """A form that looks just like the one before it says nothing; the lower level of the two is kept.
-
-    Nor does one that is only the symbol of the step, unless there is no other.
+    """Leave out a form that looks just like the one before it, and keep the lower level of the two.
+    Leave out a form that is only the symbol of the step, unless there is no other form.
     """
     kept: list[Form] = []
     for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
@@ -38,7 +36,7 @@ def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
 
 
 def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
-    """What the names in a formula stand for: a vector's name brings its components' names along."""
+    """Return the values of the names in a formula; a vector's name adds the names of its components."""
     values: dict[Any, Any] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -49,12 +47,12 @@ def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
             values.update(zip(names, list(quantity.value), strict=True))
         elif isinstance(quantity.symbol, MatrixBase):  # several things established together, such as I_1, I_2, I_3
             values.update(zip(quantity.symbol, quantity.value, strict=True))
-    # A name may not stand for something that holds that very name (a general omega has components omega_x, ...).
+    # A name cannot have a value that contains the same name (a general omega has components omega_x, ...).
     return {name: value for name, value in values.items() if name != value}
 
 
 def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
-    """The left side, where it is an expression and no mere name, equals the first line."""
+    """Check that the left side equals the first line, where it is an expression and not only a name."""
     is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
     if is_name or isinstance(first.expr, Relation):
         return []
@@ -68,7 +66,7 @@ def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any
 def check_last_line(
     key: str, chain: Sequence[Form], result: Any, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
 ) -> None:
-    """What is handed on is what the last line says, whether or not it is written out once more."""
+    """Check that the result equals the last line, whether or not it is written out once more."""
     last = next(
         form for form in reversed(chain) if form.because not in NUMBERS and not isinstance(form.expr, Truncated)
     )
@@ -77,19 +75,19 @@ def check_last_line(
         return
     verdict = equal(bound(shown, motion), bound(result, motion), [explicit(bound(f, bindings)) for f in last.nonzero])
     if not verdict:
-        raise refused(key, "what it hands on is not its last line", shown, result, verdict)
+        raise refused(key, "its result is not its last line", shown, result, verdict)
 
 
 def evidence_of_routes(key: str, rule: Rule, result: Any, routes: Mapping[str, Route]) -> list[Evidence]:
     unknown = sorted(routes.keys() - rule.evidence.keys())
     if unknown:
-        message = f"`{key}`: the rule `{rule.name}` does not say what `{unknown[0]}` is evidence of"
+        message = f"`{key}`: the rule `{rule.name}` does not list the claim `{unknown[0]}` under `evidence`"
         raise Unverified(Complaint("unverified", message, help="add the claim to its `evidence`: a ROUTE or a CHECK"))
     return [route_evidence(key, claim, route(result), rule.evidence[claim]) for claim, route in routes.items()]
 
 
 def names_in(exprs: Sequence[Any], bindings: Mapping[Any, Any]) -> tuple[tuple[Any, Any], ...]:
-    """Those names, with their values, that occur in any of the expressions."""
+    """Return the names that occur in any of the expressions, with their values."""
     parts = {part for expr in exprs if expr is not None for part in preorder_traversal(expr)}
     return tuple((name, value) for name, value in bindings.items() if name in parts)
 
@@ -117,20 +115,21 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Behind what is only expanded a sign of equality needs the whole, and a limit may not hold what goes there."""
+    """Check the sign after a line with an expansion: an equality needs the whole expression there, and a limit must
+    not contain the letter that goes to it."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return
     if form.because == "limit" and form.expr.free_symbols & {each.args[1] for each in cut}:
-        raise Unverified(Complaint("unverified", f"`{key}`: line {i + 1} holds what goes to its limit"))
+        raise Unverified(Complaint("unverified", f"`{key}`: line {i + 1} contains the letter that goes to its limit"))
     whole = before.expr.xreplace({each: each.args[0] for each in cut})
     if form.because not in ONLY_ABOUT and not equal(explicit(whole), explicit(form.expr)):
-        raise Unverified(Complaint("unverified", f"`{key}`: line {i + 1} is only about equal to line {i}"))
+        raise Unverified(Complaint("unverified", f"`{key}`: line {i + 1} is only approximately equal to line {i}"))
 
 
 def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
-    """A series that breaks off has, at its place, the value and the derivatives of the whole up to its order, and no
-    term beyond it."""
+    """Check a truncated series: at its point of expansion it has the value of the whole and the derivatives up to its
+    order, and it has no term beyond that order."""
     polynomial, x, place, order = series.args
     if not vanishes(diff(explicit(polynomial), x, int(order) + 1)):
         raise Unverified(Complaint("unverified", f"`{key}`: the series has terms beyond order {order} in {x}"))
@@ -142,7 +141,7 @@ def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
 
 
 def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Evidence:
-    """A rounded value may differ by half a unit of its last place, and by no more."""
+    """Check that a rounded value differs by at most half a unit of its last place."""
     from derive.algebra.rounding import off_by_more_than_half_a_unit
 
     offender = off_by_more_than_half_a_unit(exact, rounded)
@@ -154,14 +153,13 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """What the result approximates, whether its letter is only about equal to its first line, and the evidence.
-
-    A result that breaks off has a letter of its own. A result with the letter of such a one says the same of it;
-    everything else derived from it is approximate too.
+    """Return what the result approximates, whether its symbol only approximates its first line, and the evidence.
+    A truncated result needs a different symbol from the whole. A result with the symbol of a truncated one approximates
+    the same whole; every other result derived from a truncated one is approximate too.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
-        raise Unverified(Complaint("unverified", f"`{key}`: an approximation needs a letter of its own, not {symbol}"))
+        raise Unverified(Complaint("unverified", f"`{key}`: an approximation needs another letter than {symbol}"))
     if whole is not None:
         return whole, False, []
     found = [quantity for quantity in rests if not quantity.exact]
@@ -175,7 +173,7 @@ def approximation_evidence(
 def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
-    """A route, or a check, gives two values to compare, or has compared them itself, as one in numbers does."""
+    """Return the evidence of a route or a check, which gives two values to compare, or a numerical verdict."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

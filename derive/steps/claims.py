@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, for the rules of any topic: it vanishes, it has a sign."""
+"""Predicates of outcomes for the rules of every topic: whether the result vanishes, whether it has a sign."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from derive.steps.step import is_zero
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
-    """The condition with the numbers put in, decided in 30 digits."""
+    """Decide the condition numerically, with the numbers substituted, in 30 digits."""
     truths = {
         "=": lambda d: d == 0,
         "<": lambda d: d < 0,
@@ -59,7 +59,7 @@ def value_of_role(facts: Judged, role: str) -> Any:
 
 
 def as_told(predicate: Callable[[Judged, str], bool]) -> Naming:
-    """What the sentence of the rule is judged by as a whole."""
+    """Judge a named role by the predicate of the whole sentence."""
     return lambda facts, _: predicate(facts, "")
 
 
@@ -69,10 +69,10 @@ def parallel(one: Mapping[Any, Expr], other: Mapping[Any, Expr]) -> bool:
     return first is not None and all(is_zero(one[k] * other[first] - one[first] * other[k]) for k in other)
 
 
-TRIED, MANY = 12, 60  # numbers of the ranges; points of which some do as is assumed
+TRIED, MANY = 12, 60  # points within the ranges; points among which some fulfil the assumptions
 
 
-MARK_OF = {  # what a comparison is called
+MARK_OF = {  # name of a comparison -> its sign
     "equal_to": "=",
     "different_from": "!=",
     "greater_than": ">",
@@ -92,7 +92,7 @@ def holds_at(condition: Relation, point: Any) -> bool:
 
 
 def points_as_assumed(letters: set[Any], seed: int) -> Iterator[Any]:
-    """Points at which everything holds that the page assumes of these letters."""
+    """Yield points that fulfil every assumption of the page about these letters."""
     conditions = [with_numbers(each) for each in assumed() if letters_of(each.residual) <= letters]
     for point in islice(points(letters, seed), MANY):
         try:
@@ -111,23 +111,24 @@ def lasts(facts: Judged) -> bool:
 
 
 def may_be_negative(letter: Any) -> bool:
-    """Whether nothing is said against it: neither what the letter is nor a range."""
+    """Whether the letter may be negative: it is not declared nonnegative, and it has no range."""
     return not letter.is_nonnegative and range_of(letter) is None
 
 
 def turned(numbers: Mapping[Any, Expr], shift: int) -> dict[Any, Expr]:
-    """The same numbers, some of the letters that may be negative being so: in turn all four ways of two neighbours."""
+    """Return the same numbers, some with a minus sign where the letter may be negative; over the shifts, two
+    neighbours take all four combinations of signs."""
     signs = (-1 if may_be_negative(s) and shift >> i % 2 & 1 else 1 for i, s in enumerate(numbers))
     return fulfilling({s: sign * number for (s, number), sign in zip(numbers.items(), signs, strict=True)})
 
 
 def never_vanishes(v: Any) -> bool:
-    """Whether some component is a product of factors none of which can vanish."""
+    """Whether some component is a product of factors that cannot vanish."""
     return any(bool(tidied(entry).is_nonzero) for entry in v)
 
 
 def same_equation(value: Expr, other: Expr) -> bool:
-    """Whether one vanishes where the other does: they differ by a factor whose sign is known."""
+    """Whether the two vanish at the same places: they differ by a factor whose sign is known."""
     return is_zero(value) if is_zero(other) else sign_known(tidied(value / other)) in (1, -1)
 
 
@@ -136,7 +137,7 @@ def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: fac
 
 
 def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
-    """The sign by the letters and their ranges alone, whatever numbers they have."""
+    """Judge the sign by the letters and their ranges only, whatever numbers they have."""
 
     def is_so(facts: Judged) -> bool:
         value = tidied(of(facts))
@@ -147,7 +148,7 @@ def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts:
 
 
 def _sign_in_ranges(value: Expr) -> int | None:
-    """The sign that the ranges of its letters settle, if numbers of these ranges bear it out."""
+    """Return the sign that follows from the ranges of the letters, if it is confirmed at numbers within them."""
     sign = strict_sign_within(value)
     letters = letters_of(value)
     if sign is None:
@@ -160,7 +161,7 @@ def _sign_in_ranges(value: Expr) -> int | None:
 
 
 def sign_where_it_exists(wanted: int, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
-    """The sign for the numbers that are given, or any in place of the letters that let the state of rest exist."""
+    """Judge the sign at the given numbers, or at any numbers for which the equilibrium exists."""
 
     def is_so(facts: Judged) -> bool:
         return not is_zero(of(facts)) and _signs_where(of(facts), facts.inputs.get("exists")) == {wanted}
@@ -181,7 +182,7 @@ def _signs_where(value: Expr, exists: Relation | None) -> set[int]:
 
 
 def _number(letter: Symbol, n: int, shift: int) -> Expr:
-    """One large where another is small; within the range of the letter where it has one."""
+    """Return the number of a letter: large where that of another is small, and within its range if it has one."""
     if (known := range_of(letter)) is not None:
         return known.at(Rational(1 + (3 * n + 5 * shift) % 7, 8))
     return Rational(prime(2 + (11 * n + 5 * shift + n * shift) % 29), 7 + n)
@@ -195,9 +196,8 @@ def letters_in(value: Any) -> set[Any]:
 
 
 def is_a_root_just_where_told(facts: Judged) -> bool:
-    """In numbers it is real, and positive where it must be, where the condition holds and nowhere else.
-
-    Letters with a number have that: it may have decided what the condition would leave open.
+    """Whether the root is numerically real, and positive where required, exactly where the condition holds.
+    Letters with a given number keep it: the number may decide what the condition leaves open.
     """
     told, given, value = facts.inputs.get("condition"), facts.inputs.get("existing"), explicit(facts.result)
     conditions = [explicit(each.residual) for each in (told, given) if each is not None]
@@ -218,14 +218,15 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
 
 
 def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
-    """A factor below the line that might vanish is told not to; the first of several solutions says so for all."""
+    """Whether the sentence excludes every factor of the denominator that might vanish; the first of several solutions
+    does it for all."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
     unsure = [f for f in Mul.make_args(factor(below)) if sign_known(f) is None and not f.as_base_exp()[0].is_nonzero]
     return not unsure or outcome == "following" or "excluded" in facts.inputs
 
 
 def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
-    """The number that is told is that of the letter, and fulfils the condition as it is said to: both in decimals."""
+    """Whether the stated number is that of the letter, and fulfils the condition as the sentence says; in decimals."""
     condition = facts.inputs.get("condition")
     if condition is None:
         return "seen" not in facts.words
@@ -238,12 +239,13 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
 
 
 def not_negative(facts: Judged, outcome: str) -> bool:
-    """A period, a frequency or an amplitude; where its sign depends on the letters its condition is told."""
+    """Whether a period, a frequency or an amplitude is not negative; where its sign depends on the letters, the page
+    states the condition."""
     return sign_known(facts.result) != -1
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:
-    """A period or a radius is not negative for any numbers: its sign does not depend on the letters."""
+    """Whether a period or a radius is not negative for any numbers; its sign must not depend on the letters."""
     return not_negative(facts, outcome) and all(number >= 0 for number in real_numbers(facts))
 
 

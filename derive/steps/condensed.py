@@ -1,7 +1,6 @@
-"""The lines of a step with what some of their names stand for put in, when a page does not show the steps behind these.
-
-A line that is written so is compared with the line that it was, by the values that `establish` kept with the step:
-it is as much a checked line as any other.
+"""The lines of a step with the values of some names substituted, for a page that does not show their steps.
+Each new line is compared with the old line by the values that `establish` kept with the step, so it is a checked line
+like any other.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from derive.steps.step import NUMBERS, Form, Step
 
 
 def condensed(step: Step, known: Mapping[Any, Any]) -> Step:
-    """The step with these names replaced in its lines, and the evidence that each line still says the same."""
+    """Return the step with these names replaced in its lines, and the evidence that each line equals the old one."""
     if not known:
         return step
     written = [_put_in(form, known) for form in step.chain]
@@ -29,7 +28,8 @@ def condensed(step: Step, known: Mapping[Any, Any]) -> Step:
 
 
 def _put_in(form: Form, known: Mapping[Any, Any]) -> Form:
-    """Numbers stay as they were read, and so does a series, of which the order is counted in its letters."""
+    """Substitute the known values in a line; numbers and truncated series stay, since a series has an order in its
+    letters."""
     if form.because in NUMBERS or isinstance(form.expr, Truncated):
         return form
     return replace(form, expr=bound(form.expr, known))
@@ -40,5 +40,5 @@ def _same(step: Step, i: int, form: Form, was: Form) -> Evidence:
     new, old = (explicit(bound(each.expr, names)) for each in (form, was))
     verdict = equal(old, new)
     if not verdict:
-        raise refused(step.key, f"line {i + 1} is not what it was, with the values put in", old, new, verdict)
+        raise refused(step.key, f"line {i + 1} changes when the values are substituted", old, new, verdict)
     return Evidence(f"line {i + 1} with values put in", Compared.LINES, verdict.grade, verdict.detail)

@@ -1,5 +1,4 @@
-"""The walk back: from the answers of each part to the steps they rest on; and a derivation as JSON, there and back.
-
+"""The steps that the answers of each part depend on; and a derivation written as JSON and read again.
 A part shows, depth first, the steps behind its answers that no earlier part has shown.
 """
 
@@ -24,9 +23,8 @@ W = TypeVar("W", bound=str)
 
 @dataclass(frozen=True)
 class Derivation:
-    """Every step that the answers rest on, in the order of the page, how each part divides them, what is assumed.
-
-    `groups` are names that ask for several steps, with the keys of these.
+    """Every step that the answers depend on, in the order of the page, their division into parts, and the assumptions.
+    `groups` are names that ask for several steps, with the keys of these steps.
     """
 
     steps: tuple[Step, ...]
@@ -34,19 +32,19 @@ class Derivation:
     unshown: tuple[str, ...] = ()
     assumed: tuple[Relation, ...] = ()
     groups: tuple[tuple[str, tuple[str, ...]], ...] = ()
-    in_words: tuple[Relation, ...] = ()  # of what is assumed, that which a step tells
+    in_words: tuple[Relation, ...] = ()  # the assumptions that a step states in words
     closing: tuple[tuple[str, ...], ...] = ()  # the steps of each limiting case in which the answers are checked
 
     def step(self, key: str) -> Step:
         return next(step for step in self.steps if step.key == key)
 
     def answering(self, asked: Iterable[str]) -> tuple[Step, ...]:
-        """The steps that answer what a part asks for, each once: those of these keys, or which stand for them."""
+        """Return the steps that answer what a part asks for, each once: with these keys, or in their place."""
         return tuple(self.step(key) for key in answering(asked, self.steps, dict(self.groups)))
 
     def warnings(self, place: Place) -> tuple[Complaint, ...]:
-        """A word on each step that the script established for nothing; `place` is where the script is named."""
-        said, help_line = "`{}` is established but no answer rests on it", "let a part ask for it, or leave it out"
+        """Return a warning for each step that no answer depends on; `place` is where the script is named."""
+        said, help_line = "`{}` is established but no answer depends on it", "let a part ask for it, or leave it out"
         return tuple(Complaint("not-shown", said.format(k), place, (), help_line, "warning") for k in self.unshown)
 
     @property
@@ -54,7 +52,7 @@ class Derivation:
         return tuple(step.key for step in self.steps)
 
     def grades(self) -> dict[str, int]:
-        """How many claims were decided in each way."""
+        """Return how many claims were decided with each grade."""
         counts = {grade.value: 0 for grade in Grade if grade is not Grade.REFUTED}
         for step in self.steps:
             for evidence in step.evidence:
@@ -63,7 +61,7 @@ class Derivation:
 
 
 def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity]:
-    """What a script returned, flattened; anything but quantities in tuples, lists and mappings is refused.
+    """Return the quantities that a script returned, flattened; reject all but quantities in tuples, lists and mappings.
 
     `place` is where the script returns it.
     """
@@ -85,19 +83,19 @@ def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity
 
 
 def returned_groups(value: Any, place: Place | None = None) -> dict[str, tuple[str, ...]]:
-    """name -> keys of the steps that a script returned under that name, in a mapping; one name may ask for them all."""
+    """Return name -> keys of the steps that a script returned under that name, in a mapping."""
     if not isinstance(value, dict):
         return {}
     return {str(name): tuple(q.key for q in returned_quantities(each, place)) for name, each in value.items()}
 
 
 def _is_whole(value: Any) -> bool:
-    """Whether it is a quantity that `establish` made, and not an empty one."""
+    """Whether the value is a quantity that `establish` made, and not an empty one."""
     return isinstance(value, Quantity) and isinstance(getattr(value, "step", None), Step)
 
 
 def _named(value: Any) -> str:
-    """What a script returned in place of a quantity, in words."""
+    """Describe the value that a script returned in place of a quantity."""
     if value is None or value == ():
         return "nothing"
     if isinstance(value, tuple | list) and value:
@@ -107,7 +105,7 @@ def _named(value: Any) -> str:
 
 
 def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -> dict[str, Quantity]:
-    """Every quantity that these rest on and they themselves, parents first, by key; two of one key are refused."""
+    """Return these quantities and all that they depend on, parents first, by key; reject two with the same key."""
     found: dict[str, Quantity] = {}
 
     def visit(quantity: Quantity) -> None:
@@ -127,15 +125,14 @@ def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -
 
 
 def standing_in(steps: Iterable[Step]) -> dict[str, str]:
-    """For each key that has no step of its own, and for which a step stands, the key of that step."""
+    """Return, for each key without a step that another step replaces, the key of that other step."""
     found = {step.key: step for step in steps}
     return {key: step.key for step in found.values() for key in step.stands_for if key not in found}
 
 
 def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
-    """The keys of the steps that answer what is asked for, with the word that asks for each.
-
-    A name that is the first key of several asks for all of them: of two conditions one alone would say too much.
+    """Return the keys of the steps that answer the request, with the word that asks for each.
+    A name that is the first key of several asks for all of them: one of two conditions would claim too much.
     """
     steps = list(steps)
     own, instead = {step.key for step in steps}, standing_in(steps)
@@ -157,7 +154,7 @@ def derivation_of(
 ) -> Derivation:
     """Divide the steps among the parts; `answers` holds the keys that each part asks for.
 
-    closing   the quantities of each limiting case; what they alone rest on stands in no part
+    closing   the quantities of each limiting case; steps that only they depend on are in no part
     """
     shown: dict[str, Step] = {}
     parts = []
@@ -187,8 +184,8 @@ def to_json(derivation: Derivation) -> str:
 
 
 def from_json(text: str) -> Derivation:
-    """The derivation that `to_json` wrote; ValueError, KeyError or TypeError for anything else."""
+    """Return the derivation that `to_json` wrote; raise ValueError, KeyError or TypeError for any other text."""
     found = from_data(json.loads(text), _CLASSES)
     if not isinstance(found, Derivation):
-        raise ValueError("this is no derivation")
+        raise ValueError("this is not a derivation")
     return found

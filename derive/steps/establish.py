@@ -1,14 +1,13 @@
-"""The one door through which steps are made.
-
-A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes one, and it refuses unless
+"""The one function that makes steps.
+A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes one, and only if
 
     (a) each line of the chain equals the line before it, the first the left side where that is an expression, and the
-        last is the value that is handed on;
+        last is the value that is returned;
     (b) every second route to the result, and every check of it, agrees with it;
-    (c) what the inputs are about fits together, and the word that chooses the sentence is true of the result.
+    (c) the subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
 
 A verb states its law once, as a function. `establish` calls it with the *names* of its inputs, which gives the
-formula, and with their *values*, which gives the substitution; the tidy value of that is the result.
+formula, and with their *values*, which gives the substitution; the simplified value of the latter is the result.
 """
 
 from __future__ import annotations
@@ -52,13 +51,13 @@ from derive.steps.symbols import check_symbol
 class Lines:
     """How the law becomes the lines of a chain, and how the result is written.
 
-    before    forms that come ahead of the law, `between` the law and the result, `after` the result
+    before    forms before the law; `between`: between the law and the result; `after`: after the result
     law       the level at which the law is shown
-    put_in    the level at which the law with values put in is shown; None leaves it out
-    result    whether the result has a line of its own
+    put_in    the level at which the law with substituted values is shown; None leaves it out
+    result    whether the result has a separate line
     arranged  how the result is written; it changes no value
-    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
-    means     what names on the left side stand for, where that is an expression with names that the law does not have
+    motion    rate -> its value by the equations of motion, substituted in the last line, which holds only then
+    means     values of names on the left side, where that is an expression with names that the law does not have
     """
 
     before: Sequence[Form] = ()
@@ -72,7 +71,7 @@ class Lines:
     means: Mapping[Any, Any] = field(default_factory=dict)
 
     def chain(self, symbol: Any, formula: Any, substituted: Any, result: Any) -> list[Form]:
-        """The lines in their order, without repeats."""
+        """Return the lines in their order, without repeats."""
         forms = [*self.before, Form(formula, "law", self.law)]
         forms += [Form(substituted, "put_in", self.put_in)] if self.put_in else []
         forms += [*self.between]
@@ -82,14 +81,14 @@ class Lines:
 
 @dataclass(frozen=True)
 class PhraseData:
-    """What the sentence of a step has besides its chain, and what its outcome is judged by.
+    """The data that the sentence of a step has in addition to its chain, and further data for judging its outcome.
 
     words       name -> key of a term that phrases put into words ("about": "corner")
-    formulas    role -> a formula that only the sentence has, with the same by another way
-    named       role -> a letter or a place that only the sentence names: it has no other way, and a predicate judges it
+    formulas    role -> a formula that only the sentence has, with the same formula by another route
+    named       role -> a letter or a place that only the sentence names: a predicate judges it, not a second route
     points_to   role -> a parent that the sentence names, by its letter or its number
-    outcome_data   what else the outcome is judged by, besides the result and the inputs
-    stands_for  keys that answers may ask for although in this case there is only this step
+    outcome_data   further data for judging the outcome, in addition to the result and the inputs
+    stands_for  keys that answers may ask for, although in this case only this step exists
     """
 
     words: Mapping[str, str] = field(default_factory=dict)
@@ -101,19 +100,18 @@ class PhraseData:
 
     @property
     def told(self) -> dict[str, Any]:
-        """role -> the formula, the letter or the place that only the sentence has."""
+        """Return role -> the formula, the letter or the place that only the sentence has."""
         return {**{role: formula for role, (formula, _) in self.formulas.items()}, **self.named}
 
 
 @dataclass(frozen=True)
 class Scope:
-    """What a result is about, and where its letter comes from.
-
-    about        what it is about, beyond what the inputs are about; or a function of the result that says it
-    differ       in what the inputs may be about different things
-    coordinates  those that the step brings in, with their kinds
+    """The subject of a result, and where its symbol comes from.
+    about         the subject beyond that of the inputs; or a function of the result that returns it
+    differ       the properties in which the subjects of the inputs may differ
+    coordinates  coordinates that the step introduces, with their kinds
     case_of      the general quantity of the same symbol that this is a particular case of
-    approximates the letter of the whole that a limit or a series is only about equal to, or the key of an equation
+    approximates the symbol of the whole that a limit or a series approximates, or the key of an equation
     """
 
     about: Subject | Callable[[Any], Subject] = NOTHING
@@ -123,7 +121,7 @@ class Scope:
     approximates: Any = None
 
     def around(self, together: Subject, result: Any) -> Subject:
-        """What the inputs are about together, and what the result is about beyond that."""
+        """Return the common subject of the inputs, extended by the subject of the result."""
         return together.with_more(self.about(result) if callable(self.about) else self.about)
 
 
@@ -143,7 +141,7 @@ def establish(
     parents: Sequence[Quantity] = (),
     facts: Sequence[Fact] = (),
 ) -> Quantity:
-    """Make a step, or refuse.
+    """Make a step, or raise an error.
 
     rule        the law, its source, its outcomes and its evidence; a rule without evidence is a definition
     symbol      what the page calls the result
@@ -151,8 +149,8 @@ def establish(
     inputs      role -> Quantity, or plain SymPy value
     routes      claim of the rule -> function of the result, giving two values that must be equal
     outcome     a word, or a function of the result that gives one; it selects the phrase
-    parents     what it rests on besides its inputs
-    facts       what the quantity hands on besides its value
+    parents     other quantities that it depends on, in addition to its inputs
+    facts       facts that the quantity carries in addition to its value
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
     key = key or rule.key
@@ -225,7 +223,7 @@ def establish(
 
 
 def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
-    """The quantity with the evidence of the described system, where it belongs to one system and there is a test."""
+    """Add the evidence of the described system, if the quantity belongs to one system and a test exists."""
     found = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
     by_kind = {kind: [fact for fact in found if type(fact) is kind] for kind in {type(fact) for fact in found}}
     if any(len(facts) > 1 for facts in by_kind.values()):
@@ -237,7 +235,7 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
     if not verdict:
         at = ", ".join(f"{name} = {value}" for name, value in verdict.point)
         message = f"`{quantity.key}` contradicts the motion of the described system: {verdict.detail}"
-        help_line = "if it holds for some values of the letters only, state these with `assume:`, or give numbers"
+        help_line = "if it holds for some values of the letters only, state them with `assume:`, or give numbers"
         notes = (f"for example at {at}",) if at else ()
         raise Unverified(Complaint("contradicts-motion", message, help=help_line, notes=notes))
     evidence = Evidence("motion", Compared.WITNESS, verdict.grade, verdict.detail)
@@ -245,53 +243,53 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
 
 
 def _told_centre(words: Mapping[str, str], body: Any) -> Mapping[str, str]:
-    """The centre of mass by its full name, where a body has a point that may be called its centre too."""
+    """Give the centre of mass its full name, if the body has another point that may be called its centre."""
     is_unclear = words.get("about") == "centre" and bool(getattr(body, "other_centre", ""))
     return {**words, "about": "centre_of_mass"} if is_unclear else words
 
 
 def _place_of_verb(frame: FrameType) -> str:
-    """Where a verb hands over its law; empty for a verb from elsewhere."""
+    """Return the place in the code where a verb passes its law; empty for a verb from outside `derive`."""
     module = str(frame.f_globals["__name__"])
     return f"{module.replace('.', '/')}.py:{frame.f_lineno}" if module.partition(".")[0] == "derive" else ""
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
-    """A formula that stands in a sentence is compared as a line is."""
+    """Compare each formula of the sentence with its second route, as lines are compared."""
     for role, (formula, otherwise) in told.items():
         verdict = equal(formula, otherwise)
         if not verdict:
-            raise refused(key, f"what its sentence says of `{role}` is not so", formula, otherwise, verdict)
+            raise refused(key, f"its sentence has a wrong `{role}`", formula, otherwise, verdict)
         if isinstance(formula, Relation) and not explicit(formula).free_symbols:
-            message = f"`{key}`: its sentence gives {formula} as a condition, in which there is no letter"
+            message = f"`{key}`: its sentence gives {formula} as a condition, but it contains no letter"
             raise Unverified(Complaint("unverified", message))
 
 
 def _check_words(key: str, words: Mapping[str, str]) -> None:
-    """A term that a sentence has is not empty: what is not there is left out."""
+    """Check that no term of the sentence is empty: a missing term must be left out."""
     empty = next((term for term, word in words.items() if not word), None)
     if empty is not None:
-        raise Unverified(Complaint("unverified", f"`{key}`: its sentence has nothing to say for `{empty}`"))
+        raise Unverified(Complaint("unverified", f"`{key}`: its sentence has an empty word for `{empty}`"))
 
 
 def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:
-    """A sentence that names several things by their numbers does not name one of them twice."""
+    """Check that a sentence that names several steps by their numbers does not name one of them twice."""
     if len({id(quantity) for quantity in pointed.values()}) < len(pointed):
         message = f"`{key}`: its sentence names one step as {' and as '.join(pointed)}"
         raise Unverified(Complaint("unverified", message))
 
 
 def _called(value: Any) -> Any:
-    """What a phrase calls an input: its symbol, or the key of a relation, which has none."""
+    """Return the name of an input in a phrase: its symbol, or the key of a relation, which has no symbol."""
     if isinstance(value, Quantity):
         return Str(value.key) if value.symbol is None else value.symbol
     return value
 
 
 def _check_outcome(key: str, rule: Rule, outcome: str, facts: Judged, may_be_zero: bool) -> None:
-    """The word that chooses the sentence must be true of the result.
-
-    Whatever the rule: "zero" needs a result that vanishes, and one that vanishes is not `generic` where that was asked.
+    """Check that the word that chooses the sentence is true of the result.
+    For every rule, "zero" needs a result that vanishes, and a result that vanishes is not `generic` where a function
+    chose the outcome.
     """
     vanishing = is_zero(facts.result)
     if outcome == ZERO and not vanishing:
@@ -309,7 +307,7 @@ def _not_confirmed(key: str, doubt: Doubt) -> Unverified:
 
 
 def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) -> None:
-    """What only the sentence names has a predicate, which must be true of it."""
+    """Check that everything that only the sentence names has a predicate, and that the predicate is true of it."""
     role = rule.wrongly_named(facts, named)
     if role is not None:
         message = f"`{key}`: its sentence names {short(named[role])} as `{role}`, which does not fit the result"
@@ -317,15 +315,15 @@ def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) 
 
 
 def _check_handed_on(key: str, facts: Judged, handed_on: Sequence[Fact]) -> None:
-    """What later steps take from this one besides its value agrees with its value."""
+    """Check that the facts that later steps take from this one agree with its value."""
     wrong = wrongly_handed_on(facts, handed_on)
     if wrong is not None:
-        message = f"`{key}`: what later steps take from it, {type(wrong).__name__}, does not fit its result"
+        message = f"`{key}`: later steps take {type(wrong).__name__} from it, which does not fit its result"
         raise Unverified(Complaint("unverified", message))
 
 
 def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
-    """Two different things of one name cannot stand in one formula."""
+    """Reject two different inputs with the same name in one formula."""
     named: dict[Any, Quantity] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -346,14 +344,14 @@ def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
 
 
 def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) -> None:
-    """A letter that already means something in the result cannot also be its name."""
+    """Reject a symbol for the result that already occurs in the result with another meaning."""
     letters = {symbol} if isinstance(symbol, Symbol) else set(means)
     if isinstance(symbol, MatrixBase) and len(set(symbol)) < len(symbol):
-        raise Unverified(Complaint("unverified", f"`{key}`: two of {', '.join(map(str, symbol))} have one name"))
+        raise Unverified(Complaint("unverified", f"`{key}`: two of {', '.join(map(str, symbol))} have the same name"))
     taken = {str(letter) for letter in letters} & {str(other) for other in result.free_symbols}
     if taken:
         name = min(taken)
-        message = f"`{key}` is called {name}, but {name} already stands for something that is given"
+        message = f"`{key}` is called {name}, but {name} already denotes a given quantity"
         raise Rejected(
             Complaint(
                 "letter-clash",
@@ -364,20 +362,20 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
 
 
 def check_can_hold(key: str, result: Any) -> None:
-    """Nothing is less than itself, more, or different."""
+    """Reject a relation that nothing can fulfil: a value is not less than itself, greater, or different."""
     if isinstance(result, Relation) and result.mark in {"<", ">", "!="} and result.left == result.right:
         raise Unverified(Complaint("unverified", f"`{key}` can never hold: {short(result)}"))
 
 
 def _check_has_value(key: str, result: Any) -> None:
-    """A result is neither undefined nor infinite."""
+    """Reject a result that is undefined or infinite."""
     if has_no_value(result):
         message = f"`{key}` has no value: a denominator in it vanishes, or a part of it is infinite"
         raise Rejected(Complaint("no-value", message, help="look for values that make a denominator vanish"))
 
 
 def _unsupported(key: str, rule: Rule) -> Evidence:
-    """A step has a second route, or its rule is a definition."""
+    """Return the evidence of a definition; reject a step that has no second route and is not a definition."""
     if not rule.is_definition:
         raise Unverified(Complaint("no-second-route", f"`{key}` has no second route and is not a definition"))
     return Evidence("definition", Compared.NOTHING, Grade.DEFINITION, rule.name)

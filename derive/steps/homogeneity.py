@@ -1,7 +1,7 @@
 """The dimension of an expression, and the check that every line of a derivation is homogeneous.
 
-Only the declared symbols need a dimension: a step gives its own symbol the dimension of its result, and a variable
-of integration has that of its limits. `None` stands for what fits anything: zero, and numbers with units.
+Only the declared symbols need a dimension: the symbol of a step gets the dimension of its result, and a variable of
+integration that of its limits. `None` fits any dimension: it is that of zero, and of numbers with units.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ Table = dict[Any, Dimension | None]
 
 
 def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension | None:
-    """The dimension of an expression; raises `Inhomogeneous` with the offending term, KeyError for an unknown name."""
+    """Return the dimension of an expression; raise `Inhomogeneous` with the wrong term, KeyError for unknown names."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)
@@ -75,7 +75,7 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
 
 
 def _number_of(exponent: Any) -> Fraction:
-    """An exponent; where it holds letters, for some numbers of these: what is homogeneous then is so for any."""
+    """Return an exponent; if it contains letters, at some numbers: what is homogeneous there always is."""
     some = {s: Rational(101 + crc32(s.name.encode()) % 97, 89) for s in exponent.free_symbols}
     value = ex.explicit(exponent.xreplace(some))
     if not isinstance(value, Rational):
@@ -94,9 +94,9 @@ def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:
 def dimension_table(
     declared: Mapping[Any, Dimension | None], steps: Iterable[Step], script: Place | None = None
 ) -> tuple[Table, list[Complaint]]:
-    """Every name's dimension, step by step, and a complaint for each line that is not homogeneous.
-
-    A letter of the `script` that is neither given nor a coordinate is refused: nothing says what it is, or if it moves.
+    """Return every name's dimension, step by step, and an error for each line that is not homogeneous.
+    A letter of the `script` that is neither given nor a coordinate is rejected: its meaning, and whether it moves, are
+    unknown.
     """
     table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
     complaints: list[Complaint] = []
@@ -107,7 +107,7 @@ def dimension_table(
             dimension = _of_chain(step, local)
         except KeyError as unknown:
             message = f"`{step.key}` contains {unknown.args[0]}, which is neither given nor a coordinate"
-            help_line = 'ask for it in `solve()`, or name what varies with `coordinate("...")`'
+            help_line = 'ask for it in `solve()`, or name a variable with `coordinate("...")`'
             raise Rejected(Complaint("unknown-letter", message, script, help=help_line)) from None
         except Inhomogeneous as fault:
             complaints.append(_complaint(step, str(fault)))
@@ -121,7 +121,7 @@ def dimension_table(
 
 
 def _moving_names(step: Step) -> Table:
-    """The coordinates that a step brings in, and their rates; and forces of constraint, which may have no kind."""
+    """Return the coordinates that a step introduces, and their rates; constraint forces may have no kind."""
     time = dimension_of_kind("time")
     return {
         (ex.rate(q, n) if n else q): dimension_of_kind(kind) / time**n if kind else None
@@ -131,7 +131,7 @@ def _moving_names(step: Step) -> Table:
 
 
 def _opened_names(step: Step, table: Table) -> Table:
-    """Names that a definition brings in, such as the components of any angular velocity, have its kind's dimension."""
+    """Give the names that a definition introduces, such as the components of any angular velocity, its dimension."""
     if step.kind is None or all(e.grade is not Grade.DEFINITION for e in step.evidence):
         return {}
     free: set[Basic] = set().union(*(_free(form.expr) for form in step.chain))
@@ -144,11 +144,11 @@ def _free(expr: Any) -> set[Basic]:
 
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:
-    """The common dimension of all lines of a step."""
+    """Return the common dimension of all lines of a step."""
     first: tuple[Any, Dimension] | None = None
     for form in step.chain:
         dimension = dimension_of(form.expr, table)
-        if dimension is None or isinstance(form.expr, ex.Relation):  # a relation may be divided by what it pleases
+        if dimension is None or isinstance(form.expr, ex.Relation):  # a relation may be divided by any factor
             continue
         if first is None:
             first = (form.expr, dimension)

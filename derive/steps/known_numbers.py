@@ -1,8 +1,7 @@
-"""The numbers behind the letters of a problem, for the few verbs that must know what the case is.
-
-A derivation stays symbolic; but whether a top spins fast enough is a question about numbers. While a script runs, the
-ranges of its letters and the numbers that its problem gives are known here, and `sign_known` takes them where the
-letters alone do not decide.
+"""The numbers of the letters of a problem, for the few verbs that need them to decide between cases.
+A derivation stays symbolic, but whether a top spins fast enough is a question about numbers. While a script runs, the
+ranges of its letters and the numbers that its problem gives are known here, and `sign_known` uses them where the
+letters do not decide.
 """
 
 from __future__ import annotations
@@ -23,12 +22,12 @@ from derive.steps.record import assume, current_run, named_coordinates, question
 from derive.steps.rule import Doubt
 
 DIGITS, SHORT = 30, 20
-DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is not known
+DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is unknown
 
 
 @question
 def with_numbers(expr: Expr) -> Expr:
-    """The expression with the numbers behind its letters, as far as there are any."""
+    """Substitute the given numbers for the letters of the expression, as far as there are any."""
     run = current_run.get()
     return explicit(bound(explicit(expr), run.numbers if run else {}))
 
@@ -39,7 +38,7 @@ def have_numbers(*values: Any) -> bool:
 
 
 def sign_known(expr: Expr) -> int | None:
-    """The sign of an expression, by its letters, their ranges or their numbers: 1, -1, 0; None if none decides."""
+    """Return the sign of an expression, by its letters, their ranges or their numbers: 1, -1, 0; None if unknown."""
     factors = [_sign_of_factor(factor) for factor in Mul.make_args(tidied(expr))]
     if 0 in factors:
         return 0
@@ -47,7 +46,7 @@ def sign_known(expr: Expr) -> int | None:
 
 
 def undecided(value: Any) -> Doubt:
-    """Which order of two things that stand in a value is not known, l < r_0; else that numbers speak against it."""
+    """Return the reason: the unknown order of two terms in the value, l < r_0; else that numbers contradict it."""
     parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
     exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
     sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]
@@ -60,7 +59,7 @@ def undecided(value: Any) -> Doubt:
             sides = Add(*away), Add(*(term for term in each.args if -term not in away))
             relation = " < ".join(sorted(map(str, sides), key=lambda side: (len(side), side)))
             return Doubt(f"whether {relation} is not known", f"{DECIDES} {relation}")
-    return Doubt("with numbers for the letters the result is not always what the sentence says of it")
+    return Doubt("numerically the result does not always agree with the sentence")
 
 
 def _sign_of_factor(factor: Expr) -> int | None:
@@ -85,14 +84,14 @@ def _sign_of_factor(factor: Expr) -> int | None:
 
 
 def may_vanish(*values: Expr) -> Relation | None:
-    """What must not vanish where one divides by these values: those of their factors that nothing decides."""
+    """Return the condition for dividing by these values: their factors of unknown sign must not vanish."""
     factors = [f.as_base_exp()[0] for value in values for f in Mul.make_args(factored(tidied(value)))]
     unsure = [f for f in dict.fromkeys(factors) if sign_known(f) is None and not f.is_nonzero]
     return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
 
 
 def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
-    """What a sentence tells of the denominators of results: which factors of them must not vanish, if any may."""
+    """Return the condition that a sentence states on the denominators: the factors that must not vanish, if any may."""
     below: Expr = Integer(1)
     for value in values:
         below = lcm(below, tidied(value).as_numer_denom()[1])
@@ -101,7 +100,7 @@ def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relati
 
 
 def taken_positive(value: Expr) -> int | None:
-    """The sign of a value; where the letters leave it open the value is taken to be positive, which the page states."""
+    """Return the sign of a value; if it is unknown, take the value to be positive, and let the page state this."""
     sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
     if sign is not None:
         return sign
@@ -115,7 +114,7 @@ def taken_positive(value: Expr) -> int | None:
 
 
 def _factors(value: Expr) -> list[Expr]:
-    """Without numbers and even powers; the sign is that of the product."""
+    """Return the factors without numbers and even powers; their product keeps the sign of the value."""
     try:
         number, found = factor_list(value)
     except PolynomialError:

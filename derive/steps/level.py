@@ -1,4 +1,4 @@
-"""How much algebra a reader wants, and how a step appears; without SymPy, which a reader of these may not need."""
+"""How much algebra a page shows, and how a step appears; this module works without SymPy."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ class Manner(StrEnum):
     """How a step appears on a page."""
 
     OWN = "own"  # with its sentence and its lines
-    TOLD = "told"  # in a clause behind the first lines that have its letter: "where rho = M/V"
+    TOLD = "told"  # in a clause after the first lines that have its letter: "where rho = M/V"
     TAKEN_IN = "taken_in"  # by the step that uses it, which has its value in place of its letter
     LEFT_OUT = "left_out"
     POINTED_OUT = "pointed_out"  # with its sentence, which points to lines that have its result
 
 
 class Level(StrEnum):
-    """How much algebra a reader wants; a form is shown at its own level and at every higher one."""
+    """How much algebra a page shows; a form is shown at its level and at every higher one."""
 
     BRIEF = "brief"
     STANDARD = "standard"
@@ -36,10 +36,10 @@ class Display:
 
     brief, standard   the manner at these levels
     told_along        whether the sentence of the step before may state the result too
-    first_only        of several such steps the first alone is shown
-    result_again      up to this level, a step that follows one of the same form shows its result alone
-    each_worked_out   the step is not shortened because another one of the same form came before
-    unless_long       a long one is left out
+    first_only        whether only the first of several such steps is shown
+    result_again      up to this level, a step after one of the same form shows only its result
+    each_worked_out   whether the step is written out even if another one of the same form came before
+    unless_long	   whether a long step is left out
     """
 
     brief: Manner = Manner.OWN
@@ -54,17 +54,17 @@ class Display:
         return self.brief if level is Level.BRIEF else self.standard
 
     def shows_result_alone(self, level: Level) -> bool:
-        """Whether a step that repeats the form of the one before it shows its result alone at this level."""
+        """Whether a step that repeats the form of the one before it shows only its result at this level."""
         return self.result_again is not None and self.result_again.shows(level)
 
 
 @dataclass(frozen=True)
 class Shown:
-    """How a page shows the steps of a rule; without more each is on its own, with its sentence and its lines.
+    """How a page shows the steps of a rule; by default each step appears with its sentence and its lines.
 
-    outcomes      outcome -> the manner at `brief` and at `standard`, where it is not that of the rule
+    outcomes      outcome -> the manner at `brief` and at `standard`, where these differ from those of the rule
     told_along    outcomes in which the sentence of the step before may state the result too
-    taken_in_if   a predicate of the step; where it is true the step that uses it takes it in
+    taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
     The others are those of `Display`.
     """
 
@@ -79,7 +79,7 @@ class Shown:
     taken_in_if: Callable[[Any], bool] | None = None
 
     def of(self, step: Any) -> Display:
-        """How this step is shown."""
+        """Return how this step is shown."""
         brief, standard = self.outcomes.get(step.outcome, (self.brief, self.standard))
         if self.taken_in_if is not None and self.taken_in_if(step):
             brief = standard = Manner.TAKEN_IN

@@ -1,8 +1,8 @@
-"""Calls of verbs that were made before: what they gave is taken from there, with all that they left on the record.
-
-A verb gives the same again where it is given the same, where as much is known of the letters, and where all that it
-asks of the record has the same answer. What it is given is told by digests of the content, so a call is recalled
-although its arguments were derived anew. What has no description, such as a function of a script, is derived.
+"""Earlier calls of verbs: their results are reused, with everything that they left on the record.
+A verb returns the same result if its arguments are the same, if as much is known of the letters, and if all that it
+asks of the record has the same answer. Arguments are identified by digests of their content, so a
+call is recalled even if
+its arguments were derived again. A call whose arguments have no description, such as a function of a script, is made.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from derive.steps.record import QUESTIONS, Call, Run, add, assume, finished_step
 
 
 class Store(Protocol):
-    """Where the texts of calls are kept."""
+    """The store that keeps the texts of calls."""
 
     def recalled(self, key: str) -> str | None: ...
 
@@ -30,7 +30,7 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """A call by the digest of all that decides it, the objects in that, and the steps that these had found."""
+    """A call: the digest of all that decides it, the objects in that, and the steps that these objects had found."""
 
     key: str
     objects: list[str]
@@ -39,7 +39,7 @@ class _Asked:
 
 @dataclass(frozen=True)
 class _State:
-    """How much stood on the record before a call."""
+    """How much was on the record before a call."""
 
     established: int
     assumed: int
@@ -53,32 +53,32 @@ class _State:
 
 @dataclass
 class Memory:
-    """The calls of one run: the store in which they are kept, and the objects by which they are told."""
+    """The calls of one run: the store that keeps them, and the objects that identify them."""
 
     store: Store
     objects: Objects = field(default_factory=Objects)
     made: set[str] = field(default_factory=set)
 
     def of_another_run(self) -> Memory:
-        """With the same calls, and objects of its own."""
+        """Return a memory with the same calls, and its own objects."""
         return Memory(self.store)
 
     def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
-        """What a call gives, recalled or made now; a call within another is a part of that one."""
+        """Return the result of a call, recalled or made now; a call within another is a part of that one."""
         if run.call is not None:
             return make()
         run.call = Call(len(run.established))
         try:
             return self._result(verb, given, run, make)
         except OutOfTime as late:
-            late.finished = finished_steps(run)  # without what the call itself has established, which is not kept
+            late.finished = finished_steps(run)  # without the steps of this call, which are not kept
             raise
         finally:
             run.call = None
 
     def _result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
         asked = self._asked(verb, given, run)
-        if asked is None or asked.key in self.made:  # what is made twice is two things
+        if asked is None or asked.key in self.made:  # two equal calls make two objects
             return make()
         self.made.add(asked.key)
         left = self._recalled(asked.key)
@@ -86,7 +86,7 @@ class Memory:
             return self._put_on_record(left, run)
         before = _State.of(run)
         result = make()
-        if len(run.established) > before.established:  # a noun is made faster than it is read
+        if len(run.established) > before.established:  # a call that makes no step is faster to repeat than to read
             with suppress(NoDescription, RecursionError):
                 self.store.keep(asked.key, self._left(result, asked, before, run))
         return result
@@ -102,7 +102,7 @@ class Memory:
         return _Asked(sha256(text.encode()).hexdigest(), objects, found)
 
     def _left(self, result: Any, asked: _Asked, before: _State, run: Run) -> str:
-        """All that a call left, as text, with the objects that it made."""
+        """Return everything that a call left, as text, with the objects that it made."""
         assert run.call is not None
         steps = tuple(zip(run.established, run.cases, strict=True))[before.established :]
         conditions = tuple((each, each in run.in_words[before.in_words :]) for each in run.assumed[before.assumed :])
@@ -117,7 +117,7 @@ class Memory:
         return "\n".join([*lines, json.dumps([data, data_found])])
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
-        """What a call left, read; nothing if it was not made, or if the record now says otherwise what it asked."""
+        """Read what a call left; None if it was not made, or if the record now answers its questions differently."""
         kept = self.store.recalled(key)
         if kept is None:
             return None

@@ -1,4 +1,4 @@
-"""The last step of an answer: numbers put in, and the value rounded once, with its unit."""
+"""The last step of an answer: numbers are substituted, and the value is rounded once, with its unit."""
 
 from __future__ import annotations
 
@@ -56,23 +56,23 @@ from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Form, Level, Quantity
 
-DIGITS = 20  # in which an exact value and the one taken anew agree
+DIGITS = 20  # to which an exact value and the one evaluated again agree
 HALF = Rational(1, 2)
-FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}  # the marks under which a condition is so
+FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}  # marks of fulfilled conditions
 SHORT = 9  # numbers; a formula with more of them is not written out again
 
 
 @dataclass(frozen=True)
 class Extreme(Fact):
-    """The value of a function where its slope vanishes: its second derivative there, which tells what kind it is."""
+    """The value of a function where its slope vanishes; its second derivative there decides: minimum or maximum."""
 
-    missing = "is not the value of a function where that is level"
+    missing = "is not the value of a function where its slope vanishes"
     curvature: Expr
 
 
 @dataclass(frozen=True)
 class WholeSwing(Fact):
-    """The integral that a series for a period breaks off: a factor, and the time of a swing."""
+    """The integral that a series for a period approximates: a factor, and the time of a swing."""
 
     missing = "is not a series for a period"
     factor: Expr
@@ -105,18 +105,19 @@ def value_of(
     more: Sequence[tuple[str, Expr]] = (),
     case: str = "",
 ) -> Quantity | None:
-    """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left, or if the
-    numbers make it imaginary, as the frequency of what does not oscillate.
+    """The value of an answer in a unit, rounded to significant figures; None if letters remain, or if the value is
+    imaginary, such as a frequency without an oscillation.
 
-    answer    any quantity; of a relation that has one letter on its left side, the right side
+    answer    any quantity; if it is a relation with one letter on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
-    unit      as text, and `factor`, what one of it is in the SI
-    more      other units in which it is given too, each with its factor
-    case      the name of the case of which these are the numbers, if there are several
-    Check: the expression, evaluated anew from the numbers of its letters, in digits enough for what cancels.
-    Of a condition on a letter that has a number too it is told whether that fulfils it. The number of a period that
-    has a series is that of the integral; what is derived from the series has a number only where that is good enough.
-    Outcomes: measured (numbers were put in), exact; minimum or maximum, of a function's value where it is level.
+    unit      as text; `factor` is one such unit in the SI
+    more      other units for the same value, each with its factor
+    case      the name of the case with these numbers, if there are several
+    Check: the expression, evaluated again from the numbers of its letters, with enough digits against cancellation.
+    For a condition on a letter with a given number, the step states whether this number fulfils it. The number of a
+    period with a series is that of the integral; a result derived from the series has a number only if the series is
+    accurate enough.
+    Outcomes: measured (numbers were substituted), exact; minimum or maximum, for a function's value at zero slope.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
     value, within = _valued(answer.value)
@@ -187,9 +188,9 @@ def _period_of(
     more: Sequence[tuple[str, Expr]],
     case: str,
 ) -> Quantity:
-    """The number of a period, by the integral itself: the series is good for small amplitudes only.
+    """The number of a period by the integral, since the series is accurate for small amplitudes only.
 
-    Check: the integral by Gauss and Legendre's rule, which shares nothing with the mean of equidistant values.
+    Check: the integral by Gauss-Legendre quadrature, which shares nothing with the mean of equidistant values.
     """
     whole = series.needed(WholeSwing)
     time = _with_numbers(series, amounts)
@@ -230,13 +231,13 @@ def _with_numbers(series: Quantity, amounts: Mapping[Symbol, Amount]) -> SwingTi
         time, Tuple(*letters), Tuple(*(in_radians(amounts[letter]) for letter in letters))
     )
     if not explicit(numbers).is_Rational:
-        message = f"`{series.key}`: with these numbers the motion does not swing to and fro between two turning points"
+        message = f"`{series.key}`: with these numbers the motion does not oscillate between two turning points"
         raise Rejected(Complaint("no-oscillation", message, help="give a smaller amplitude"))
     return numbers
 
 
 def _quarter_by_gauss(time: SwingTime, amounts: Mapping[Symbol, Amount]) -> Expr:
-    """The integral from 0 to A, with q = A (1 - s^2)."""
+    """Return the integral from 0 to A, with q = A (1 - s^2)."""
     from mpmath import mp
 
     f, q, amplitude, _ = time.args
@@ -248,7 +249,7 @@ def _quarter_by_gauss(time: SwingTime, amounts: Mapping[Symbol, Amount]) -> Expr
 
 
 def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: int) -> None:
-    """What is derived from a series has so many figures only where the series is as good as that."""
+    """Reject so many figures for a result derived from a series that is less accurate."""
     waiting, seen = list(answer.parents if answer.step.about else ()), set[int]()
     while waiting:
         quantity = waiting.pop()
@@ -263,7 +264,7 @@ def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: i
         there = value_at(explicit(quantity.value), {s: explicit(amounts[s]) for s in _free(quantity.value)})
         if 20 * abs(there / exact - 1) > Rational(1, 10**figures):
             called = f"`{answer.key}` is derived from the series of `{quantity.key}`"
-            message = f"{called}, which is not good for {figures} figures"
+            message = f"{called}, which is not accurate to {figures} figures"
             help_line = f"ask for fewer `figures`, or give `{quantity.key}` a higher `order`"
             raise Rejected(Complaint("too-few-figures", message, help=help_line))
 
@@ -271,7 +272,7 @@ def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: i
 def _given_beside(
     condition: Quantity, amounts: Mapping[Symbol, Amount], unit: tuple[str, Expr], figures: int
 ) -> PhraseData:
-    """The number that the letter of a condition has, and whether that fulfils it: S > 23.55 rad/s, and S = 900 rpm."""
+    """Return the number of the letter of a condition, and whether it fulfils it: S > 23.55 rad/s, and S = 900 rpm."""
     relation = condition.value
     if not isinstance(relation, Relation) or relation.mark not in {*FULFILLED} - {"="} or relation.left not in amounts:
         return PhraseData()
@@ -292,7 +293,7 @@ def _given_beside(
 
 
 def _bent(answer: Quantity, amounts: Mapping[Symbol, Amount]) -> dict[str, Expr]:
-    """Of an extreme value the second derivative, with the numbers."""
+    """Return the second derivative of an extreme value, with the numbers."""
     known = answer.fact(Extreme)
     return {} if known is None else {"curvature": explicit(bound(known.curvature, dict(amounts)))}
 
@@ -304,7 +305,7 @@ def _outcome(curvature: Expr | None, has_letters: bool) -> str:
 
 
 def is_plain(answer: Quantity) -> bool:
-    """Whether its number says more as it stands than in decimals: pi/2, the root of an integer, 2 pi before letters."""
+    """Whether its number is clearer unchanged than in decimals: pi/2, the root of an integer, 2 pi before letters."""
     value, _ = _valued(answer.value)
     if isinstance(value, MatrixBase):
         return all(_is_plain_number(entry) for entry in value)
@@ -321,7 +322,7 @@ def _as_it_is(value: Any) -> Any:
 
 
 def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
-    """What of a result takes a number, and how the number stands in the result: R > a/2 has one on its right."""
+    """Return the part of a result that gets a number, and the function that puts it back: the right side of R > a/2."""
     if not isinstance(value, Relation):
         return value, _as_it_is
     if isinstance(value.left, Symbol) and not value.right.has(value.left):
@@ -330,7 +331,7 @@ def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
 
 
 def _under_one_root(value: Expr) -> Expr:
-    """sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), into which numbers go once; 2^(1/4) as sqrt(2) under the root."""
+    """Write sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), to substitute numbers once; 2^(1/4) as sqrt(2) under the root."""
     roots = [f.as_base_exp() for f in Mul.make_args(value)]
     above = [base ** (2 * power) for base, power in roots if power == HALF or _is_fourth_root(base, power)]
     below = [base for base, power in roots if power == -HALF]
@@ -355,9 +356,9 @@ COMPARISON = Rule(
 
 
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
-    """Whether a condition is so for the numbers, 20 cm > 2.5 cm; nothing if letters are left.
+    """Whether the numbers fulfil a condition, 20 cm > 2.5 cm; None if letters remain.
 
-    condition   an inequality or an equation between what is given, as `where` and `isotropic_where` yield
+    condition   an inequality or an equation between given quantities, as `where` and `isotropic_where` yield
     amounts     symbol -> its number with a unit
     Check: both sides, and the sign of their difference, as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.
@@ -396,13 +397,13 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
 
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
-    """sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2: the irrational number in front of the letters, rounded.
+    """Rounded irrational number in front of the letters: sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2.
 
-    answer       a scalar with letters; nothing is yielded where it holds a sum, beside which no number stands apart,
-                 nor where the number is rational
+    answer       a scalar with letters; the result is None if it contains a sum, which has no separate number,
+                 or if the number is rational
     figures      significant figures
     of_vectors   whether it may be a vector of numbers times letters, whose numbers may be rational
-    Check: what is left of the result without its letters, as for `value_of`.
+    Check: the result divided by its letters, as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
     """
@@ -434,12 +435,12 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
 
 
 def in_radians(amount: Amount) -> Amount:
-    """pi/36 rad of 5 degrees; anything else as it is."""
+    """Return pi/36 rad for 5 degrees; any other amount unchanged."""
     return Amount(explicit(amount), "rad", Integer(1)) if amount.args[1].name in IN_DEGREES else amount
 
 
 def _only_turning(value: Any) -> set[Symbol]:
-    """Letters that stand in sines, cosines and tangents alone: there an angle may be in degrees."""
+    """Return the letters that occur in sines, cosines and tangents only: there an angle may be in degrees."""
     angles: dict[Expr, Expr] = {f: Dummy() for entry in _entries(value) for f in entry.atoms(sin, cos, tan)}
     left = {letter for entry in _entries(value) for letter in entry.xreplace(angles).free_symbols}
     return _free(value) - left
@@ -465,15 +466,15 @@ def _with_unit(exact: Any, unit: str, factor: Expr, figures: int) -> Any:
 
 
 def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount], exact: Any) -> tuple[Expr, Expr]:
-    """The largest relative error of the exact entries, their values being taken from the letters' numbers anew."""
+    """Return the largest relative error of the exact entries, compared with values from the letters' numbers."""
     numbers = {letter: explicit(amounts[letter]) for letter in letters}
     errors = [_error(value_at(v, numbers), e) for v, e in zip(_entries(value), _entries(exact), strict=True)]
     return max(errors), Integer(0)
 
 
 def _error(number: Expr, exact: Expr) -> Expr:
-    """The relative error of an exact number, 0 if it is in the last digits."""
+    """Return the relative error of an exact number, 0 if it is in the last digits."""
     if number == 0:
         return Integer(0) if vanishes(exact) else Integer(1)
-    error = abs(exact.evalf(5 * DIGITS) / number - 1)  # SymPy keeps no digits in reserve for what stands in a function
+    error = abs(exact.evalf(5 * DIGITS) / number - 1)  # SymPy keeps no spare digits for the arguments of functions
     return Integer(0) if error < Rational(1, 10 ** (DIGITS - 5)) else Rational(error.evalf(6))

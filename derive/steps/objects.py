@@ -1,8 +1,7 @@
-"""Objects of derive as data, there and back: quantities, bodies, systems, and all that they hold.
-
-An object goes by a name, the digest of its class and of its content, in which other objects stand by their names. So
-what two objects share is one object again when they are read back, and two quantities that are alike stay two. What
-an object computes when it is asked for it first is no part of it.
+"""Objects of derive written as data and read again: quantities, bodies, systems, and all that they contain.
+An object has a name, the digest of its class and of its content, in which other objects appear by their names. So an
+object that two others share is one object again when they are read, and two equal quantities stay two. Cached
+properties, which an object computes on first use, are not part of its content.
 """
 
 from __future__ import annotations
@@ -25,29 +24,29 @@ from derive.steps.step import Form, Quantity
 
 PLAIN: tuple[Any, ...] = (str, bool, int, float, type(None))
 GATHERED: Mapping[str, Any] = {"list": list, "set": set, "frozenset": frozenset}
-VALUES = (Form, Evidence)  # so many and so small that a name for each would not pay
+VALUES = (Form, Evidence)  # too many and too small for a name each
 
 
 class NoDescription(Exception):
-    """There is no description of this, or not of all that it is made of; or nothing here is described so."""
+    """An object, or a part of it, has no description; or a description fits no object."""
 
 
 class Objects:
-    """The objects that a run has met, and the letters that equal no other letter, by their names."""
+    """The objects of a run, and the letters that equal no other letter, by their names."""
 
     def __init__(self) -> None:
         self._objects: dict[str, Any] = {}
         self._names: dict[int, str] = {}
         self._texts: dict[str, str] = {}
-        self._parts: dict[str, list[str]] = {}  # of what an object is made
-        self._told: list[str] = []  # what stands in the description that is being made
+        self._parts: dict[str, list[str]] = {}  # names of the objects in an object
+        self._told: list[str] = []  # names in the description that is being made
         self._expressions: dict[Any, tuple[Any, list[str]]] = {}
         self._letters: dict[Dummy, str] = {}
-        self._seekers: set[str] = set()  # objects that may find steps when they are asked first
-        self._met: list[Any] = []  # so that none of them leaves its identity to another
+        self._seekers: set[str] = set()  # objects with cached properties, which may contain steps
+        self._met: list[Any] = []  # keeps these objects alive, so that no `id` is used twice
 
     def described(self, value: Any) -> tuple[Any, list[str]]:
-        """Data of JSON in which objects stand by their names, and these names; raises `NoDescription`."""
+        """Return JSON data in which objects appear by their names, and these names; raise `NoDescription`."""
         before, self._told = self._told, []
         try:
             return self._data(value), self._told
@@ -96,7 +95,7 @@ class Objects:
         return data
 
     def _letter(self, letter: Dummy, told: list[str]) -> str:
-        """The name of a letter that equals no other, although that be called the same."""
+        """Return the name of a letter that equals no other letter, not even one with the same name."""
         known = self._letters.get(letter)
         if known is None:
             alike = sum(each.name == letter.name for each in self._letters)
@@ -138,7 +137,7 @@ class Objects:
             self._seekers.add(name)
 
     def below(self, names: Iterable[str]) -> dict[str, None]:
-        """These objects and letters, and all that they are made of, parts first."""
+        """Return these objects and letters with all their parts, parts first."""
         found: dict[str, None] = {}
         waiting = [(name, False) for name in reversed(list(names))]
         while waiting:
@@ -151,14 +150,14 @@ class Objects:
         return found
 
     def texts(self, names: Iterable[str]) -> list[tuple[str, str]]:
-        """What `enter` makes these objects from; a letter is not made again, for it would be another."""
+        """Return the texts from which `enter` makes these objects; a letter made again would be another letter."""
         for name in names:
             if name not in self._texts:
-                raise NoDescription(f"of {name}, which nobody else has")
+                raise NoDescription(f"of {name}, which exists only once")
         return [(name, self._texts[name]) for name in names]
 
     def enter(self, name: str, text: str) -> None:
-        """The object of that name and text is among them, made now if it was not."""
+        """Add the object with this name and text, unless it is known."""
         if name in self._objects:
             return
         place, content = json.loads(text)
@@ -168,7 +167,7 @@ class Objects:
         self._enter(name, value, text, parts)
 
     def read(self, data: Any, told: list[str] | None = None) -> Any:
-        """What was described, with the names of objects and letters in it; raises `NoDescription`."""
+        """Return the described value, and add the names of objects and letters in it; raise `NoDescription`."""
         told = [] if told is None else told
         if isinstance(data, list):
             return tuple(self.read(each, told) for each in data)
@@ -193,7 +192,7 @@ class Objects:
         return self._objects[name]
 
     def found_once(self, names: Iterable[str]) -> list[tuple[str, str, Any]]:
-        """The steps that these objects have found when they were asked first: of which object, as what, and which."""
+        """Return the steps in cached properties of these objects: the name of the object, the property, its value."""
         objects = ((name, self._objects[name]) for name in names if name in self._seekers)
         return [
             (name, key, vars(each)[key])
@@ -203,7 +202,7 @@ class Objects:
         ]
 
     def has_found(self, name: str, key: str, value: Any) -> None:
-        """The object need not find this again."""
+        """Enter the value of a cached property of an object."""
         vars(self._objects[name]).setdefault(key, value)
 
 
@@ -216,20 +215,20 @@ def _class_of(value: Any) -> Any:
 
 
 def _is_its_content(kind: Any) -> bool:
-    """Whether objects of the class are equal where their content is."""
+    """Whether objects of the class are equal if their content is equal."""
     return kind.__eq__ is not object.__eq__
 
 
 @cache
 def _lazy(kind: Hashable) -> dict[str, None]:
-    """What an object of the class computes when it is asked for it first."""
+    """Return the cached properties of the class."""
     classes = kind.__mro__ if isinstance(kind, type) else ()
     return {n: None for each in classes for n, v in vars(each).items() if isinstance(v, cached_property)}
 
 
 @cache
 def _place(code: Any) -> str:
-    """Where a class or a function of derive stands."""
+    """Return the module and name of a class or a function of derive."""
     place = f"{code.__module__}:{getattr(code, '__qualname__', '')}"
     if _at(place) is not code:
         raise NoDescription(f"of {place}")
@@ -238,7 +237,7 @@ def _place(code: Any) -> str:
 
 @cache
 def _at(place: str) -> Any:
-    """The class or function of derive that stands there."""
+    """Return the class or function of derive with this module and name."""
     module, _, name = place.partition(":")
     if module.partition(".")[0] != "derive":
         raise NoDescription(f"of {place}")

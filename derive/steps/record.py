@@ -1,6 +1,5 @@
-"""What one run of a script has established, which coordinates it has named, and what therefore moves.
-
-One letter is one quantity in a run, and what contains a coordinate, a rate or the time is known to change.
+"""The quantities that one run of a script has established, the coordinates that it has named, and what therefore moves.
+One letter is one quantity in a run, and an expression with a coordinate, a rate or the time is known to change.
 """
 
 from __future__ import annotations
@@ -21,17 +20,16 @@ from derive.steps.step import Quantity, same_value, value_behind
 
 
 class Recalling(Protocol):
-    """What knows the calls of verbs that were made before."""
+    """A memory of earlier calls of verbs."""
 
     def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any: ...
 
 
 @dataclass
 class Call:
-    """A call of a verb while it is made.
-
+    """A call of a verb while it runs.
     before   how many quantities were established before it
-    asked    what it has asked of the record, about what, and the answer
+    asked    its questions to the record: the question, its arguments, the answer
     """
 
     before: int
@@ -40,16 +38,15 @@ class Call:
 
 @dataclass
 class Run:
-    """What is known while a script runs, and what it leaves.
-
-    established   every quantity, in order; cases, for each of them that which it is a particular case of
-    coordinates   those that it has named, with their kinds
-    assumed       conditions that its letters leave open; in_words, those of them that a step tells
-    drawings      what is to be seen
-    numbers       behind the letters of its problem, as given
+    """The state of a running script, and its record.
+    established   every quantity, in order; `cases`: for each of them the quantity that it is a particular case of
+    coordinates   the coordinates that it has named, with their kinds
+    assumed       conditions that its letters leave open; `in_words`: those that a step states
+    drawings      the drawings of the page
+    numbers       the numbers of the letters of its problem, as given
     places        where each given was written
-    letters       that the problem has for what is given, for coordinates and for forces: no result takes them
-    memory        of calls of verbs that were made before; call, the one that is being made
+    letters       letters of the problem for givens, coordinates and forces: no result takes them
+    memory        earlier calls of verbs; `call`: the call that is being made
     """
 
     established: list[Quantity] = field(default_factory=list)
@@ -65,7 +62,7 @@ class Run:
     call: Call | None = None
 
 
-# what textbooks call a result too, where a problem has the usual letter for something else
+# other textbook letters for a result, for a problem that uses the usual letter for something else
 OTHER_LETTERS: Mapping[str, tuple[str, ...]] = {
     "T": ("K",),
     "U": ("V",),
@@ -89,7 +86,7 @@ current_run: ContextVar[Run | None] = ContextVar("run", default=None)
 
 @contextmanager
 def recorded(run: Run | None = None) -> Iterator[Run]:
-    """The record of what is done within, so that the page can name what it does not show and what it assumes."""
+    """Record a run, so that the page can name the steps that it does not show and the assumptions that it makes."""
     run = run or Run()
     token = current_run.set(run)
     try:
@@ -99,12 +96,12 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
         current_run.reset(token)
 
 
-QUESTIONS: dict[str, Callable[..., Any]] = {}  # what a verb asks of the record, besides what every call is told by
+QUESTIONS: dict[str, Callable[..., Any]] = {}  # further questions of a verb to the record
 A = TypeVar("A")
 
 
 def question(answered: Callable[..., A]) -> Callable[..., A]:
-    """What a verb asks of the record is noted: where the answer is another, the verb is called again."""
+    """Note each question of a verb to the record: if the answer changes, the verb is called again."""
     QUESTIONS[answered.__name__] = answered
 
     @wraps(answered)
@@ -130,9 +127,8 @@ def is_taken(name: str) -> bool:
 
 
 def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
-    """A letter for what a result becomes where a letter goes to a value: omega_2_lim, or omega_2_infty.
-
-    Another letter where this one is taken has the letter that goes there too.
+    """Return a symbol for the limit of a result where a letter goes to a value: omega_2_lim, or omega_2_infty.
+    If this symbol is taken, the other one also contains the letter that goes to the limit.
     """
     if isinstance(symbol, MatrixBase):
         return symbol.applyfunc(lambda each: letter_of_limit(each, letter, to))
@@ -153,7 +149,7 @@ def _name_of_limit(name: str, letter: Symbol, to: Any) -> str:
 
 
 def coordinate_named(symbol: Symbol, kind: str) -> None:
-    """A script has named a coordinate: from now on whatever contains it is known to move."""
+    """Record a coordinate that a script names: from now on every expression with it is known to move."""
     run = current_run.get()
     if run is not None:
         run.coordinates[symbol] = kind
@@ -161,7 +157,7 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 
 @question
 def free_letter(name: str, *indices: str) -> str:
-    """The letter of a result, with its index; another one where the problem has it, with any of the indices."""
+    """Return the letter of a result, with its index; another one if the problem has it, with any of the indices."""
     run = current_run.get()
     base, _, own = name.partition("_")
     if run is None:
@@ -175,13 +171,13 @@ def free_letter(name: str, *indices: str) -> str:
 
 @question
 def given_letters() -> set[str]:
-    """The letters that the problem has for what is given, for coordinates and for forces."""
+    """Return the letters of the problem for givens, coordinates and forces."""
     run = current_run.get()
     return set(run.letters) if run is not None else set()
 
 
 def assume(condition: Relation, in_words: bool = False) -> None:
-    """A condition that the letters leave open: the page says that it is taken to hold; or a step does, in words."""
+    """Assume a condition that the letters leave open: the page states the assumption, or a step does, in words."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
         run.assumed.append(condition)
@@ -189,19 +185,19 @@ def assume(condition: Relation, in_words: bool = False) -> None:
 
 
 def assumed() -> list[Relation]:
-    """What the page says that it takes to hold."""
+    """Return the assumptions of the page."""
     run = current_run.get()
     return list(run.assumed) if run is not None else []
 
 
 def assumed_in_words() -> list[Relation]:
-    """Those of them that a step states in words."""
+    """Return the assumptions that a step states in words."""
     run = current_run.get()
     return list(run.in_words) if run is not None else []
 
 
 def established() -> list[Quantity]:
-    """What this run has established so far."""
+    """Return the quantities that this run has established so far."""
     run = current_run.get()
     own = run.established[run.call.before :] if run is not None and run.call is not None else []
     return [*_established_before(), *own]
@@ -209,7 +205,7 @@ def established() -> list[Quantity]:
 
 @question
 def _established_before() -> tuple[Quantity, ...]:
-    """What it had established before the verb that asks was called."""
+    """Return the quantities that the run had established before the call of the verb that asks."""
     run = current_run.get()
     return _before_call(run) if run is not None else ()
 
@@ -219,18 +215,18 @@ def _before_call(run: Run) -> tuple[Quantity, ...]:
 
 
 def finished_steps(run: Run) -> tuple[str, ...]:
-    """The keys of what it had established before the call that is being made."""
+    """Return the keys of the quantities that the run had established before the current call."""
     return tuple(dict.fromkeys(quantity.key for quantity in _before_call(run)))
 
 
 def named_coordinates() -> tuple[Symbol, ...]:
-    """All coordinates of the run."""
+    """Return all coordinates of the run."""
     run = current_run.get()
     return tuple(run.coordinates) if run else ()
 
 
 def coordinates_in(result: Any) -> dict[Symbol, str]:
-    """The coordinates of the run that a result contains, themselves or by a rate."""
+    """Return the coordinates of the run that occur in a result, directly or by a rate."""
     run = current_run.get()
     if run is None or not run.coordinates:
         return {}
@@ -239,7 +235,7 @@ def coordinates_in(result: Any) -> dict[Symbol, str]:
 
 
 def add(quantity: Quantity, case_of: Quantity | None) -> None:
-    """Put a quantity on the record of the run, if there is one; its letter must be free, or mean what it meant."""
+    """Put a quantity on the record of the run, if there is one; its letter must be free, or keep its meaning."""
     run = current_run.get()
     known = {**quantity.coordinates, **(run.coordinates if run else {})}
     _check_one_meaning(quantity, case_of, known, run.established if run else quantity.parents)
@@ -249,16 +245,15 @@ def add(quantity: Quantity, case_of: Quantity | None) -> None:
 
 
 def _is_the_same(one: Quantity, other: Quantity) -> bool:
-    """Whether they are one step, or one value that two steps have, as a tensor and its definition."""
+    """Whether the two are one step, or two steps with one value, such as a tensor and its definition."""
     return one is other or one.step == other.step or same_value(one.value, other.value)
 
 
 def _check_one_meaning(
     quantity: Quantity, case_of: Quantity | None, coordinates: Iterable[Symbol], others: Iterable[Quantity]
 ) -> None:
-    """One letter is one quantity in a script: another value under a letter that is taken must be a case of it.
-
-    What a coordinate or its rate becomes in one motion goes by the letter of that coordinate.
+    """Check that one letter is one quantity in a script: another value with the same letter must be a case of it.
+    The value of a coordinate or its rate in one motion keeps the letter of that coordinate.
     """
     symbol = quantity.symbol
     moving = {s for q in coordinates for s in (q, rate(q), rate(q, 2))}
@@ -285,20 +280,20 @@ def _check_one_meaning(
 
 
 def _is_open(quantity: Quantity) -> bool:
-    """A vector of which nothing is known but the names of its components: any other of its letter is a case of it."""
+    """Whether only the names of a vector's components are known: any other vector with its letter is a case of it."""
     symbol, value = quantity.symbol, quantity.value
     return isinstance(symbol, MatrixSymbol) and list(value) == list(component_names(symbol.name))
 
 
 def changes(value: Any, coordinates: Iterable[Symbol] = ()) -> Symbol | None:
-    """What makes a value change: the time itself, a coordinate or a rate; None if nothing does."""
+    """Return the letter that makes a value change: the time, a coordinate or a rate; None if it is constant."""
     letters = explicit(value).free_symbols
     moving = [TIME, *(s for q in coordinates for s in (q, rate(q), rate(q, 2)))]
     return next((s for s in moving if s in letters), None)
 
 
 def require_constant(verb: str, role: str, given: Any, help: str | None = None) -> None:
-    """Refuse what changes in the course of time, where a law is one for constants."""
+    """Reject an input that changes with time, for a law that needs a constant."""
     known = given.coordinates if isinstance(given, Quantity) else {}
     run = current_run.get()
     moving = changes(value_behind(given), {**known, **(run.coordinates if run else {})})

@@ -1,8 +1,7 @@
-"""Rules: what the project knows of each law that makes steps, in one record next to the verb that uses it.
-
-A verb says how its result came out, "zero", "unstable", "slow", and a page chooses its sentence by that word. The rule
-has, for each such word, a predicate that must be true of the result. Predicates stand in the `claims.py` of their
-folder and share no code with the verbs. `establish` asks them.
+"""Rules: one record for each law that makes steps, next to the verb that uses it.
+A verb chooses an outcome, "zero", "unstable", "slow", and a page chooses its sentence by that word. For each such word
+the rule has a predicate that must be true of the result. Predicates are in the `claims.py` of their folder and share no
+code with the verbs. `establish` evaluates them.
 """
 
 from __future__ import annotations
@@ -16,23 +15,22 @@ from derive.steps.level import SHOWN
 from derive.steps.level import Shown as Shown  # by this name to all who make rules
 from derive.steps.subject import NOTHING, Mixed, Subject
 
-GENERIC = "generic"  # the outcome where nothing is to be chosen
-CENTRE_OF_MASS = "centre_of_mass"  # a word for the point "centre" of a body that has another one too
-ZERO = "zero"  # the outcome of a result that vanishes
+GENERIC = "generic"  # the outcome if there is nothing to choose
+CENTRE_OF_MASS = "centre_of_mass"  # a word for the point "centre" of a body that also has another centre
+ZERO = "zero"  # the outcome for a result that vanishes
 AXES = ("x", "y", "z")
 ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
 
 
 @dataclass(frozen=True)
 class Judged:
-    """What a predicate is asked about.
-
-    result      what was established
+    """The data that a predicate judges.
+    result      the value of the step
     inputs      role -> value
-    quantities  role -> the quantity that the value came from, where one did, and what the sentence points to
-    symbol      what the page calls the result
-    subject     what the result is about
-    words       the terms that the phrase has
+    quantities  role -> the quantity whose value it is, if any, and the quantities that the sentence points to
+    symbol      the symbol of the result on the page
+    subject     the subject of the result
+    words       the terms of the phrase
     """
 
     result: Any
@@ -45,7 +43,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Doubt:
-    """Why a sentence is not confirmed, in words: a predicate may return this in place of False."""
+    """The reason why a sentence is not confirmed, in words: a predicate may return this in place of False."""
 
     reason: str
     help: str | None = None
@@ -68,10 +66,10 @@ def anything(facts: Judged) -> bool:
 class Theorem:
     """A theorem in its general form, which a page states by name before the first step that uses it.
 
-    formula   what it says
-    letters   what else the phrase names
+    formula   its formula
+    letters   other letters that the phrase names
     source    book and section
-    between   what the word `between` of the steps that use it must be, where that matters
+    between   the required words `between` of the steps that use it; empty if any word will do
     prepared  whether it is stated before a step that prepares those that use it
     """
 
@@ -85,9 +83,8 @@ class Theorem:
 
 @dataclass(frozen=True)
 class Quote:
-    """That the steps of a rule use a theorem.
-
-    outcomes   in which they do; empty for all
+    """The use of a theorem by the steps of a rule.
+    outcomes   outcomes that use it; empty for all
     law_in     outcomes in which the theorem is the law of the step, which need not write it again
     """
 
@@ -108,14 +105,14 @@ class Rule:
     name        folder and function
     source      book and section
     outcomes    word -> the predicate that must be true of the result for the word to be right
-    evidence    claim -> ROUTE or CHECK, for each second way to the result. A route goes another way through the
-                physics and would see a wrong law; a check starts from the result or from the same formula and would see
-                a slip. A rule without evidence is a definition
-    statements  what must be true of roles, points and formulas that only the sentence has, whatever the outcome
-    named       role -> what must be true of a thing that only the sentence names; `value` also stands for `value_1`
+    evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics and would
+                find a wrong law; a check starts from the result or from the same formula and would find a slip. A
+                rule without evidence is a definition
+    statements  predicates of roles, points and formulas that only the sentence has, for every outcome
+    named       role -> the predicate of a thing that only the sentence names; `value` also judges `value_1`
     shown       how a page shows its steps
     quotes      the theorems that its steps use
-    prepares    the theorem that a page states before such a step, for the steps that rest on it
+    prepares    the theorem that a page states before such a step, for the steps that depend on it
     """
 
     name: str
@@ -133,7 +130,7 @@ class Rule:
 
     @property
     def key(self) -> str:
-        """The key of its steps where a verb gives none."""
+        """Return the key of its steps if a verb gives none."""
         return self.name.rpartition(".")[2]
 
     @property
@@ -141,7 +138,7 @@ class Rule:
         return not self.evidence
 
     def verdict(self, outcome: str, facts: Judged) -> bool | Doubt:
-        """Whether the rule has this outcome and it is true, and so is what its sentence says besides the chain."""
+        """Whether the rule has this outcome, the outcome is true, and so are the other statements of its sentence."""
         predicate = self.outcomes.get(outcome)
         verdict = predicate is not None and predicate(facts)
         return verdict and self._stated(outcome, facts)
@@ -156,7 +153,7 @@ class Rule:
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
 
     def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:
-        """The names of the theorems that a step uses and states, as a `Step` has them."""
+        """Return the names of the theorems that a step uses and states, as a `Step` has them."""
         quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
         return {
             "theorems": tuple(each.theorem.name for each in quotes),
@@ -165,7 +162,7 @@ class Rule:
         }
 
     def wrongly_named(self, facts: Judged, named: Mapping[str, Any]) -> str | None:
-        """The first role under which a sentence names the wrong thing, or one that nothing judges."""
+        """Return the first role for which a sentence names the wrong thing, or that has no predicate."""
         for role, value in named.items():
             judge = self.named.get(role) or self.named.get(role.rstrip("0123456789").removesuffix("_"))
             if judge is None or not judge(facts, value):
@@ -178,22 +175,22 @@ _HANDED_ON: dict[type[Any], Naming] = {}
 
 
 def handed_on_by(kind: type[Any], predicate: Naming) -> None:
-    """Say what must hold between a step and a fact of this kind that it returns with its value."""
+    """Register the predicate between a step and a fact of this kind that it returns with its value."""
     _HANDED_ON[kind] = predicate
 
 
 def wrongly_handed_on(facts: Judged, handed_on: Sequence[Any]) -> Any | None:
-    """The first fact that does not fit the step that returns it."""
+    """Return the first fact that does not fit the step that returns it."""
     return next((f for f in handed_on if (judge := _HANDED_ON.get(type(f))) and not judge(facts, f)), None)
 
 
 def judged_facts() -> frozenset[type[Any]]:
-    """The kinds of fact that have a predicate."""
+    """Return the kinds of fact that have a predicate."""
     return frozenset(_HANDED_ON)
 
 
 def _names_its_point(facts: Judged) -> bool:
-    """Whether the point that is named is the one that the result is about, where that is known."""
+    """Whether the named point is the one that the result is about, if that is known."""
     known = getattr(facts.subject.point, "name", None)
     in_full = {CENTRE_OF_MASS: "centre"} if known == "centre" else {}
     named = {in_full.get(facts.words[word], facts.words[word]) for word in ("about", "point") if word in facts.words}
@@ -201,15 +198,15 @@ def _names_its_point(facts: Judged) -> bool:
 
 
 def _names_its_axis(facts: Judged) -> bool:
-    """Whether the axis that is named is the one that the result is about, where that is known."""
+    """Whether the named axis is the one that the result is about, if that is known."""
     axis = facts.subject.axis
     named = {facts.words[word] for word in ("axis", "axis_letter") if word in facts.words}
     return not isinstance(axis, str) or named <= {axis}
 
 
 def _letter_of_its_axis(facts: Judged) -> bool:
-    """Whether a letter with the index of an axis, I_z, has that of the axis that the sentence names; of a part it is
-    that of the whole to which the axis of the part is parallel."""
+    """Whether a letter with the index of an axis, I_z, has the index of the axis that the sentence names; for a part,
+    the index is that of the axis of the whole, which is parallel to the axis of the part."""
     axis = facts.words.get("whole", facts.words.get("axis"))
     index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
     return index not in AXES or axis not in AXES or index == axis

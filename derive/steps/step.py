@@ -1,4 +1,4 @@
-"""A verified step, the value it yields, and the small questions that every verb asks of values.
+"""A verified step, the value it yields, and small functions on values for every verb.
 
 A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.steps.establish` makes one.
 """
@@ -21,8 +21,8 @@ from derive.steps.level import ON_ITS_OWN, Display
 from derive.steps.level import Level as Level  # of the forms below, and by this name to all who make them
 from derive.steps.subject import NOTHING, Subject
 
-NUMBERS = ("value", "rounded")  # why a form stands at the end of a chain: the number in a unit, exact or rounded
-ONLY_ABOUT = ("limit", "series")  # why a form is only about equal to the form before it
+NUMBERS = ("value", "rounded")  # why a form is at the end of a chain: the number in a unit, exact or rounded
+ONLY_ABOUT = ("limit", "series")  # why a form is only approximately equal to the form before it
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,8 @@ class Form:
     """One line of a chain: an expression and why it equals the line before it.
 
     `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal.
-    A form may be a `Relation`; then it says the same as the relation before it, once both are divided by `nonzero`
-    factors: those that do not vanish in the case considered, or in an inequality are positive.
+    A form may be a `Relation`; then it is equivalent to the relation before it after division by the `nonzero`
+    factors, which do not vanish in the case considered, or are positive in an inequality.
     """
 
     expr: Any
@@ -42,18 +42,17 @@ class Form:
 
 @dataclass(frozen=True)
 class Step:
-    """What was established: the symbol, the chain that leads to its value, and how we know.
-
+    """An established result: the symbol, the chain that leads to its value, and the evidence.
     The symbol of a step that yields a relation is None: the page refers to it by its number. `coordinates` are those
-    that the step brings in, with their kinds. `stands_for` are keys of steps that there would be in another case: two
-    roots where there is only one. `names` are those in its lines that came from earlier steps, with the values put in
-    for them; `motion` is what the equations of motion make of the rates, for a line that holds by them. `law_at` is
-    where the law stands in the code, as `derive/mechanics/rotation/vectors.py:120`.
-    The result of a limit or a series has a letter of its own; `approximates` is the letter of the whole, or the key of
-    an equation. `about` says that the step is derived from such a result, so that its letter is only about equal to
-    its first line.
+    that the step introduces, with their kinds. `stands_for` are keys of steps that would exist in another case: two
+    roots where there is only one. `names` are the names in its lines that came from earlier steps, with their values;
+    `motion` are the rates by the equations of motion, for a line that holds by them. `law_at` is the place of the law
+    in the code, as `derive/mechanics/rotation/vectors.py:120`.
+    The result of a limit or a series has a separate letter; `approximates` is the letter of the whole, or the key of
+    an equation. `about` means that the step is derived from such a result, so its letter only approximately equals its
+    first line.
     `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that it
-    uses, those that state its law, and the theorem that a page states before it for the steps that rest on it.
+    uses, those that state its law, and the theorem that a page states before it for the steps that depend on it.
     """
 
     key: str
@@ -80,12 +79,12 @@ class Step:
 
     @property
     def exact(self) -> bool:
-        """Whether its letter equals its result: no limit and no series is among what it is derived from."""
+        """Whether its letter equals its result: the step is not derived from a limit or a series."""
         return self.approximates is None and not self.about
 
     @property
     def breaks_off(self) -> bool:
-        """Whether the last line of this very step is the limit or the series."""
+        """Whether the last line of this step is the limit or the series."""
         return self.approximates is not None and self.chain[-1].because in ONLY_ABOUT
 
     @property
@@ -94,7 +93,7 @@ class Step:
 
     @property
     def grade(self) -> Grade:
-        """As sure as the least sure of its lines, all of which must hold, and as the surest of its second routes."""
+        """Return the lower of two grades: the least sure of its lines, all of which must hold, and its surest route."""
         lines = [e.grade for e in self.evidence if e.compared is Compared.LINES]
         routes = [e.grade for e in self.evidence if e.compared is not Compared.LINES]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
@@ -102,10 +101,9 @@ class Step:
 
 
 class Fact:
-    """What a quantity hands on, besides its value, to the verbs that need it.
-
-    Each kind of fact is a frozen dataclass beside the verb that hands it on; `missing` is what a message says of a
-    quantity that has none.
+    """Data that a quantity carries, in addition to its value, for the verbs that need it.
+    Each kind of fact is a frozen dataclass next to the verb that returns it; `missing` completes the message about a
+    quantity without such a fact.
     """
 
     missing: ClassVar[str] = "is not of the kind that is needed here"
@@ -113,10 +111,10 @@ class Fact:
 
 
 class Witness(Fact):
-    """What a quantity belongs to that can be followed in numbers: a described system."""
+    """The described system that a quantity belongs to, whose motion can be integrated numerically."""
 
     def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:
-        """Whether a step is true of the motion, put to the test in numbers; nothing where there is no test for it."""
+        """Test numerically whether a step is true of the motion; return None if there is no test for it."""
         raise NotImplementedError
 
 
@@ -125,9 +123,8 @@ F = TypeVar("F", bound=Fact)
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """A value that knows the step that made it, the steps that step rests on, and what it is about.
-
-    Arithmetic on a quantity would lose its history, so it is refused; `let` is the verb for that.
+    """A value with the step that made it, the steps that this step depends on, and its subject.
+    Arithmetic on a quantity would lose its history, so it is rejected; the verb `let` does it.
     """
 
     value: Any
@@ -146,29 +143,29 @@ class Quantity:
 
     @property
     def exact(self) -> bool:
-        """Whether the value is exact: no limit and no series is among what it is derived from."""
+        """Whether the value is exact: it is not derived from a limit or a series."""
         return self.step.exact
 
-    @cached_property  # all that it rests on is asked, again and again
+    @cached_property  # cached: the quantities that it depends on are asked many times
     def coordinates(self) -> Mapping[Symbol, str]:
-        """The coordinates that it may depend on, with their kinds: its own and those of what it rests on."""
+        """Return the coordinates that it may depend on, with their kinds: those of its step and of its parents."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}
 
     def fact(self, kind: type[F]) -> F | None:
-        """What it hands on of that kind, if anything."""
+        """Return its fact of that kind, or None."""
         return next((fact for fact in self.facts if isinstance(fact, kind)), None)
 
     def needed(self, kind: type[F]) -> F:
-        """What it hands on of that kind; a quantity that has none is refused as a fault of the script."""
+        """Return its fact of that kind; a quantity without one is an error of the script."""
         found = self.fact(kind)
         if found is None:
             raise Rejected(Complaint("wrong-argument", f"`{self.key}` {kind.missing}"))
         return found
 
     def ancestors(self) -> Iterator[Quantity]:
-        """Every quantity that it rests on, itself first."""
+        """Yield every quantity that it depends on, itself first."""
         seen: set[int] = set()
         waiting = [self]
         while waiting:
@@ -198,7 +195,7 @@ class Quantity:
 
 
 def lettered(quantity: Quantity) -> Quantity:
-    """The quantity known by its letter alone: what rests on it keeps the letter, until values are put in."""
+    """Return the quantity with its letter as its value: results keep the letter until values are substituted."""
     return replace(quantity, value=quantity.symbol, parents=(quantity,))
 
 
@@ -209,7 +206,7 @@ Route = Callable[[Any], tuple[Any, Any] | Verdict]
 
 
 def compared_with(other: Callable[[], Any]) -> Route:
-    """The plainest second route: another way to the same value."""
+    """Return the simplest second route: another derivation of the same value."""
     found: list[Any] = []
 
     def both(result: Any) -> tuple[Any, Any]:
@@ -221,7 +218,7 @@ def compared_with(other: Callable[[], Any]) -> Route:
 
 
 def same_value(one: Any, other: Any) -> bool:
-    """Whether two values that a subject has are equal: lengths, masses, places."""
+    """Whether two values of subjects are equal: lengths, masses, places."""
     try:
         if isinstance(one, tuple) and isinstance(other, tuple):
             return len(one) == len(other) and all(same_value(a, b) for a, b in zip(one, other, strict=True))
@@ -233,7 +230,7 @@ def same_value(one: Any, other: Any) -> bool:
 
 
 def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
-    """Refuse a quantity of another kind: arguments in the wrong order, a tensor for a vector."""
+    """Reject a quantity of another kind: arguments in the wrong order, a tensor for a vector."""
     if isinstance(quantity, Quantity) and quantity.step.kind == kind:
         return
     got = (
@@ -246,17 +243,17 @@ def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
 
 
 def value_behind(given: Any) -> Any:
-    """The value of a quantity; anything else is its own value."""
+    """Return the value of a quantity; return any other argument unchanged."""
     return given.value if isinstance(given, Quantity) else given
 
 
 def approximations_among(*given: Any) -> list[Quantity]:
-    """Those of the arguments of a verb that are only approximate: the result rests on them, and so is approximate."""
+    """Return the approximate arguments of a verb: a result that depends on them is approximate too."""
     return [each for each in given if isinstance(each, Quantity) and not each.exact]
 
 
 def entry_name(name: str, i: int, j: int) -> Symbol:
-    """The name of a tensor's entry: J_xy."""
+    """Return the name of a tensor's entry: J_xy."""
     return Symbol(f"{name}_{AXES[i]}{AXES[j]}", real=True)
 
 

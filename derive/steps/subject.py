@@ -1,8 +1,7 @@
-"""What a value is about: the body, the point, the axes, the rotation and the place in space that it belongs to.
-
-A moment of inertia is that of one body about one point; an angular momentum belongs to one rotation. Every quantity
-carries its subject, and `establish` brings those of its inputs together: a law that is given two bodies, two points or
-two rotations is refused, unless it is a law about just that.
+"""The subject of a value: the body, the point, the axes, the rotation and the place in space that it belongs to.
+A moment of inertia belongs to one body and one point; an angular momentum belongs to one rotation. Every quantity
+carries its subject, and `establish` unites the subjects of the inputs: two bodies, two points or two rotations in one
+law are rejected, unless the law is about two of them.
 """
 
 from __future__ import annotations
@@ -18,22 +17,22 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """What a value is about that was made of values about different things: it agrees with nothing."""
+    """The property of a subject that unites different ones: it agrees with nothing."""
 
     SEVERAL = "several"
 
 
 @dataclass(frozen=True)
 class Subject:
-    """What is known of what a value is about; `None` where it is about nothing in particular.
+    """What is known of the subject of a value; `None` for a property that is not specified.
 
     body      the body, as a script made it
-    mass      the mass that it has, where no body says so, kg
-    point     the point that moments, momenta and torques are about
-    axes      the axes along which components are: those of the body unless it is said
-    axis      for a moment about one axis: which of the axes it is parallel to
+    mass      its mass, if there is no body that has it, kg
+    point     the reference point of moments, momenta and torques
+    axes      the axes of the components: by default those of the body
+    axis      for a moment about one axis: the axis that it is parallel to
     rotation  the angular velocity, as components
-    place     where in space the centre of mass is, as components in m
+    place     the place of the centre of mass in space, as components in m
     """
 
     body: Any = None
@@ -45,7 +44,7 @@ class Subject:
     place: Any = None
 
     def with_more(self, other: Subject) -> Subject:
-        """What the other says, and what only this one says."""
+        """Return the properties of the other subject, and those that only this one has."""
         both = zip(self._all, other._all, strict=True)
         return Subject(*(theirs if theirs is not None else ours for ours, theirs in both))
 
@@ -70,13 +69,13 @@ _TOGETHER = {
 def united(
     key: str, named: Sequence[tuple[str, Subject]], differ: Collection[str], same: Callable[[Any, Any], bool]
 ) -> Subject:
-    """What the inputs of one law are about together.
+    """Return the common subject of the inputs of one law.
 
     key     the step, for the message
-    named   the key of each input, and what it is about
-    differ  in what the inputs may be about different things; the outcome is `SEVERAL` where they are
-    same    whether two values are equal
-    Errors: two inputs are about different things.
+    named   the key of each input, and its subject
+    differ  the properties in which the inputs may differ; the result is `SEVERAL` if they do
+    same    the test whether two values are equal
+    Errors: two inputs have different subjects.
     """
     found: dict[str, Any] = {}
     for field in (each.name for each in fields(Subject)):
@@ -88,7 +87,7 @@ def united(
             if first is None:
                 first = name, value
             elif not _agree(first[1], value, same):
-                if field not in differ and field != "axis":  # two moments of one body have two axes
+                if field not in differ and field != "axis":  # two moments of one body may have different axes
                     raise _apart(key, field, first, (name, value))
                 first = name, Mixed.SEVERAL
         if first is not None:
@@ -105,7 +104,7 @@ def _agree(one: Any, other: Any, same: Callable[[Any, Any], bool]) -> bool:
 
 
 def with_name(called: str, key: str, symbol: Any) -> tuple[str, Any]:
-    """The key and the letter of what belongs to a body that has a name: `upper_rod_density`, rho_upper."""
+    """Return the key and the letter of a result for a body with a name: `upper_rod_density`, rho_upper."""
     prefix = called.replace(" ", "_")
     if not key.startswith(f"{prefix}_"):
         key = f"{prefix}_{key}"
@@ -126,7 +125,7 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
 
 
 def called(value: Any) -> str:
-    """What a message calls a body, a point, an axis or a value."""
+    """Return the name of a body, a point, an axis or a value in a message."""
     if isinstance(value, Mixed):
         return "several"
     name = getattr(value, "called", "") or getattr(value, "name", None)

@@ -1,4 +1,4 @@
-"""What a page may call a result: letters with indices that mean something, and the arrows of what the result is."""
+"""The symbols that a page allows for a result: letters with meaningful indices, and the arrow of the result's kind."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from sympy.matrices.expressions import MatrixSymbol
 
 from derive.errors import Complaint, Unverified
 
-EMPTY = {"", "None", "True", "False"}  # an index that a program wrote where it had none
+EMPTY = {"", "None", "True", "False"}  # indices that a program writes if it has none
 
 
 def check_symbol(key: str, symbol: Any, result: Any) -> None:
-    """Refuse a letter that no page can print, and one that stands for another kind of value than the result."""
+    """Reject a letter that no page can print, and one for another kind of value than the result."""
     for letter in symbol.atoms(Symbol, MatrixSymbol) if hasattr(symbol, "atoms") else ():
         if not is_notation(str(letter.name)):
             raise Unverified(Complaint("unverified", f"`{key}`: {letter.name} is not a letter with indices"))
     shape = getattr(result, "shape", None)
-    if isinstance(symbol, MatrixBase) and symbol.shape != shape:  # several results together have a name each
+    if isinstance(symbol, MatrixBase) and symbol.shape != shape:  # each of several results has a name
         raise Unverified(Complaint("unverified", f"`{key}`: {symbol} does not name each of its results"))
     if isinstance(symbol, MatrixExpr) and tuple(symbol.shape) != shape:
         what = "a vector" if symbol.shape[1] == 1 else "a tensor"
-        raise Unverified(Complaint("unverified", f"`{key}`: {symbol} is the letter of {what}, which the result is not"))
+        raise Unverified(Complaint("unverified", f"`{key}`: {symbol} is the letter of {what}, but the result is not"))
     if isinstance(symbol, Symbol) and shape is not None:
         raise Unverified(Complaint("unverified", f"`{key}`: {symbol} is the letter of a number, but the result is not"))
 
 
 def is_notation(name: str) -> bool:
-    """Whether a name is a letter, with indices none of which is empty."""
+    """Whether a name is a letter whose indices are not empty."""
     base, *indices = (part.rstrip("'\u2032") for part in name.split("_"))
     return base[:1].isalpha() and not EMPTY.intersection((base, *indices))

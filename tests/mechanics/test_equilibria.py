@@ -255,14 +255,14 @@ def wrong(case: str) -> Any:
 @pytest.mark.parametrize(
     ("case", "said"),
     [
-        ("never", "has no state of rest"),
+        ("never", "has no equilibrium"),
         ("no closed form", "have no closed form"),
         ("no energy", "needs an energy"),
         ("stranger", "does not depend on x"),
-        ("time", "holds the time itself"),
-        ("not level", "is not level at theta = pi/2: its slope by theta is g\\*l\\*m"),
-        ("of another", "is no state of rest of"),
-        ("missing", "nothing says what theta is at rest"),
+        ("time", "contains the time explicitly"),
+        ("not level", "is not stationary at theta = pi/2: its derivative by theta is g\\*l\\*m"),
+        ("of another", "is not an equilibrium of"),
+        ("missing", "the value of theta at equilibrium is unknown"),
     ],
 )
 def test_wrong_questions_about_rest_are_refused(case: str, said: str) -> None:
@@ -298,7 +298,7 @@ def test_a_condition_of_the_wrong_sense_is_refused(monkeypatch: pytest.MonkeyPat
 
 
 def test_energies_in_play_are_those_of_the_verbs() -> None:
-    """The kinetic energy alone has no state of rest to look for, and a central force may give it one."""
+    """The kinetic energy alone has no equilibrium to look for, and a central force may give it one."""
     q = coordinate("r", "length", positive=True)
     d = Symbol("d", positive=True)
     system = System(Particle(m, point(q, 0)), central(k * (d - l) ** 2 / 2, d, point(0, 0), point(q, 0)))

@@ -173,7 +173,7 @@ def test_questions_about_blows_that_do_not_fit() -> None:
     wrong: list[tuple[Any, str]] = [
         (lambda: Blow(system), "needs an impulse or a collision"),
         (lambda: Blow(system, collision(bullet, hit), before={x: v}), "do not meet"),
-        (lambda: Blow(system, collision(bullet, bullet), at={x: 0}), "one velocity already"),
+        (lambda: Blow(system, collision(bullet, bullet), at={x: 0}), "already have the same velocity"),
         (lambda: Blow(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}), "do not approach"),
         (lambda: Blow(system, collision(bullet, hit, (-1, 0), 1), at={x: 0, theta: 0}, before={x: v}), "move apart"),
         (lambda: Blow(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: -v}), "move apart"),

@@ -256,15 +256,15 @@ def refused(case: str) -> Any:
 @pytest.mark.parametrize(
     ("case", "said"),
     [
-        ("no rest", "is not in equilibrium at theta = 0, phi = pi/2: g\\*l\\*m is left for 0"),
-        ("missing", "nothing says what phi is at rest"),
+        ("no rest", "is not in equilibrium at theta = 0, phi = pi/2: g\\*l\\*m remains instead of 0"),
+        ("missing", "the value of phi at equilibrium is unknown"),
         ("stranger", "have no coordinate psi"),
         ("one of two", "needs all the equations"),
-        ("taken", "omega stands for something that is given"),
+        ("taken", "omega denotes a given quantity"),
         ("cubic", "the squares of 3 frequencies are the roots of a polynomial that does not factor"),
         ("nonlinear", "is not an equation of motion to first order"),
         ("beats of one", "do not beat"),
-        ("driven", "holds the time itself"),
+        ("driven", "contains the time explicitly"),
     ],
 )
 def test_wrong_questions_about_modes_are_refused(case: str, said: str) -> None:

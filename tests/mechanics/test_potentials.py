@@ -55,7 +55,7 @@ def test_where_the_potential_is_not_level_there_is_no_equilibrium() -> None:
         leading_order(PENDULUM, at=pi / 2)
     (complaint,) = refusal.value.complaints
     assert complaint.code == "no-equilibrium"
-    assert complaint.message == "`potential_energy` is not level at theta = pi/2"
+    assert complaint.message == "`potential_energy` is not stationary at theta = pi/2"
 
 
 @pytest.mark.parametrize(
@@ -126,7 +126,7 @@ def test_a_border_may_be_given_by_hand() -> None:
 
 
 def test_a_case_in_which_the_curvature_does_not_vanish_is_no_border() -> None:
-    with pytest.raises(Rejected, match="not its border"):
+    with pytest.raises(Rejected, match="not its boundary"):
         leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a))
 
 
@@ -142,5 +142,5 @@ def test_a_value_may_be_neither(height: Expr, outcome: str) -> None:
 
 
 def test_on_a_slope_there_is_no_extreme_value() -> None:
-    with pytest.raises(Rejected, match="is not level at theta = 1"):
+    with pytest.raises(Rejected, match="is not stationary at theta = 1"):
         extreme_value(PENDULUM, at=Rational(1))

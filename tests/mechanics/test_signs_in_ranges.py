@@ -282,7 +282,7 @@ def test_a_coordinate_has_a_range_in_yaml(tmp_path: Path) -> None:
 
 def test_without_its_range_the_message_says_what_to_write(tmp_path: Path) -> None:
     (message,) = messages(tmp_path, edited(DUMBBELL, ("q: 'angle in (0, pi/2)'}", "q: angle}")))
-    assert "factors with q beside cos(q), of unknown sign" in message
+    assert "factors of unknown sign with q outside cos(q)" in message
 
 
 def test_open_ends_and_positive_kinds_are_read(tmp_path: Path) -> None:

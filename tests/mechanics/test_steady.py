@@ -193,7 +193,7 @@ def test_two_coordinates_that_stay_have_a_condition_each() -> None:
     assert holds(outward, m * r.symbol * Omega**2 - G * (r.symbol - l))
     assert holds(upward, G * z.symbol + m * g)
     U = effective_potential(L, conserved(L, phi, "p"))
-    with pytest.raises(Rejected, match="needs one coordinate that is left"):
+    with pytest.raises(Rejected, match="needs one remaining coordinate"):
         frequency_squared_about(U, outward)
 
 

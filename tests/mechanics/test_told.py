@@ -76,7 +76,7 @@ def test_the_point_that_is_named_is_the_one_of_the_result(named: str, right: boo
 def test_two_moments_cannot_have_one_name() -> None:
     names = ImmutableDenseMatrix([scalar("I_1"), scalar("I_3"), scalar("I_3")])
     values = ImmutableDenseMatrix([a, a, R])
-    with pytest.raises(Unverified, match="have one name"):
+    with pytest.raises(Unverified, match="have the same name"):
         establish(RULES["answers.let"], names, lambda: values, {}, key="moments")
 
 

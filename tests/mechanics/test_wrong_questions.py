@@ -99,7 +99,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
             kinetic_energy(of_block(), any_angular_velocity()),
             spin(omega, along=BLOCK.direction(DIAGONAL), through="corner"),
         ),
-        "turns about the centre",
+        "rotates about the centre",
     ),
     "an axis through a point that the body has not": (
         lambda: spin(omega, along=BLOCK.direction(DIAGONAL), through="apex"),
@@ -157,7 +157,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     "a way in space that is turned in a plane": (lambda: point(l, b, a).turned(k), "rotates a displacement in a plane"),
     "a border that is none": (
         lambda: leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a)),
-        "not its border",
+        "not its boundary",
     ),
     "a shape of a potential that changes": (
         lambda: leading_order(potential(0 * l, TIME * l * cos(THETA.symbol), THETA)),
@@ -181,7 +181,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: frequency_squared(
             linearised(motion(l * TIME * sin(THETA.symbol), -l * TIME * cos(THETA.symbol), THETA))
         ),
-        "holds the time itself",
+        "contains the time explicitly",
     ),
     "values put into an inequality": (
         lambda: with_values(known_slab()["stability"], let("a", lambda: 2 * b, kind="length")),

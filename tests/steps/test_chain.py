@@ -118,7 +118,7 @@ def test_a_left_side_that_is_an_expression_equals_the_first_line() -> None:
 def test_what_is_handed_on_is_the_last_line_before_numbers() -> None:
     chain = [Form(s, "law"), Form(Float("0.3"), "rounded")]
     check_last_line("key", chain, a + b, {s: a + b}, {})
-    with pytest.raises(Unverified, match="what it hands on is not its last line"):
+    with pytest.raises(Unverified, match="its result is not its last line"):
         check_last_line("key", chain, a, {s: a + b}, {})
 
 
@@ -142,8 +142,8 @@ def test_a_refusal_tells_both_values_cut_to_a_readable_length() -> None:
 @pytest.mark.parametrize(
     ("last", "because", "said"),
     [
-        (b, "result", "only about equal"),
-        (b + a * x, "limit", "holds what goes to its limit"),
+        (b, "result", "only approximately equal"),
+        (b + a * x, "limit", "contains the letter that goes to its limit"),
         (b + 2 * a * x, "series", "does not follow"),
     ],
 )

@@ -159,7 +159,7 @@ def test_the_outcome_is_chosen_by_the_result_and_judged_by_its_predicate() -> No
 
 def test_a_claim_that_the_rule_does_not_have_is_refused() -> None:
     rule = made_up("test.sum_of_squares", "other")
-    assert "does not say what `squares` is evidence of" in refusal_of(lambda: sum_of_squares(rule=rule)).message
+    assert "does not list the claim `squares`" in refusal_of(lambda: sum_of_squares(rule=rule)).message
 
 
 def test_an_outcome_that_no_predicate_judges_is_refused() -> None:

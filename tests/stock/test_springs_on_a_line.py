@@ -160,7 +160,7 @@ def test_a_support_that_is_shaken_keeps_the_side_that_it_has_at_rest(tmp_path: P
 def test_an_equilibrium_that_needs_two_conditions_is_refused_with_both(tmp_path: Path) -> None:
     second = (", length: l}", ", length: l}, {constant: k, from: [0, 0], to: [x, 0], length: A}]")
     said = messages(tmp_path, edited(WALL, ("springs: {", "springs: [{"), second))
-    assert any("has a state of rest" in each and " only if " in each for each in said), said
+    assert any("has an equilibrium" in each and " only if " in each for each in said), said
 
 
 def test_hamiltons_equations_have_the_force_of_a_spring_along_a_line(tmp_path: Path) -> None:

@@ -1,6 +1,5 @@
-"""An equation where a letter is small, large, or near a value: what is left of it to an order in what is small.
-
-Coordinates, rates and accelerations stand in it as they are: only the letter is taken to be small.
+"""An equation expanded where a letter is small, large, or near a value, to an order in the small quantity.
+Coordinates, rates and accelerations remain unchanged: only the letter is taken to be small.
 """
 
 from __future__ import annotations
@@ -50,16 +49,16 @@ EQUATION_IN_LIMIT = Rule(
 def equation_in_limit(
     equation: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None
 ) -> Quantity:
-    """What an equation becomes where a letter is small, large or near a value: f_0 + f_1 e + ... = 0 of f = 0, with e
-    what is small: x, 1/x or x - a.
+    """Expansion of an equation f = 0 where a letter is small, large or near a value: f_0 + f_1 e + ... = 0 with the
+    small quantity e: x, 1/x or x - a.
 
     equation   an equation, such as one of motion
     letter     a constant that is small or large
-    to         0 where it is small, SymPy's `oo` where it is large, else the value that it is near
-    order      the highest power of what is small that is kept; the leading terms alone if none is given
-    Where a sine of the letter times the time is expanded, that is for short times: the sentence says so.
-    Check: numbers; what is left out, divided by the last power that is kept, goes to zero with what is small.
-    Outcomes: small, large, near (the leading terms alone); first_order, to_order; exact (nothing is left out).
+    to         0 if it is small, SymPy's `oo` if it is large, else the value that it is near
+    order      the highest power of the small quantity that is kept; by default only the leading terms
+    An expanded sine of the letter times the time is valid for short times: the sentence says so.
+    Check: numbers; the rest, divided by the last power that is kept, goes to zero with the small quantity.
+    Outcomes: small, large, near (only the leading terms); first_order, to_order; exact (nothing is left out).
     Errors: the equation does not contain the letter, or the letter changes with the time; it has no such expansion, or
     begins beyond that order.
     Source: Taylor, *Classical Mechanics*, sections 9.8 and 9.9 (to the first order in the rate of the Earth).
@@ -70,8 +69,8 @@ def equation_in_limit(
         message = f"`equation_in_limit`: `{equation.key}` does not contain {x.name}"
         raise Rejected(Complaint("nothing-to-put-in", message))
     if x == TIME or any(x.name in (q.name, f"{q.name}_dot", f"{q.name}_ddot") for q in coordinates_of(equation)):
-        message = f"`equation_in_limit`: {x.name} changes in the motion, so that it is not small all the time"
-        raise Rejected(Complaint("changes", message, help="small motions about rest are those of `linearised`"))
+        message = f"`equation_in_limit`: {x.name} changes in the motion, so it is not always small"
+        raise Rejected(Complaint("changes", message, help="`linearised` gives small motions about equilibrium"))
     place = explicit(to.value if isinstance(to, Quantity) else to)
     series = expansion_of(equation, left, x, place, order)
     kept = tidied_terms(series, x, place)
@@ -104,7 +103,7 @@ def equation_in_limit(
 
 
 def _ratio(found: Relation, kept: Any) -> Any:
-    """The factor that an equation was divided by as it was arranged."""
+    """Return the factor that an equation was divided by when it was arranged."""
     return tidied(kept / explicit(found).residual)
 
 

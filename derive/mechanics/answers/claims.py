@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of the outcomes of computed answers, and of the things that their sentences name."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _CAN_BE = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": 
 
 
 def one_of(alone: bool, first: bool) -> Predicate:
-    """Of how many unknowns this is which."""
+    """Whether this is the only unknown, the first of several, or a later one."""
 
     def is_so(facts: Judged) -> bool:
         count = sum(role.startswith("equation_") for role in facts.inputs)
@@ -83,7 +83,7 @@ def double(facts: Judged) -> bool:
 
 
 def only(facts: Judged) -> bool:
-    """Another root is there, at which the polynomial divided by this one vanishes; it is complex or not positive."""
+    """Whether this root is the only one kept: the polynomial has other roots, but they are complex or not positive."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
     return alone and all(_only_there(facts, point) for point in islice(points(_letters(facts), 4099), TRIED))
 
@@ -93,7 +93,7 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _only_there(facts: Judged, point: Any) -> bool:
-    """In numbers no other root is one that could be taken."""
+    """Whether, numerically, no other root is possible."""
     own = complex(value_at(explicit(facts.result), point))
     there = Poly(_polynomial(facts).as_expr().xreplace(point), facts.inputs["gen"])
     numbers = sorted((complex(root) for root in there.nroots(n=20, maxsteps=200)), key=lambda root: abs(root - own))
@@ -116,7 +116,7 @@ def of_several(first: bool) -> Predicate:
 
 
 def where_the_coefficients_last(predicate: Predicate) -> Predicate:
-    """Where all coefficients vanish, any number is a root: the sentence excludes that, or its condition does."""
+    """Check that the sentence or its condition excludes that all coefficients vanish, when any number is a root."""
 
     def is_so(facts: Judged) -> bool:
         known = [facts.inputs[role] for role in ("excluded", "condition") if role in facts.inputs]
@@ -134,7 +134,7 @@ def absent(facts: Judged) -> bool:
 
 
 def beyond_one(facts: Judged) -> bool:
-    """By numbers for the letters: the cosine is greater than 1, or less than -1."""
+    """Whether, numerically, the cosine is greater than 1, or less than -1."""
     value = with_numbers(facts.result.left)
     letters = {letter: Rational(7, 5) for letter in value.free_symbols}
     there = value.xreplace(letters).evalf(20)
@@ -154,7 +154,7 @@ def identity(facts: Judged) -> bool:
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
-    """What must not vanish divides the difference, and the quotient still vanishes where the result says."""
+    """Whether the excluded factor divides the difference, and the quotient still vanishes for the result."""
     excluded = facts.inputs.get("excluded")
     if excluded is None:
         return True
@@ -168,14 +168,14 @@ def compared(squared: bool) -> Predicate:
         left, right = facts.result.sides
         unknown = facts.inputs["unknown"]
         alone = left == (unknown**2 if squared else unknown) and not explicit(right).has(left)
-        limited = "existing" not in facts.inputs or isinstance(unknown, sin | cos)  # nothing else is between -1 and 1
+        limited = "existing" not in facts.inputs or isinstance(unknown, sin | cos)  # within 1
         return bool(alone) and limited and _is_divided_as_told(facts)
 
     return is_so
 
 
 def always(wanted: bool) -> Predicate:
-    """Whether the sign that the difference has for all values of the letters is one that was asked for."""
+    """Whether the difference has one sign for all values of the letters, and this sign fulfils the comparison."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in _CAN_BE[MARK_OF[facts.words["comparison"]]]
@@ -189,7 +189,7 @@ def always(wanted: bool) -> Predicate:
 
 
 def as_let(equation: bool, reason: bool) -> Predicate:
-    """An equation has no letter, and a value has one."""
+    """Whether the step is an equation, which has no symbol, or a value, which has one; and whether it has a reason."""
 
     def is_so(facts: Judged) -> bool:
         letter = facts.symbol is None if equation else facts.symbol is not None
@@ -199,7 +199,7 @@ def as_let(equation: bool, reason: bool) -> Predicate:
 
 
 def near(*places: Any) -> Predicate:
-    """Whether something is left out, and the letter goes to one of these, or to none of those that have a word."""
+    """Whether terms are left out, and the letter goes to one of these places, or to a place without a special word."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -214,12 +214,12 @@ def nothing_left_out(facts: Judged) -> bool:
 
 
 def is_nothing(facts: Judged) -> bool:
-    """The limit is zero, and what goes there is not."""
+    """Whether the limit is zero, but the original value is not."""
     return is_zero(facts.result) and not nothing_left_out(facts)
 
 
 def goes_as(wanted: int) -> Predicate:
-    """By the result alone, which is one power of what is small: it stays, vanishes with it, or grows."""
+    """Judge by the result, one power of the small quantity, whether it stays finite, vanishes or diverges."""
 
     def is_so(facts: Judged) -> bool:
         x, to = facts.inputs["x"], facts.inputs["to"]
@@ -236,10 +236,10 @@ def goes_as(wanted: int) -> Predicate:
 
 
 def bent(sign: int) -> Predicate:
-    """By the values a little to both sides of the place, in numbers: they are below it, or above."""
+    """Judge numerically, by values a little to both sides of the place: they are below the value there, or above."""
 
     def is_so(facts: Judged) -> bool:
-        x = Dummy("x", **facts.inputs["letter"].assumptions0)  # that which varies has no number
+        x = Dummy("x", **facts.inputs["letter"].assumptions0)  # the letter that varies has no number
         varied = {facts.inputs["letter"]: x}
         value, place = (with_numbers(facts.inputs[role].xreplace(varied)) for role in ("value", "place"))
         told = [c for role, c in facts.inputs.items() if role == "condition" or role.startswith("inside_")]
@@ -269,7 +269,7 @@ def exact(facts: Judged) -> bool:
 
 
 def _says_what_is_kept(facts: Judged) -> bool:
-    """The equation is what is kept, but for a factor: each vanishes with the other."""
+    """Whether the equation equals the kept terms up to a factor without rates."""
     residual = explicit(facts.result).residual
     moving = [s for s in residual.free_symbols if s.name.endswith(("_dot", "_ddot"))]
     ratio = facts.inputs["kept"] / residual
@@ -277,7 +277,7 @@ def _says_what_is_kept(facts: Judged) -> bool:
 
 
 def leading(*places: Any) -> Predicate:
-    """No order is asked for, and the letter goes to one of these, or to none of those that have a word."""
+    """Whether no order is requested, and the letter goes to one of these places, or to one without a special word."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -297,7 +297,7 @@ def to_order(wanted: int | None) -> Predicate:
 
 
 def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
-    """Numbers for the letters, from one scale to another and of both signs; in the range of one that has some."""
+    """Yield numbers for the letters, of several magnitudes and both signs; within the range of a letter with one."""
     ordered = sorted(letters, key=str)
     for shift in range(12):
         drawn = (Rational(prime(5 + (7 * i + 3 * shift) % 23), 2 + (i + shift) % 5) for i in range(len(ordered)))
@@ -305,8 +305,8 @@ def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
 
 
 def _two_roots(facts: Judged) -> Iterable[tuple[Expr, Expr, Expr]]:
-    """This root, the other and the factor b, in numbers for which the roots are real: those that are given, and some
-    for each letter that has none."""
+    """Yield this root, the other root and the coefficient b at numbers for which the roots are real: the given numbers,
+    and some for each letter without one."""
     quadratic = facts.inputs["quadratic"]
     other = -quadratic.b / quadratic.a - facts.result
     this, other, b, discriminant = map(with_numbers, (facts.result, other, quadratic.b, quadratic.discriminant))
@@ -331,12 +331,12 @@ LARGER = roots_fit(lambda this, other, b: abs(this) > abs(other) and this * othe
 
 
 def whether(real: bool, predicate: Predicate) -> Predicate:
-    """The roots are known to be real, or that is not known."""
+    """Check also whether the roots are known to be real, or this is unknown."""
     return lambda facts: (sign_known(facts.inputs["quadratic"].discriminant) == 1) == real and predicate(facts)
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
-    """By the sign of the discriminant, and of the product of the roots where it is positive."""
+    """Judge by the sign of the discriminant and, if it is positive, by that of the product of the roots."""
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
@@ -353,7 +353,7 @@ def linear(facts: Judged) -> bool:
 
 
 def root(facts: Judged, fact: RootOf) -> bool:
-    """It is a root of its factor."""
+    """Whether the value is a root of its factor."""
     value = facts.result.right if isinstance(facts.result, Relation) else facts.result
     powers = range(len(fact.coefficients) - 1, -1, -1)
     return is_zero(sum(c * explicit(value) ** n for c, n in zip(fact.coefficients, powers, strict=True)))
@@ -369,8 +369,8 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 
 def names_put_in(facts: Judged, value: Any) -> bool:
-    """Where letters alone are replaced, each by a value of others, the original becomes the result, or an equation
-    that says the same."""
+    """Whether the original becomes the result, or an equivalent equation, if only letters are replaced, by values
+    without these letters."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
     if value.mark != "=" or value.left.could_extract_minus_sign():
@@ -380,7 +380,7 @@ def names_put_in(facts: Judged, value: Any) -> bool:
         return True
     before, after = explicit(facts.inputs["original"]), explicit(facts.result)
     names = {s.name for s in before.free_symbols}
-    if any({f"{letter.name}_dot", f"{letter.name}_ddot"} & names for letter in told):  # which are replaced with it
+    if any({f"{letter.name}_dot", f"{letter.name}_ddot"} & names for letter in told):  # rates too
         return True
     there = before.xreplace({letter: explicit(at) for letter, at in told.items()})
     if isinstance(after, Relation):
@@ -396,12 +396,12 @@ def small_there(facts: Judged, small: Any) -> bool:
 
 
 def near_that(facts: Judged, place: Any) -> bool:
-    """What is said to be small vanishes there."""
+    """Whether the quantity that the sentence calls small vanishes there."""
     return is_zero(facts.inputs["small"].subs(facts.inputs["letter"], place))
 
 
 def highest_power(facts: Judged, power: Any) -> bool:
-    """No power beyond it is kept, and it is the order that was asked for."""
+    """Whether no higher power is kept, and the power is the requested order."""
     order, x, to = (facts.inputs[role] for role in ("order", "letter", "to"))
     if order == -1 or to in (oo, -oo):
         return order in (-1, power)
@@ -413,7 +413,7 @@ def for_short_times(facts: Judged, time: Any) -> bool:
 
 
 def goes_to(facts: Judged, place: Any) -> bool:
-    """What is named comes close to the place that is named."""
+    """Whether the named letter approaches the named place."""
     approach = facts.inputs["approach"]
     return isinstance(approach, Approach) and is_zero(approach.args[1] - place)
 
@@ -434,12 +434,12 @@ def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
 
 
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
-    """At the bound itself there still is a root, so that only what is beyond it has none."""
+    """Whether the condition for no root is strict: at the bound there still is a root."""
     return outcome != "none" or (facts.result.mark == "<" and is_zero(facts.result.right))
 
 
 def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
-    """With the upper or the lower sign in both roots there is the one that was found."""
+    """Whether the formula of both roots, with the upper or the lower sign, gives the root of the step."""
     if "sign" not in facts.words:
         return _says_its_bound(facts, outcome)
     sign = {"upper": 1, "lower": -1}[facts.words["sign"]]
@@ -447,7 +447,7 @@ def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
 
 
 def as_asked_for(facts: Judged, outcome: str) -> bool:
-    """Roots are those of an equation, zeros those of a result, which does vanish where it is said to elsewhere."""
+    """Whether the word is "roots" for an equation, "zeros" for a result, which vanishes for the other factors too."""
     given = facts.inputs["equation"]
     beside, whole = facts.inputs.get("elsewhere"), explicit(given)
     whole = whole.residual if isinstance(whole, Relation) else whole
@@ -466,8 +466,8 @@ def as_asked(facts: Judged, outcome: str) -> bool:
 
 
 def word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """ "at most" for <=: the first line shows the mark, and what follows is compared with that; and the quantity is
-    what is compared, not what it is compared with."""
+    """Whether the word fits the mark, "at most" for <=, which is that of the first line; and whether the quantity of
+    the sentence is the left side of the comparison, not the bound."""
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
@@ -480,13 +480,13 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def there_where_told(facts: Judged, outcome: str) -> bool:
-    """A place where something is extreme is real just where that is said, and between the ends just where that is."""
+    """Whether the place of an extremum is real exactly where the sentence says so, and between the ends likewise."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
     return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
-    """By numbers for the letters, where the interval has a width and the place is real."""
+    """Judge at numbers for which the interval has a positive width and the place is real."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]
@@ -507,7 +507,7 @@ def _between_the_ends_just_where_told(facts: Judged) -> bool:
 
 
 def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
-    """What is named goes to its limit where the letter that was expanded in does: h/R with h."""
+    """Whether the named ratio goes to its limit when the expansion letter does: h/R with h."""
     goes, approach, to = (facts.inputs[role] for role in ("letter", "approach", "to"))
     if not isinstance(approach, Approach) or approach.args[0] != goes:
         return False

@@ -1,4 +1,4 @@
-"""What is made of several results by arithmetic: a ratio of two frequencies, the difference of two motions."""
+"""Arithmetic with several results: a ratio of two frequencies, the difference of two motions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from derive.steps.subject import EVERYTHING
 __all__ = ["combination"]
 
 HALF = Rational(1, 2)
-LARGEST = 200  # operations of what is cancelled under roots
+LARGEST = 200  # operations up to which roots are cancelled
 
 
 COMBINATION = Rule(
@@ -33,14 +33,13 @@ COMBINATION = Rule(
 
 
 def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, symbol: str | None = None) -> Quantity:
-    """A number made of results, as a formula says it: pi Omega/omega, the angle from one apsis to the next.
-
-    expression   the formula, in letters and in marks for the results
-    values       mark -> the result that stands there; of an equation with a letter alone on its left, what that equals
-    symbol       its letter; without it the key
-    Nothing checks that it is what its letter says: it is a definition, and the page calls it one.
-    Outcomes: generic, named (a formula of letters alone).
-    Errors: a result is no number, such as a vector or an equation that is not solved.
+    """Number computed from results by a formula: pi Omega/omega, the angle from one apsis to the next.
+    expression   the formula, in letters and in placeholders for the results
+    values       placeholder -> its result; an equation with one letter on its left side counts as its right side
+    symbol       its letter; by default the key
+    Nothing checks that it is what its letter means: it is a definition, and the page calls it one.
+    Outcomes: generic, named (a formula of letters only).
+    Errors: a result is not a number, such as a vector or an equation that is not solved.
     Source: none needed: a definition.
     """
     inputs = {quantity.key: _number(quantity) for quantity in values.values()}
@@ -62,7 +61,7 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
 
 
 def _cancelled(value: Expr) -> Expr:
-    """As one writes it down, with nothing under a root that cancels."""
+    """Simplify a formula as it is usually written, and cancel factors under roots."""
     plain = presented(value)
     if plain.count_ops() > LARGEST:
         return plain
@@ -74,7 +73,7 @@ def _cancelled(value: Expr) -> Expr:
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:
-    """The quantity; or the value of what has no letter: of an equation, or of x_dot^2, whose root is no square."""
+    """Return the quantity; or, if it has no plain letter, its value: of an equation, or of x_dot^2."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
         return quantity if isinstance(quantity.symbol, Symbol) else explicit(value)
@@ -82,7 +81,7 @@ def _number(quantity: Quantity) -> Quantity | Expr:
         right = explicit(value.right)
         if not left_over(right, unknown_of("combination", value.left)):
             return right
-    raise Rejected(Complaint("wrong-argument", f"`combination`: `{quantity.key}` is no number"))
+    raise Rejected(Complaint("wrong-argument", f"`combination`: `{quantity.key}` is not a number"))
 
 
 @in_results(

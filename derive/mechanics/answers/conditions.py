@@ -1,4 +1,4 @@
-"""Where a quantity has a certain sign or value: a relation, worked until what is asked for stands alone."""
+"""Where a quantity has a certain sign or value: a relation, solved for one letter."""
 
 from __future__ import annotations
 
@@ -72,26 +72,26 @@ def where(
     through: tuple[Relation, Sequence[Quantity]] | None = None,
     for_real: bool = False,
 ) -> Quantity:
-    """Where a quantity is greater than a bound, less, equal to it: v > 0 where R > a/2, solved for one letter.
+    """Where a quantity is greater than a bound, less, or equal to it: v > 0 where R > a/2, solved for one letter.
 
     of       a scalar, any unit
     mark     one of =, !=, <, >, <=, >=
-    bound    what it is compared with, of the same unit; 0, or another quantity
-    letter   what stands alone in the end: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
-    in its square; or what was given for a letter, 2b for R, of which one letter is taken
-    through  the same in other letters, told on the way, and the results that these stand for
-    for_real whether it is a discriminant, asked for real roots
+    bound    the bound, of the same unit; 0, or another quantity
+    letter   the unknown: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
+    in its square; or the expression given for a letter, 2b for R, which is solved for one of its letters
+    through  the same condition in other letters, as an intermediate line, and the results for these letters
+    for_real whether it is a discriminant, for real roots
     Check: a little above the solved bound, at it and a little below, the sign of the difference; and at random
     points both relations are true, or both false.
-    What both sides are divided by must not vanish, which is told where nothing decides it; in an inequality its sign
+    A divisor of both sides must not vanish, which the page states if it is unknown; in an inequality its sign
     must be known, by the letters, their ranges or their numbers.
-    Outcomes: solved, squared (for the square of the letter only); whatever the letters are: always, never, equal (it is
-    neither greater nor less, where one of the two was asked for).
-    Errors: the relation cannot be solved for that letter; a mark that is none.
+    Outcomes: solved, squared (for the square of the letter only); for all values of the letters: always, never, equal
+    (it is neither greater nor less, but one of the two was asked for).
+    Errors: the relation cannot be solved for that letter; an unknown mark.
     Source: none needed: algebra of inequalities.
     """
     if mark not in TURNED:
-        message = f"`where`: `{mark}` is no mark"
+        message = f"`where`: `{mark}` is not a mark"
         raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
     bound = Integer(bound) if isinstance(bound, int) else bound
     difference = tidied(explicit(number_of(of)) - explicit(value_behind(bound)))
@@ -122,7 +122,7 @@ def where(
         ),
         routes={
             "beside": lambda found: _beside(found, difference, mark),
-            # Where one factor of known sign lies between the two relations, what is so beside the bound is so anywhere.
+            # If the two relations differ by one factor of known sign, the check near the bound is valid everywhere.
             **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",
@@ -137,13 +137,13 @@ def where(
 
 
 def _by_way_of(criterion: Relation, stands_for: Sequence[Quantity], difference: Expr) -> list[Form]:
-    """The criterion in other letters, whose values are put in next."""
+    """Return the criterion in other letters, whose values are substituted next."""
     residual = explicit(with_those(criterion.residual, {q.symbol: q.value for q in stands_for}))
     return [Form(criterion, "solved", nonzero=divided_out(difference, residual, Integer(0)))]
 
 
 def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: Expr, sign: int, key: str) -> Quantity:
-    """The relation holds whatever the letters are, or never: what it is in fact."""
+    """Return the true relation, if it holds for all values of the letters or for none."""
     holds = sign in SIGNS_OF[mark]
     fact = mark if holds else {1: ">", -1: "<", 0: "="}[sign]
     return establish(
@@ -163,7 +163,7 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
 
 
 def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, tuple[Expr, Expr, str]]:
-    """The unknown itself, or of what was given for a letter, b of 2b for R, the first letter that will do."""
+    """Solve for the unknown; or, if an expression was given for a letter, 2b for R, for the first possible letter."""
     given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
     if not isinstance(given, Add | Mul):
         unknown = unknown_of("where", letter)
@@ -177,12 +177,12 @@ def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -
 
 
 def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
-    """Whether a positive letter, or a square, is compared with what cannot be positive: it is always the greater."""
+    """Whether a positive letter, or a square, is compared with a value that cannot be positive: it is greater."""
     return bool(alone.is_positive and solved.is_nonpositive) or bool(alone.is_nonnegative and solved.is_negative)
 
 
 def _excluded(difference: Expr, result: Relation) -> Relation | None:
-    """What must not vanish, since both sides of an equation are divided by it."""
+    """Return the condition that the factor by which both sides of an equation are divided does not vanish."""
     if result.mark not in ("=", "!="):
         return None
     factor = tidied(difference / result.residual)
@@ -190,7 +190,7 @@ def _excluded(difference: Expr, result: Relation) -> Relation | None:
 
 
 def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> list[Form]:
-    """Solved at once; or for the square of a positive letter, and then for the letter."""
+    """Return the lines of the solution: in one step; or for the square of a positive letter, then for the letter."""
     alone, solved = result.sides
     divided = divided_out(difference, alone, solved)
     if excluded is not None:
@@ -202,10 +202,10 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
 
 
 def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
-    """The difference a little above the bound and at it, and what the solved relation says of its sign there."""
+    """Return the difference a little above the bound and at it, and its sign there by the solved relation."""
     alone, place = found.sides
     d = Dummy("d", positive=True)
-    if alone.is_positive and sign_known(place) == -1:  # of x^2 > a the other root, which a positive letter never has
+    if alone.is_positive and sign_known(place) == -1:  # the other root of x^2 > a, which a positive letter never has
         return Integer(1), Integer(0)
     unknown, power = (alone.base, 2) if alone.is_Pow else (alone, 1)
     above = tidied(with_unknown(difference, unknown, _nth(place + d, power)))
@@ -228,7 +228,7 @@ def _truth(mark: str, sign: int) -> int:
 
 
 def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | None) -> Verdict:
-    """At random points both relations hold, or both do not."""
+    """Compare the relations at random points: both hold, or both do not."""
     seen = 0
     difference, residual = with_numbers(difference), with_numbers(found.residual)
     letters = letters_of(difference) | letters_of(residual)

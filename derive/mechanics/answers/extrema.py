@@ -1,4 +1,4 @@
-"""The greatest and the least value of a result: where its slope vanishes, what it is there, and which of the two."""
+"""The greatest and the least value of a result: where its slope vanishes, its value there, and which it is."""
 
 from __future__ import annotations
 
@@ -43,12 +43,11 @@ Within = tuple[Expr, Expr]
 )
 def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maximum") -> tuple[Quantity, Quantity]:
     """Where a result is greatest, and how great it is: f'(x) = 0 and f''(x) < 0.
-
     of       a scalar, any unit
-    letter   what may be chosen: an angle, a frequency, a length
-    within   the interval from which it is chosen; else all values that the letter can have
+    letter   the variable: an angle, a frequency, a length
+    within   its interval; by default all values that the letter can have
     Check: the value there against those at many other places of the interval.
-    Outcomes: greatest, least; their condition is told, where the place exists for some values of the letters only.
+    Outcomes: greatest, least; with a condition, if the place exists only for some values of the letters.
     Errors: no place, or several, where the slope vanishes and the curvature has that sign.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
@@ -64,10 +63,9 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
 )
 def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minimum") -> tuple[Quantity, Quantity]:
     """Where a result is least, and how great it is there: f'(x) = 0 and f''(x) > 0.
-
     of       a scalar, any unit
-    letter   what may be chosen: an angle, a frequency, a length
-    within   the interval from which it is chosen; else all values that the letter can have
+    letter   the variable: an angle, a frequency, a length
+    within   its interval; by default all values that the letter can have
     Check: as `maximum`.
     Errors: no place, or several, where the slope vanishes and the curvature has that sign.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
@@ -98,7 +96,7 @@ def _extremum(
 ) -> tuple[Quantity, Quantity]:
     value, x = explicit(of.value), letter_of(unknown_of(verb, letter))
     if not isinstance(value, Expr) or isinstance(value, Relation) or x not in value.free_symbols:
-        raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{of.key}` is no value that depends on {x.name}"))
+        raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{of.key}` is not a value that depends on {x.name}"))
     slope, curvature = tidied(value.diff(x)), value.diff(x, 2)
     within = (explicit(within[0]), explicit(within[1])) if within else _range_as_interval(x)
     inside = [(place, real, _inside(place, real, within, x)) for place, real in _places(slope, x)]
@@ -106,7 +104,7 @@ def _extremum(
     signs = [sign_known(curvature.subs(x, place)) for place, _ in found]
     sure = [pair for pair, sign in zip(found, signs, strict=True) if sign == curved]
     fitting = sure or [pair for pair, sign in zip(found, signs, strict=True) if sign is None]
-    fitting = [pair for pair in fitting if not pair[1]] or fitting  # a place that is there whatever the letters are
+    fitting = [pair for pair in fitting if not pair[1]] or fitting  # a place that exists for all values of the letters
     if len(fitting) != 1:
         raise _not_one(of, x, verb, len(fitting), bool(inside) and not found)
     ((place, conditions),) = fitting
@@ -147,34 +145,34 @@ def _extremum(
 
 
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
-    """Why there is not one place."""
+    """Return the error that there is not exactly one place."""
     many = "no place" if not count else f"{count} places"
-    message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
+    message = f"`{verb}`: `{of.key}` has {many} with zero slope and this curvature"
     help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
     if not count and elsewhere:
-        message = f"`{verb}`: `{of.key}` is not stationary for any {x.name} that is allowed"
+        message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"
         help_line = f"the {verb} is at an end of the interval, or there is none: `put_in` gives the value at an end"
     return Rejected(Complaint("no-extremum", message, help=help_line))
 
 
 def _range_as_interval(x: Symbol) -> Within | None:
-    """The interval in which the letter is known to lie."""
+    """Return the interval in which the letter is known to lie."""
     known = range_of(x)
     is_bounded = known is not None and known.least.is_finite and known.greatest.is_finite
     return (known.least, known.greatest) if known is not None and is_bounded else None
 
 
 def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
-    """Role -> condition: that the place is real, and that it lies between the ends."""
+    """Return role -> condition: that the place is real, and that it lies between the ends."""
     found = {} if real is None else {"condition": real}
     return {**found, **{f"inside_{n}": each for n, each in enumerate(dict.fromkeys(room), 1)}}
 
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
-    """Under which conditions the place lies between the ends, none if it always does; nothing where it never does."""
+    """Return the conditions for the place to lie between the ends, an empty list if it always does; None if never."""
     if within is None and not x.is_positive:
         return []
-    if within is None and real is not None:  # a root that is positive where it is real
+    if within is None and real is not None:  # a root that is positive if it is real
         return None if place.could_extract_minus_sign() else []
     low, high = within or (Integer(0), None)
     found = []
@@ -188,7 +186,7 @@ def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol
 
 
 def _sign_by_letters(ahead: Expr, width: Expr) -> int | None:
-    """The sign of a distance from an end, by the letters alone; the interval itself has a positive width."""
+    """Return the sign of a distance from an end, by the letters only; the interval has a positive width."""
     share = tidied(ahead / width)
     for part in (tidied(ahead), share):
         if vanishes(part):
@@ -202,7 +200,7 @@ def _sign_by_letters(ahead: Expr, width: Expr) -> int | None:
 
 
 def _apart(condition: Relation) -> Relation:
-    """b^2 < 2 k m of (k m - b^2/2)/m^2 > 0: what is taken away stands on the other side."""
+    """Write (k m - b^2/2)/m^2 > 0 as b^2 < 2 k m: subtracted terms move to the other side."""
     above, below = condition.left.as_numer_denom()
     terms = Add.make_args((above / abs(above.as_content_primitive()[0])).expand())
     away = [-term for term in terms if term.could_extract_minus_sign()]
@@ -212,7 +210,7 @@ def _apart(condition: Relation) -> Relation:
 
 
 def _root_of(inside: Expr) -> Expr:
-    """sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m)."""
+    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m)."""
     drawn = tidied(sqrt(inside))
     numbers = [f for f in Mul.make_args(drawn) if f.is_number and not f.is_Rational]
     return sqrt(inside.expand()) if numbers and inside.expand().is_Add else drawn
@@ -222,7 +220,7 @@ def _root_of(inside: Expr) -> Expr:
 
 
 def _places(slope: Expr, x: Symbol) -> Iterator[tuple[Expr, Relation | None]]:
-    """The zeros of each factor of the slope, with the condition under which they are real."""
+    """Yield the zeros of each factor of the slope, with the condition under which they are real."""
     numerator = slope.as_numer_denom()[0]
     for form in dict.fromkeys((numerator, tidied(TR8(numerator.expand())))):
         factors = [factor.as_base_exp()[0] for factor in Mul.make_args(form) if factor.has(x)]
@@ -244,7 +242,7 @@ def _zeros(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
 
 
 def _in_closed_form(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
-    """As the places of rest of a force are found: r^4 = l^2/(k m)."""
+    """Return the zeros by the method for equilibria of a force: r^4 = l^2/(k m)."""
     try:
         return [(zero.value, zero.exists) for zero in zeros_of(factor, x)]
     except Unsolved:
@@ -252,7 +250,7 @@ def _in_closed_form(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None
 
 
 def _of_angle(function: Function, x: Symbol) -> list[Expr]:
-    """Of cos(k x + c) the places where it vanishes, for a few half turns."""
+    """Return the zeros of cos(k x + c), for a few half turns."""
     (angle,) = function.args
     k = angle.diff(x)
     if k.has(x):
@@ -287,7 +285,7 @@ def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]
 
 
 def _of_one_angle(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
-    """A cos + B = 0, or A sin + B cos = 0, at one angle."""
+    """Return the zeros of A cos + B, or of A sin + B cos, for one angle."""
     u, v = Dummy("u"), Dummy("v")
     written = factor.expand().xreplace({sin(x): u, cos(x): v})
     if written.has(x):
@@ -303,7 +301,7 @@ def _of_one_angle(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]
 
 
 def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:
-    """The expression with the numbers of all letters but the one that varies."""
+    """Substitute the numbers of all letters except the one that varies."""
     varied = Dummy("x", **x.assumptions0)
     return with_numbers(expr.xreplace({x: varied})).xreplace({varied: x})
 
@@ -325,7 +323,7 @@ def _not_exceeded(
     curved: int,
     place: Expr,
 ) -> Verdict:
-    """At places spread over the interval, or near the place, nothing is beyond the extreme value."""
+    """Check that no value at places spread over the interval, or near the place, exceeds the extreme value."""
     value, top, place = (_with_numbers_beside(e, x) for e in (value, top, place))
     letters = (letters_of(value) | letters_of(top) | letters_of(place)) - {x}
     conditions = [*told.values(), *assumed()]

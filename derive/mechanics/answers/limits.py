@@ -1,4 +1,4 @@
-"""Limiting cases: what is left of a result where a letter is small, large, or near a value."""
+"""Limiting cases: the leading terms of a result where a letter is small, large, or near a value."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from derive.steps.subject import EVERYTHING
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
 MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # far beyond the samples of the other letters
-BORDERS = {"=": "", ">=": "min", "<=": "max"}  # what is to be said of the letter for its value on the border
+BORDERS = {"=": "", ">=": "min", "<=": "max"}  # index of the letter for its value on the boundary
 
 
 LIMITING_CASE = Rule(
@@ -62,8 +62,7 @@ LIMITING_CASE = Rule(
 
 @in_results(
     "limit",
-    "the limiting case; of an equation what is left of it, `{limit: motion_x, for: Omega, to: 0, order: 1}` to the "
-    "first order",
+    "the limiting case; or an equation expanded, `{limit: motion_x, for: Omega, to: 0, order: 1}` to the first order",
     of="limit: an answer, or an equation",
     letter="for: a letter",
     to="to: a value or `infinity`, 0 by default",
@@ -78,36 +77,34 @@ def limiting_case(
     key: str | None = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """What a result is in a limiting case, f = c_n e^n + ... with e what is small: x, 1/x or x - a.
-
-    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, of which the
-             least or the largest value is what goes to a limit; or another equation, of which `equation_in_limit` tells
-             what is left
-    letter   the letter that is small or large, or a ratio, h/R, of which the first letter goes there
-    to       0 where it is small, SymPy's `oo` where it is large, else the value that it is near
-    order    the highest power of what is small that is kept; the leading term alone if none is given
-    Of a vector or a tensor that is the leading power of its largest entry: the others vanish beside it. Letters that
-    are put equal, b = a, are `put_in`. The result has a letter of its own, `symbol` or omega_lim, and what is computed
-    from it is approximate.
+    """Result in a limiting case, f = c_n e^n + ... with the small quantity e: x, 1/x or x - a.
+    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, whose value, or
+             least or largest value, goes to a limit; or another equation, which `equation_in_limit` expands
+    letter   the letter that is small or large, or a ratio, h/R, whose first letter goes to the limit
+    to       0 if it is small, SymPy's `oo` if it is large, else the value that it is near
+    order    the highest power of the small quantity that is kept; by default only the leading term
+    For a vector or a tensor, the leading power is that of its largest entry: the others are negligible. Use `put_in` to
+    set letters equal, b = a. The result has a new letter, `symbol` or omega_lim, and results computed from it are
+    approximate.
     Check: the same terms by adding, multiplying and dividing power series, without a derivative; and numbers,
-    on each side: the rest, divided by the last power that is kept, goes to zero with what is small.
-    Outcomes: finite, vanishes, diverges (the leading term alone); small, large, near (to an order); exact (nothing is
+    on each side: the rest, divided by the last power that is kept, goes to zero with the small quantity.
+    Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
-    Errors: the result does not contain the letter; the letter changes in the motion and stays finite; the motion does
-    not get that far; the result has no such expansion (it oscillates there), has another on each side, or has no term
-    up to that order.
+    Errors: the result does not contain the letter; the letter changes in the motion and stays finite; the motion
+    does not reach the limit; the result has no such expansion (it oscillates there), has a different one on each side,
+    or has no term up to that order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     solved = _solved_for(of)
     if isinstance(of.value, Relation) and solved is None:
         if symbol is not None:
-            raise Rejected(Complaint("wrong-argument", f"`{of.key}` is an equation, which has no letter of its own"))
+            raise Rejected(Complaint("wrong-argument", f"`{of.key}` is an equation, which has no letter"))
         return equation_in_limit(of, letter, to, order, key)
     value = explicit(of.value.right if solved is not None else of.value)
     name = _name(of) if solved is None else solved
     goes, x = _what_goes(letter)
     if not isinstance(value, Expr | MatrixBase):
-        raise Rejected(Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is no number"))
+        raise Rejected(Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is not a number"))
     aim = explicit(to.value if isinstance(to, Quantity) else to)
     _check_letter(of, value, x, is_end=aim in (oo, -oo))
     _check_gets_far(of, x, aim)
@@ -116,7 +113,7 @@ def limiting_case(
     series = beginnings(of, value, x, place, order)
     found = _added_up(series, value, x, place)
     power = Rational(order) if order is not None else max((n for each in series for n in each), default=Rational(0))
-    if order is None and power > 0 and is_zero(value - found):  # its leading term is all of it: the limit says more
+    if order is None and power > 0 and is_zero(value - found):  # the limit says more than the whole
         series, power = [{Rational(0): Integer(0)} for _ in series], Rational(0)
         found = _added_up(series, value, x, place)
     exact, is_limit = is_zero(value - found), order is None and power == 0
@@ -155,7 +152,7 @@ def limiting_case(
 
 
 def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
-    """The letter of a limit, which is not that of the whole."""
+    """Return the letter of a limit, which must differ from that of the whole."""
     if symbol is None:
         return letter_of_limit(whole, x, aim)
     if symbol == str(whole):
@@ -165,13 +162,13 @@ def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
 
 
 def _whole(of: Quantity, name: Any, approach: Approach) -> Any:
-    """What goes to the limit: of a series in powers of that very letter, the letter of the whole series."""
+    """Return the letter of the whole: for a series in powers of the same letter, that of the exact value."""
     is_series = of.step.approximates is not None and dict(of.step.roles).get("approach") == approach
     return of.step.approximates if is_series else name
 
 
 def _solved_for(of: Quantity) -> Symbol | None:
-    """The letter that an equation gives, x of x = f, where f does not hold it; of x >= f the least value, x_min."""
+    """Return the letter for which an equation is solved, x of x = f, if f does not contain it; x_min of x >= f."""
     if not isinstance(of.value, Relation) or of.value.mark not in BORDERS:
         return None
     left, right = of.value.sides
@@ -182,7 +179,7 @@ def _solved_for(of: Quantity) -> Symbol | None:
 
 
 def _what_goes(letter: Any) -> tuple[Expr, Symbol]:
-    """What goes to a value as the page says it, and the letter that does it: of h/R the first letter, h."""
+    """Return the expression that goes to a value on the page, and the letter that moves it: h, the first of h/R."""
     if isinstance(letter, Mul):
         above = [part for part in Mul.make_args(letter.as_numer_denom()[0]) if isinstance(part, Symbol)]
         if above and above[0] not in (letter / above[0]).free_symbols:
@@ -192,17 +189,17 @@ def _what_goes(letter: Any) -> tuple[Expr, Symbol]:
 
 
 def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
-    """The letter occurs and is constant; far away and after a long time a coordinate and the time have a limit too."""
+    """Check that the letter occurs and is constant; a coordinate or the time may only go to infinity."""
     if x not in value.free_symbols:
         message = f"`limiting_case`: `{of.key}` does not contain {x.name}"
         raise Rejected(Complaint("nothing-to-put-in", message))
     if not is_end and changes(x, {**of.coordinates, **dict.fromkeys(named_coordinates(), "")}) is not None:
-        message = f"`limiting_case`: {x.name} changes in the motion, so that it is not small all the time"
+        message = f"`limiting_case`: {x.name} changes in the motion, so it is not always small"
         raise Rejected(Complaint("changes", message, help="give a letter that is constant"))
 
 
 def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
-    """Where conservation of energy gives the rate of the coordinate that becomes large, the motion gets that far."""
+    """Check that the motion reaches the limit, if energy conservation gives the rate of the coordinate that grows."""
     for each in of.ancestors() if aim in (oo, -oo) else ():
         known = each.fact(ByEnergy)
         if known is not None and known.coordinate == x:
@@ -211,7 +208,7 @@ def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
 
 
 def _check_assumed(x: Symbol, aim: Expr) -> None:
-    """Close to the limit there are values of the other letters for which everything holds that the page assumes."""
+    """Check that near the limit some values of the other letters fulfil all assumptions of the page."""
     signs = {">": 1, "<": -1}
     kept = [with_numbers(each.residual * signs[each.mark[0]]) for each in assumed() if each.mark[0] in signs]
     conditions = [each for each in kept if x in each.free_symbols]
@@ -221,13 +218,13 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
             if all(value_at(each, {**point, x: near}) > 0 for each in conditions):
                 return
     if conditions:
-        message = f"`limiting_case`: where {x.name} goes to {aim}, not everything holds that is assumed"
+        message = f"`limiting_case`: where {x.name} goes to {aim}, not all assumptions hold"
         help_line = "leave that relation out of `assume:`, or give another limit"
         raise Rejected(Complaint("contradiction", message, help=help_line))
 
 
 def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
-    """Large numbers, or numbers on both sides of the aim."""
+    """Return a large number, or numbers on both sides of the limit."""
     if aim in (oo, -oo):
         return (FAR if aim == oo else -FAR,)
     there = explicit(aim).xreplace(dict(point))
@@ -236,7 +233,7 @@ def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
 
 
 def _added_up(series: Sequence[Series], value: Any, x: Symbol, place: Expr) -> Any:
-    """The terms of each entry together."""
+    """Add the terms of each entry."""
     added = [tidied_terms(each, x, place) for each in series]
     return ImmutableDenseMatrix(*value.shape, added) if isinstance(value, MatrixBase) else added[0]
 
@@ -250,7 +247,7 @@ def _last_line(found: Any, series: Sequence[Series], x: Symbol, place: Expr, exa
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
-    """What is a polynomial already in ascending powers, its leading term in front: 2 pi sqrt(l/g) (1 + A^2/16)."""
+    """Write a polynomial in ascending powers, its leading term as a factor: 2 pi sqrt(l/g) (1 + A^2/16)."""
     if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
         return value
     try:
@@ -287,19 +284,19 @@ KNOWN_CASE = Rule(
 
 
 def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Quantity:
-    """What a limiting case gives is what is known from elsewhere, f = g.
+    """Agreement of a limiting case with a known result, f = g.
 
     found   the result in a limiting or a special case, any unit
-    known   the same quantity by a derivation of its own
+    known   the same quantity from an independent derivation
     Second route: the known result, entry by entry.
     Outcomes: generic.
-    Errors: the two are not equal; the one is derived from the other.
+    Errors: the two are not equal; one is derived from the other.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     values = [explicit(q.value.right if _solved_for(q) is not None else q.value) for q in (found, known)]
     if found.rests_on(known) or known.rests_on(found):
         first, other = (found, known) if found.rests_on(known) else (known, found)
-        message = f"`{first.key}` is derived from `{other.key}`, so that their agreement would say nothing"
+        message = f"`{first.key}` is derived from `{other.key}`, so their agreement would prove nothing"
         raise Rejected(Complaint("same-source", message))
     if not equal(*values):
         raise Rejected(Complaint("wrong-limit", f"`{found.key}` is {values[0]}, but `{known.key}` is {values[1]}"))
@@ -327,11 +324,11 @@ CASE_IN_LETTERS = Rule(
 def case_in_letters(
     found: Quantity, formula: Expr, values: Sequence[Quantity], key: str = "case_in_letters"
 ) -> Quantity:
-    """What a limiting case gives, in the letters of earlier results: 3 g/(2 a S) is M g l/(I_z S).
+    """Limiting case written in the letters of earlier results: 3 g/(2 a S) is M g l/(I_z S).
 
     found    the result in a limiting or a special case, any unit
     formula  the same in letters
-    values   the results that these letters stand for
+    values   the results with these letters
     Check: all letters replaced at once, against the limiting case.
     Outcomes: generic.
     Errors: the two are not equal.

@@ -1,7 +1,6 @@
-"""The two roots of a quadratic equation in one formula, the condition under which they are real, and each by itself.
-
-An equation a x^2 + b x + c = 0 may be a general one in letters; the values that the letters have here are put in
-after the formula, so that the page shows both. Where a is zero the equation is linear and has one root.
+"""The two roots of a quadratic equation in one formula, the condition under which they are real, and each root.
+An equation a x^2 + b x + c = 0 may be a general one in letters; the values of the letters in this problem are
+substituted after the formula, so the page shows both. If a is zero, the equation is linear and has one root.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ class Quadratic:
 
 @dataclass(frozen=True)
 class Roots(Fact):
-    """The quadratic equation that roots are those of: in letters, with values put in, its unknown, these values."""
+    """The quadratic equation of the roots: in letters, with values substituted, its unknown, and these values."""
 
     missing = "is not the root of a quadratic equation, as `roots` yields it with `together`"
     general: Quadratic
@@ -76,21 +75,20 @@ class Roots(Fact):
         return {q.key: q for q in self.values}
 
     def with_those(self, expr: Expr, those: Sequence[Any]) -> Expr:
-        """The formula with names or with values for the letters of some quantities."""
+        """Substitute names or values for the letters of some quantities in a formula."""
         return bound(expr, dict(zip((q.symbol for q in self.values), those, strict=True)))
 
 
 def roots_together(
     equation: Quantity, x: Symbol, values: Sequence[Quantity], key: str, keys: Sequence[str], symbols: Sequence[str]
 ) -> tuple[Quantity, ...]:
-    """Both roots of a quadratic equation in one formula, then each by itself, the smaller in size first.
-
-    equation   a x^2 + b x + c = 0, perhaps times what does not hold x
+    """Both roots of a quadratic equation in one formula, then each separately, the smaller in absolute value first.
+    equation   a x^2 + b x + c = 0, perhaps times a factor without x
     x          the unknown
-    values     what letters of the coefficients stand for here
-    key        of the step that has both; `keys` and `symbols` are those of each by itself
-    As many are yielded as there are keys: what is the only one, or says that there is none, stands for all of them.
-    Check: put back into the equation; their sum; the product of the two.
+    values     quantities for letters of the coefficients
+    key        of the step with both roots; `keys` and `symbols` are those of the separate roots
+    As many steps are returned as there are keys: a single root, or the statement that there is none, counts for all.
+    Check: substituted back into the equation; their sum; the product of the two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of, apart = _coefficients(equation, x, values)
@@ -114,8 +112,8 @@ def roots_together(
 
 
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
-    """Those of an equation that is quadratic in x, or linear, the first without a minus sign; and what else is a factor
-    of its left side, with the values put in."""
+    """Return the coefficients of an equation that is quadratic or linear in x, the first one without a minus sign, and
+    the factor of its left side without x, with the values substituted."""
     factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))
     polynomial = Mul(*(f for f in factors if x in f.free_symbols)).as_poly(x)
@@ -152,12 +150,11 @@ ROOTS_TOGETHER = Rule(
 
 def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequence[str]) -> Quantity:
     """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
-
     equation   a x^2 + b x + c = 0
-    of         its coefficients, and what letters of them stand for here
-    apart      what else the left side has as a factor
-    keys       answers that this step gives where there is only one root
-    Second route: put back into the equation; the sum of the two is -b/a.
+    of         its coefficients, and the quantities for letters in them
+    apart      the factor of the left side without x
+    keys       answers that this step gives if there is only one root
+    Second route: substituted back into the equation; the sum of the two is -b/a.
     Outcomes: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (two, one of each sign), linear.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
@@ -191,7 +188,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
 
 
 def character(of: Quadratic) -> str:
-    """What the roots are like: told by the discriminant and by the sign of their product."""
+    """Return the outcome for the roots, by the discriminant and by the sign of their product."""
     sign = sign_known(of.discriminant)
     if sign == 1:
         return "opposite" if sign_known(of.a * of.c) == -1 else "two"
@@ -199,7 +196,7 @@ def character(of: Quadratic) -> str:
 
 
 def _linear_formula(of: Quadratic) -> Expr:
-    """-c/b, with as few minus signs as it needs."""
+    """Return -c/b, with as few minus signs as possible."""
     return Ratio(of.c, -of.b) if of.b.could_extract_minus_sign() else Ratio(-of.c, of.b)
 
 
@@ -208,7 +205,7 @@ def _formula(of: Quadratic) -> Expr:
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
-    """k (u +- sqrt(u^2 - w)), where u is what the coefficient b alone has: S, not m a^2 S."""
+    """Write k (u +- sqrt(u^2 - w)), where u has the letters that only the coefficient b has: S, not m a^2 S."""
     own = [
         f
         for f in Mul.make_args(-of.b)
@@ -227,7 +224,7 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
 
 
 def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
-    """The words for the two roots: of one sign or of opposite ones, where they are known to be real."""
+    """Return the outcomes of the two roots: of the same sign or of opposite signs, if they are known to be real."""
     if real is None:
         return "smaller_where_real", "larger_where_real"
     return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
@@ -254,10 +251,9 @@ ONE_OF_TWO = Rule(
 def _one_of_two(
     both: Quantity, sign: int, outcome: str, key: str, letter: str | None, stands_for: Sequence[str] = ()
 ) -> Quantity:
-    """One of the two roots of a quadratic equation, that with the sign before the square root.
-
-    Second route: put back into the equation; 2 c/(-b -+ sqrt(b^2 - 4 a c)), in which the smaller root is the one with
-    the larger denominator.
+    """One of the two roots of a quadratic equation, with the given sign before the square root.
+    Second route: substituted back into the equation; 2 c/(-b -+ sqrt(b^2 - 4 a c)), in which the smaller root has the
+    larger denominator.
     Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (of opposite signs), coinciding.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
@@ -287,23 +283,23 @@ def _one_of_two(
 
 
 def _indexed(name: str, key: str) -> str:
-    """phi_slow_dot of slow_precession, phi_1_dot of roots_1."""
+    """Return the letter of a root by its key: phi_slow_dot for slow_precession, phi_1_dot for roots_1."""
     index = key.rpartition("_")[2] if key[-1].isdigit() else key.partition("_")[0]
     order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
     return f"{name.removesuffix(order)}_{index}{order}"
 
 
 def _of_sign(both: Expr, sign: int) -> Expr:
-    """The formula with one of the two signs, still one product."""
+    """Return the formula with one of the two signs, still one product."""
     factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
     return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 
 
 def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
-    """That there is no real root with the numbers that are given, b^2 - 4 a c < 0.
+    """Statement that there is no real root for the given numbers, b^2 - 4 a c < 0.
 
     Outcomes: none.
-    Second route: the numbers put into the discriminant as the resultant has it.
+    Second route: the numbers substituted in the discriminant by the resultant.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of = both.needed(Roots)
@@ -328,12 +324,12 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
 
 
 def _by_resultant(of: Roots) -> Expr:
-    """The discriminant by the resultant of the polynomial and its derivative, which is -a Delta."""
+    """Return the discriminant Delta by the resultant of the polynomial and its derivative, which is -a Delta."""
     return tidied(-_resultant(of.quadratic) / of.quadratic.a)
 
 
 def _resultant(here: Quadratic) -> Expr:
-    """That of the polynomial, by its values at three places, and its derivative: Sylvester's determinant."""
+    """Return the resultant of the polynomial, by its values at three points, and its derivative, by Sylvester."""
     at_none, at_one, at_other = (here.at(Integer(n)) for n in (0, 1, -1))
     second, first = (at_one + at_other) / 2 - at_none, (at_one - at_other) / 2
     slope = [2 * here.a, here.b]
@@ -358,7 +354,7 @@ DISCRIMINANT = Rule(
 def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
     """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
 
-    roots   one of them, as `roots` yields them with `together`
+    roots   one of the roots, as `roots` yields them with `together`
     Check: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
     Outcomes: positive, negative, vanishing, conditional (not known from the letters); linear (b^2, a being zero).
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
@@ -389,11 +385,11 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
 def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: bool = False) -> Quantity:
     """Condition under which the roots of a quadratic equation are real, b^2 - 4 a c >= 0, solved for a letter.
 
-    roots    one of them, as `roots` yields them with `together`
-    letter   what stands alone in the end
-    distinct whether they are to be two, b^2 - 4 a c > 0
-    The discriminant is a step of its own; of a linear equation it is b^2, which does not vanish. Where values were put
-    into the equation, the condition is told in letters first.
+    roots    one of the roots, as `roots` yields them with `together`
+    letter   the letter to solve for
+    distinct whether two different roots are required, b^2 - 4 a c > 0
+    The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
+    substituted in the equation, the condition is shown in letters first.
     Check: as `where`.
     Outcomes: those of `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.

@@ -1,7 +1,7 @@
 """Roots of a polynomial equation in one letter: linear, quadratic, and of higher degree where it factors.
 
-A letter for a positive number keeps the roots that can be positive. Where it depends on the letters whether a root is
-real or positive, the condition is told with it.
+For a positive unknown only the roots that can be positive are kept. If it depends on the letters whether a root is real
+or positive, the page states the condition with it.
 """
 
 from __future__ import annotations
@@ -68,24 +68,23 @@ def roots(
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
     """Roots of an equation in one letter, x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic factor, x = -b/a
-    for each linear one; only the positive ones where the letter is that of a positive number, in ascending order.
-
-    equation   a polynomial in the letter; or a result that is no equation, of which the zeros are wanted
+    for each linear one; only the positive ones if the unknown is positive, in ascending order.
+    equation   a polynomial in the letter; or a result that is not an equation, for its zeros
     letter     the unknown: a letter, a coordinate, a rate, or such as `cos(theta)`
-    values     what letters of the coefficients stand for here, put in after the formula: with `together`
+    values     quantities for letters of the coefficients, substituted after the formula: with `together`
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a); then
-               each by itself, the smaller in size first. What is the only root, or says that there is none, then
-               stands for all of the keys
-    keys       what the steps are called; else by the letter, with _1, _2 where there are several
-    key        what the keys begin with in place of the letter
-    symbols    the letters of the roots; else that of the unknown, with _1, _2 where there are several
-    Check: put back into the equation; by Vieta the sum and the product of all roots are those that the
-    coefficients give.
-    Factors that vanish elsewhere, sin(theta) where cos(theta) is sought, are told, or assumed not to vanish.
-    Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind it),
+               each separately, the smaller in absolute value first. A single root, or the statement that there is
+               none, then counts for all of the keys
+    keys       keys of the steps; by default the letter, with _1, _2 if there are several
+    key        the beginning of the keys in place of the letter
+    symbols    the letters of the roots; by default that of the unknown, with _1, _2 if there are several
+    Check: substituted back into the equation; by Vieta the sum and the product of all roots
+    agree with the coefficients.
+    Factors that vanish elsewhere, sin(theta) if cos(theta) is the unknown, are stated, or assumed not to vanish.
+    Outcomes: single, double, only (the others are not positive, or complex), several, following (those after it),
     none (no root is real), none_positive, none_reached (a sine or a cosine would be greater than 1 or less than -1); of
     the two together: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (one of each sign), linear.
-    Errors: it is no polynomial in the letter, or has a factor of a degree above two.
+    Errors: it is not a polynomial in the letter, or has a factor of a degree above two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
     unknown = unknown_of("roots", letter)
@@ -155,7 +154,7 @@ def _step(
     name = _name(unknown, letter, 0 if alone else i + 1)
 
     def vieta(found: Expr) -> tuple[Any, Any]:
-        """Sum and product of all roots, from the found one and the others, against the coefficients."""
+        """Compare the sum and the product of all roots with the coefficients."""
         total = found + Add(*(value * n for value, n in others))
         product = found * Mul(*(value**n for value, n in others))
         n, (leading, *rest) = polynomial.degree(), polynomial.all_coeffs()
@@ -210,7 +209,7 @@ def _step(
 
 
 def _name(unknown: Expr, letter: str, number: int) -> Expr:
-    """The letter of a root; a root that is the value of cos(theta) is called so, with the letter of the angle."""
+    """Return the letter of a root; a value of cos(theta) has the name cos(theta), with the letter of the angle."""
     if not isinstance(unknown, Symbol):
         return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
     if not letter and not number:
@@ -219,7 +218,7 @@ def _name(unknown: Expr, letter: str, number: int) -> Expr:
 
 
 def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
-    """What must not vanish, unless the condition says so already: cos(theta_0) > 0."""
+    """Return the factors that must not vanish, except those that the condition excludes already: cos(theta_0) > 0."""
     excluded = may_vanish(divisor)
     if excluded is None or condition is None or condition.mark != ">" or not is_zero(condition.right):
         return excluded
@@ -247,7 +246,7 @@ ROOTS_ABSENT = Rule(
 
 
 def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, key: str) -> Quantity:
-    """The discriminant is negative; or the root that could be positive is not."""
+    """State that there is no root: the discriminant is negative; or the largest root is not positive."""
     last = _ascending(list(every))[-1] if real else every[0]
     mark = "=" if real and is_zero(last.value) else "<"
     if real:
@@ -273,13 +272,13 @@ def _asked(equation: Quantity) -> str:
 
 
 def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
-    """What all coefficients are multiplied by: P of P (R u - r)."""
+    """Return the common factor of all coefficients: P of P (R u - r)."""
     found = {root.coefficients: root.times for root in every}
     return tidied(polynomial.LC() / Mul(*(c[0] ** times for c, times in found.items())))
 
 
 def _is_out_of_reach(root: RootOf, unknown: Expr) -> bool:
-    """Whether no angle has it for its sine or cosine."""
+    """Whether no angle has the root as its sine or cosine."""
     return isinstance(unknown, sin | cos) and root.value not in (1, -1) and within_one(root.value)[1]
 
 
@@ -300,8 +299,8 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
 
 
 def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
-    """For which values of the letters an angle has it for its sine or cosine; not at the border, where the other of the
-    two vanishes, if the equation was divided by that."""
+    """Return the condition for an angle with this sine or cosine; without the boundary, where the other function
+    vanishes, if the equation was divided by that function."""
     if not isinstance(unknown, sin | cos) or root.value in (1, -1):
         return None
     exists, _ = within_one(root.value)
@@ -311,7 +310,7 @@ def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | Non
 
 
 def _by_resultant(root: RootOf) -> Expr:
-    """The discriminant by the resultant of the quadratic factor and its derivative, which is -a D."""
+    """Return the discriminant D by the resultant of the quadratic factor and its derivative, which is -a D."""
     a, b, c = root.coefficients
     x = Dummy("x")
     return -resultant(a * x**2 + b * x + c, 2 * a * x + b, x) / a
@@ -324,7 +323,7 @@ def _polynomial(equation: Quantity, left: Expr, x: Symbol, unknown: Expr) -> Pol
     except PolynomialError:
         found = None
     if found is None or found.degree() < 1:
-        message = f"`{equation.key}` is no polynomial in {unknown}"
+        message = f"`{equation.key}` is not a polynomial in {unknown}"
         raise Rejected(Complaint("no-polynomial", message))
     if found.LC().could_extract_minus_sign():
         found = -found
@@ -332,14 +331,14 @@ def _polynomial(equation: Quantity, left: Expr, x: Symbol, unknown: Expr) -> Pol
 
 
 def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[Poly, int]]:
-    """The factors that contain the unknown, with their multiplicities."""
+    """Return the factors that contain the unknown, with their multiplicities."""
     x = polynomial.gen
     _, parts = factor_list(polynomial.as_expr(), x) if _is_plain(polynomial) else (1, [(polynomial.as_expr(), 1)])
     found = [(part.as_poly(x), times) for part, times in parts if part.has(x)]
     if any(part is None or part.degree() > 2 for part, _ in found):
         degree = max(part.degree() for part, _ in found if part is not None)
         message = f"`roots`: `{equation.key}` does not factor, and is of degree {degree} in {unknown}"
-        raise Rejected(Complaint("not-solved", message, help="put numbers in, or a special case"))
+        raise Rejected(Complaint("not-solved", message, help="substitute numbers, or a special case"))
     return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
 
 
@@ -348,7 +347,7 @@ def _is_plain(polynomial: Poly) -> bool:
 
 
 def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
-    """A quadratic polynomial that is a square, as one linear factor twice."""
+    """Return a quadratic polynomial that is a square as a double linear factor."""
     if polynomial.degree() == 2:
         a, b, c = polynomial.all_coeffs()
         if is_zero(b**2 - FOUR * a * c):
@@ -364,9 +363,8 @@ def _of_factor(factor: Poly, times: int) -> list[RootOf]:
 
 
 def _sign(root: RootOf) -> int | None:
-    """Of a quadratic factor by Vieta: the roots have the sign of -b/a where their product is positive.
-
-    Without a linear term a root is real only where a and c have opposite signs, so that one of the two decides.
+    """Return the sign of a root; for a quadratic factor by Vieta: the sign of -b/a if the product is positive.
+    Without a linear term a root is real only if a and c have opposite signs, so one of the two decides.
     """
     if len(root.coefficients) == 2:
         return sign_known(root.value)
@@ -383,10 +381,10 @@ def _sign(root: RootOf) -> int | None:
 
 
 def _condition(root: RootOf, unknown: Expr) -> Relation | None:
-    """Under which the root is real, or positive where it must be."""
+    """Return the condition for the root to be real, or positive if required."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        lost = sign_known(c) or strict_sign_within(unknown) == 1  # of a x^2 + c with a = 0; or it is 0 there
+        lost = sign_known(c) or strict_sign_within(unknown) == 1  # no root of a x^2 + c if a = 0; or it is 0
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(_without_positive(root.discriminant)), mark, ZERO)
     if strict_sign_within(unknown) == 1 and _sign(root) is None:
@@ -395,20 +393,20 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
 
 
 def _sum_of_squares(root: RootOf) -> bool:
-    """b^2 - 4 a c where the product of the roots is negative."""
+    """Whether the discriminant b^2 - 4 a c is positive, since the product of the roots is negative."""
     a, _, c = root.coefficients
     return sign_known(a * c) == -1
 
 
 def _without_positive(value: Expr) -> Expr:
-    """The factors that decide its sign."""
+    """Return the factors that decide the sign of a value."""
     value = tidied(value)
     kept = [f for f in Mul.make_args(value) if not f.is_positive]
     return Mul(*kept)
 
 
 def _ascending(found: list[RootOf]) -> list[RootOf]:
-    """In ascending order, where that is known: by numbers, by the signs, or within one quadratic factor."""
+    """Sort the roots in ascending order, if it is known: by numbers, by signs, or within one quadratic factor."""
     numbers = [with_numbers(root.value) for root in found]
     if all(number.is_real and not number.free_symbols for number in numbers):
         order = sorted(range(len(found)), key=lambda i: numbers[i].evalf(30))
@@ -419,13 +417,13 @@ def _ascending(found: list[RootOf]) -> list[RootOf]:
 
 
 def _turned(found: Sequence[RootOf]) -> bool:
-    """The two roots of one factor whose leading coefficient is negative."""
+    """Whether these are the two roots of one factor with a negative leading coefficient."""
     one_factor = len(found) == 2 and found[0].coefficients == found[1].coefficients and found[0].sign == -1
     return one_factor and sign_known(found[0].coefficients[0]) == -1
 
 
 def _numbered(name: str, n: int) -> str:
-    """theta_1, and of a rate phi_1_dot."""
+    """Return the letter with a number: theta_1, or phi_1_dot for a rate."""
     order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
     return f"{name.removesuffix(order)}_{n}{order}"
 
@@ -441,7 +439,7 @@ def _assumed(unknown: Expr) -> dict[str, bool]:
 
 @in_results(
     "roots",
-    "the roots of an equation; of another answer, where it vanishes",
+    "the roots of an equation; for another answer, its zeros",
     equation="roots: an equation, or another answer",
     letter="for: a letter, or `cos(theta)`",
     root="root: one of several: `positive`, `negative`, `largest`, `smallest`, `2`",
@@ -450,7 +448,7 @@ def _assumed(unknown: Expr) -> dict[str, bool]:
 def _in_results(
     equation: Quantity, letter: Letter, key: str, root: str | None = None, symbols: Symbols = ()
 ) -> tuple[Quantity, ...] | Quantity:
-    """Zeros are called as they were asked for, roots by the letter; all of them, or the one that is chosen."""
+    """Return all roots or the chosen one; the keys of zeros are those of the request, the keys of roots the letter."""
     begins = None if isinstance(equation.value, Relation) else key
     found = roots(equation, letter, symbols=tuple(symbols) or None, key=begins)
     return found if root is None else _chosen(found, root)
@@ -469,7 +467,7 @@ CHOICES: Mapping[str, Callable[[Quantity, Sequence[Quantity]], bool]] = {
 
 
 def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
-    """The root that is meant, of those that there are."""
+    """Return the root that the author chose."""
     if any(isinstance(root.value, Relation) for root in found):
         raise Rejected(Complaint("no-root", f"there is no root that could be `{which}`", argument="root"))
     if which.isdigit():
@@ -478,15 +476,15 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
         return found[int(which) - 1]
     if which not in CHOICES:
         help_line = did_you_mean(which, CHOICES) or f"it is {', '.join(f'`{way}`' for way in CHOICES)}, or a number"
-        message = f"`{which}` does not say which root"
+        message = f"`{which}` does not specify which root"
         raise Rejected(Complaint("wrong-type", message, help=help_line, argument="root"))
     fitting = [root for root in found if CHOICES[which](root, found)]
     if len(fitting) != 1:
-        raise _no_choice(which, "none is known to be so" if not fitting else f"{len(fitting)} are so", found)
+        raise _no_choice(which, "no root is known to be so" if not fitting else f"{len(fitting)} are so", found)
     return fitting[0]
 
 
 def _no_choice(which: str, why: str, found: Sequence[Quantity]) -> Rejected:
     values = ", ".join(str(explicit(root.value)) for root in found)
-    message = f"`root: {which}` does not say which root: {why}"
+    message = f"`root: {which}` does not specify which root: {why}"
     return Rejected(Complaint("no-root", message, help=f"the roots are {values}", argument="root"))

@@ -1,4 +1,4 @@
-"""Linear equations solved for what is asked: accelerations, tensions, multipliers, any letter."""
+"""Linear equations solved for unknowns: accelerations, tensions, multipliers, any letter."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ MOST = 6  # unknowns that are eliminated together
 def solved_for(
     equations: Quantity | Sequence[Quantity], *unknowns: Any, keys: Sequence[str] | None = None
 ) -> tuple[Quantity, ...]:
-    """The unknowns of as many linear equations, each by Cramer's rule, u_i = det A_i/det A; one equation: u = -b/a.
+    """Solution of n linear equations for n unknowns by Cramer's rule, u_i = det A_i/det A; one equation: u = -b/a.
 
     equations   one equation or several
     unknowns    letters, rates, accelerations (`x.acceleration`), or such as `theta.rate**2`, `cos(theta)`
-    keys        what the steps are called; else each by the letter of its unknown
-    Check: all values put back into all equations, and the unknowns eliminated one after another.
-    Outcomes: alone (one equation), several, following (the second of several unknowns and those behind it).
+    keys        keys of the steps; by default the letters of the unknowns
+    Check: all values substituted back into all equations, and the unknowns eliminated one after another.
+    Outcomes: alone (one equation), several, following (the second of several unknowns and those after it).
     Errors: another number of equations than of unknowns; equations that are not linear in them, or that do not
     determine them.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 3.3.
@@ -67,7 +67,7 @@ def solved_for(
         help_line = "one of the equations follows from the others, or they contradict each other"
         raise Rejected(Complaint("singular", message, help=help_line))
     values = eliminated(matrix, right)
-    below = [tidied(value).as_numer_denom()[1] for value in values]  # the equations may have had this below already
+    below = [tidied(value).as_numer_denom()[1] for value in values]  # the equations may already have these denominators
     excluded = may_vanish(determinant, *below)
     called = list(keys or [_key_of(unknown) for unknown in wanted])
     if len(called) != len(wanted):
@@ -104,7 +104,7 @@ def _solution(
     excluded: Any,
     key: str,
 ) -> Quantity:
-    """The step of one unknown."""
+    """Return the step of one unknown."""
     above = matrix.copy()
     above[:, i] = right
     unknown = wanted[i]
@@ -151,7 +151,7 @@ def _written(matrix: Matrix) -> Expr:
 
 
 def eliminated(matrix: Matrix, right: Matrix) -> list[Expr]:
-    """Gauss: each unknown in turn from the equation whose factor of it is the simplest, put into the others."""
+    """Gaussian elimination: take each unknown from the equation with its simplest factor, put it into the others."""
     rows = [[*(matrix[i, j] for j in range(matrix.cols)), right[i]] for i in range(matrix.rows)]
     n = matrix.cols
     for column in range(n):
@@ -181,7 +181,7 @@ def _named(given: Sequence[Quantity], several: str = "are", one: str = "is") -> 
 
 
 def _key_of(unknown: Expr) -> str:
-    """theta_ddot, theta_dot_squared, cos_theta."""
+    """Return the key of an unknown: theta_ddot, theta_dot_squared, cos_theta."""
     if isinstance(unknown, Symbol):
         return str(unknown.name)
     letter = letter_of(unknown)
@@ -197,6 +197,6 @@ def _key_of(unknown: Expr) -> str:
     unknowns="for: letters, rates, accelerations, forces",
 )
 def _in_results(equations: Sequence[Quantity], unknowns: Letters, key: str) -> tuple[Quantity, ...]:
-    """With the name alone where there is one unknown, else one for each."""
+    """Solve with the name as the key if there is one unknown, else with a numbered key for each."""
     keys = [key] if len(unknowns) == 1 else [f"{key}_{i + 1}" for i in range(len(unknowns))]
     return solved_for(tuple(equations), *unknowns, keys=keys)

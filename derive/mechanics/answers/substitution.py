@@ -1,4 +1,4 @@
-"""One result put into another: what an equation or a value becomes once its letters have values."""
+"""Substitution of results and values in an equation or another value."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["put_in"]
 
-Replacement = tuple[Expr, Expr]  # what stands there, and what is put there
+Replacement = tuple[Expr, Expr]  # the replaced expression, and its replacement
 Rests = Quantity | Mapping[Any, Any] | Sequence[Quantity]
 
 
@@ -58,19 +58,19 @@ def put_in(
     again: Quantity | None = None,
     **values: Any,
 ) -> Quantity:
-    """What a value or an equation becomes with other results, or values of letters, put in: f(x) with x = g is f(g).
+    """Value or equation with other results, or values of letters, substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
-    others   results, each for the letter that it is called by; equations that have a letter, a rate, its square or a
-    cosine alone on their left; mappings of letters or coordinates to values
-    values   of letters by their names, `theta=0`: those at one moment
-    again    what is found once more in this way, so that it must be the same
-    One after another, in this order, the values last. A coordinate that is given as a function of others, or of the
-    time, takes its rates along.
-    Check: the letters of the original replaced all at once by what they finally are; what is found once more.
-    Outcomes: results, values (letters only), zero (with these values), identity (an equation that then holds by
-    itself), again.
-    Errors: nothing there to replace; an equation that is not solved for a letter; a relation that cannot hold; a place
+    others   results, each for its letter; equations with only a letter, a rate, its square or a
+    cosine on their left; mappings of letters or coordinates to values
+    values   of letters by their names, `theta=0`: those at one instant
+    again    an earlier result that is derived once more in this way and must be the same
+    They are substituted one after another, in this order, the values last. If a coordinate is given as a function of
+    others, or of the time, its rates are substituted too.
+    Check: the letters of the original replaced all at once by their final values; the earlier result.
+    Outcomes: results, values (letters only), zero (with these values), identity (an equation that then always holds),
+    again.
+    Errors: nothing to replace; an equation that is not solved for a letter; a relation that cannot hold; a place
     that the motion does not reach.
     Source: none needed: substitution.
     """
@@ -82,7 +82,7 @@ def put_in(
     there = _values(of, given, values, value)
     _check_reached(of, rests, [*told, *there])
     for pair in there:
-        if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # an earlier value may have taken it away
+        if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # an earlier value may have removed it
             value = _all_put(value, [pair], str(pair[0]), of, told)
     result = arranged(value, list(coordinates_of(of, *rests)))
     _check_holds(of, result)
@@ -128,7 +128,7 @@ def _outcome(result: Any, rests: Sequence[Quantity]) -> str:
 def _kept_facts(
     of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement], told: Sequence[Replacement]
 ) -> list[Fact]:
-    """What is still true with these results put in."""
+    """Return the facts that remain true after these substitutions."""
     found: list[Fact] = [f for f in of.facts if isinstance(f, OfCoordinate)]
     kept = [fact for rest in rests if (fact := rest.fact(KeptMomentum)) is not None]
     source = of.fact(FromLagrangian)
@@ -143,11 +143,11 @@ def _kept_facts(
 def _at_one_moment(
     of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement], result: Any
 ) -> list[AtOneMoment]:
-    """That a coordinate or a rate was given a constant value, here or in what was put in."""
+    """Return the fact that a coordinate or a rate has a constant value, here or in a substituted result."""
     moving = coordinates_of(of, *rests)
     every = {rate(q, n) if n else q: q for q in moving for n in range(len(RATES))}
     if of.fact(Constant) is not None and not result.free_symbols & {*every, TIME}:
-        return []  # what is constant is at all times what it is at one
+        return []  # a constant has the same value at all times
     fixed = [
         every[letter_of(s)] for s, value in there if letter_of(s) in every and not value.free_symbols & {*every, TIME}
     ]
@@ -156,7 +156,7 @@ def _at_one_moment(
 
 
 def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]]:
-    """The results, and the values of letters."""
+    """Return the results, and the values of letters."""
     results: list[Quantity] = []
     given: dict[Any, Any] = {}
     for each in others:
@@ -170,8 +170,8 @@ def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]
 
 
 def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
-    """What a result replaces: its letter, and the rates of a coordinate that it gives for the whole motion; of a
-    momentum that keeps its value the rate of its coordinate too."""
+    """Return the replacements by a result: its letter, and the rates of a coordinate that it gives for the whole
+    motion; for a conserved momentum also the rate of its coordinate."""
     kept = quantity.fact(KeptMomentum)
     if kept is not None:
         target, value = rate(kept.coordinate), kept.turning
@@ -179,20 +179,20 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
     if isinstance(quantity.value, Relation):
         target, value = quantity.value.sides
         if quantity.value.mark != "=" or is_zero(quantity.value.residual):
-            raise Rejected(Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is no equation for a letter"))
+            raise Rejected(Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is not an equation for a letter"))
     else:
         target, value = _letter_replaced(quantity, of), quantity.value
     value = explicit(value)
     if isinstance(value, MatrixBase):
         raise Rejected(
-            Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is no number", help="`at` takes vectors")
+            Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is not a number", help="`at` takes vectors")
         )
     try:
         target = unknown_of("put_in", target)
     except Rejected:
         target = None
     if target is None or left_over(value, target):
-        message = f"`put_in`: `{quantity.key}` does not have one letter alone on its left"
+        message = f"`put_in`: `{quantity.key}` does not have a single letter on its left"
         raise Rejected(
             Complaint(
                 "wrong-argument",
@@ -207,7 +207,7 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """The letter of a result; a root, a limit or a series with another letter replaces the unknown or the whole."""
+    """Return the letter that a result replaces; a root, a limit or a series may replace the unknown or the whole."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
@@ -215,7 +215,7 @@ def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
 
 
 def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[Replacement]:
-    """The rates of a coordinate, or of a rate, that is a function of others or of the time; the highest first."""
+    """Return the rates of a coordinate, or of a rate, that depends on others or on the time; the highest first."""
     order = next((n for q in moving for n in (0, 1) if target == (rate(q, n) if n else q)), None)
     letters = {rate(q, n) if n else q for q in moving for n in range(len(RATES))} | {TIME}
     if order is None or not isinstance(target, Symbol) or not value.free_symbols & letters:
@@ -228,7 +228,7 @@ def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[R
 
 
 def _values(of: Quantity, given: Mapping[Any, Any], named: Mapping[str, Any], value: Any) -> list[Replacement]:
-    """The letters, with what they are at that moment."""
+    """Return the letters, with their values at that instant."""
     letters = {s.name: s for s in value.free_symbols}
     pairs: list[tuple[Expr, Any]] = [(unknown_of("put_in", target), at) for target, at in given.items()]
     for name, at in named.items():
@@ -259,14 +259,14 @@ def _plain(of: Quantity, target: Expr, at: Any) -> Expr:
 
 
 def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity, told: list[Replacement]) -> Any:
-    """The value after these replacements, of which one must find what it replaces; they are put on the list."""
+    """Return the value after these replacements, at least one of which must apply; add them to the list."""
     before = value
     for target, at in pairs:
         put = partial(_replaced, target, at)
         check_defined("put_in", of.key, f"{target} = {at}", value, put)
         after = _mapped(value, target, at)
         if after != value and not isinstance(target, Symbol) and left_over(after, target):
-            message = f"`put_in`: `{of.key}` contains {letter_of(target).name} otherwise than in {target}"
+            message = f"`put_in`: `{of.key}` contains {letter_of(target).name} outside {target}"
             raise Rejected(Complaint("wrong-argument", message))
         if after != value:
             told.append((target, at))
@@ -290,7 +290,7 @@ def _mapped(value: Any, target: Expr, at: Expr) -> Any:
 
 
 def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
-    """What each letter is once all later values are put into it."""
+    """Return the final value of each letter, after all later substitutions."""
     final: dict[Symbol, Expr] = {}
     for target, at in reversed(told):
         final = {**final, **{letter: bound(v, final) for letter, v in meaning(target, at).items()}}
@@ -298,7 +298,7 @@ def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
 
 
 def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
-    """The original with each letter replaced by what it finally is."""
+    """Return the original with each letter replaced by its final value."""
     final = _final(told)
     if isinstance(value, Relation):
         return Relation(bound(value.left, final), value.mark, bound(value.right, final))
@@ -306,8 +306,8 @@ def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
 
 
 def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
-    """Tidy; an equation of motion by its accelerations; of another relation to zero what is positive in all terms is
-    left out."""
+    """Simplify a value; sort an equation of motion by its accelerations; drop the positive factors of any other
+    relation to zero."""
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(presented))
     if not isinstance(value, Relation):
@@ -328,7 +328,7 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
 
 
 def _energy_by_terms(value: Expr) -> Expr | None:
-    """(1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a bracket: kinetic and potential energy stay apart."""
+    """Write (1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a bracket: keep T and U in separate terms."""
     moving = list(coordinates_in(value))
     squares = [rate(q) ** 2 for q in moving if value.has(rate(q))]
     if not squares or value.as_numer_denom()[1].free_symbols:
@@ -346,7 +346,7 @@ def _is_identity(result: Any) -> bool:
 
 
 def _check_reached(of: Quantity, rests: Sequence[Quantity], told: Sequence[Replacement]) -> None:
-    """A place that is put in is one that the motion reaches; one that was found from the motion has its condition."""
+    """Check that the motion reaches a substituted place; a place that was found from the motion has its condition."""
     for speed in {id(a): a for quantity in (of, *rests) for a in quantity.ancestors() if a.fact(ByEnergy)}.values():
         found = any(each.rests_on(speed) for each in rests)
         for target, place in told:
@@ -355,7 +355,7 @@ def _check_reached(of: Quantity, rests: Sequence[Quantity], told: Sequence[Repla
 
 
 def _is_place_of(target: Expr, place: Expr, speed: Quantity, moving: Mapping[Symbol, str]) -> bool:
-    """Whether a constant is put in for the coordinate of a motion, or for a function of it that the rate contains."""
+    """Whether a constant is substituted for the coordinate of a motion, or for a function of it in the rate."""
     known = speed.fact(ByEnergy)
     return (
         known is not None
@@ -365,7 +365,7 @@ def _is_place_of(target: Expr, place: Expr, speed: Quantity, moving: Mapping[Sym
 
 
 def _check_holds(of: Quantity, result: Any) -> None:
-    """An equation between two different numbers holds never."""
+    """Reject an equation between two different numbers, which never holds."""
     if isinstance(result, Relation) and result.mark == "=" and not is_zero(result.residual):
         if explicit(result.residual).is_nonzero:
             message = f"`{of.key}` cannot hold with these values: it would be {result}"
@@ -373,7 +373,7 @@ def _check_holds(of: Quantity, result: Any) -> None:
 
 
 def _name(of: Quantity, symbol: str | None) -> Any:
-    """The letter of the original; what is called by a derivative takes its key for a letter."""
+    """Return the letter of the original; if this is a derivative, the key serves as the letter."""
     if isinstance(of.value, Relation):
         return None
     if symbol is not None:
@@ -387,7 +387,7 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _key_for(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> str:
-    """tension_at_theta, motion_x_with_tension."""
+    """Return the key of the result: tension_at_theta, motion_x_with_tension."""
     if there:
         return f"{of.key}_at_" + "_".join(dict.fromkeys(letter_of(target).name for target, _ in there))
     return f"{of.key}_with_" + "_".join(quantity.key for quantity in rests)
@@ -412,7 +412,7 @@ def _in_results(
     values: Values = NONE,
     symbol: str | None = None,
 ) -> Quantity:
-    """Of a state, which may say more than this answer needs, the values of what there is."""
+    """Substitute the values of a state, which may contain more than this answer needs."""
     there = {s.name for quantity in (of, *results) for s in explicit(quantity.value).free_symbols}
     state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
     for name in (name for name in values if name not in there | state):

@@ -1,4 +1,4 @@
-"""Steps of plain algebra: a value somewhere, the length of a vector, anything else by `let`."""
+"""Steps of plain algebra: the value for particular vectors or letters, the length of a vector, any other by `let`."""
 
 from __future__ import annotations
 
@@ -50,12 +50,11 @@ AT = Rule(
 
 
 def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
-    """The value that a general result takes for a particular vector.
-
-    general      established with the components of a vector left open
-    particular   the vector to put in: same symbol, same axes
+    """Value of a general result for a particular vector.
+    general      a result for a vector with unspecified components
+    particular   the vector to substitute: same symbol, same axes
     Check: the law itself, evaluated with the particular vector from the start.
-    Errors: the general result does not contain that vector's components; it is one of another kind, or of a rotation
+    Errors: the general result does not contain that vector's components; the vector is of another kind, or a rotation
     about another point.
     Source: none needed: substitution.
     """
@@ -88,21 +87,21 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
 
 
 def _check_same_kind(general: Quantity, particular: Quantity) -> None:
-    """What is put in is of the kind that was left open, and turns about the same point."""
+    """Check that the particular vector is of the kind of the general one, and rotates about the same point."""
     opened = next((q for q in general.ancestors() if q is not general and q.symbol == particular.symbol), None)
     if opened is None:
         return
     if opened.step.kind != particular.step.kind:
-        message = f"`at`: `{particular.key}` is not of the kind that `{opened.key}` leaves open"
+        message = f"`at`: `{particular.key}` is not of the same kind as `{opened.key}`"
         raise Rejected(Complaint("wrong-argument", message))
     there, here = (q.fact(Through) for q in (opened, particular))
     if there and here and there != here:
-        message = f"`at`: `{opened.key}` turns about the {there.point}, but `{particular.key}` about the {here.point}"
+        message = f"`at`: `{opened.key}` rotates about the {there.point}, but `{particular.key}` about the {here.point}"
         raise Rejected(Complaint("wrong-point", message))
 
 
 def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
-    """The value with each name replaced, the terms of its sum kept apart."""
+    """Replace each name in the value, and keep the terms of its sums separate."""
     sums = [f for f in Mul.make_args(value) if isinstance(f, Add)]
     outside = bound(Mul(*(f for f in Mul.make_args(value) if not isinstance(f, Add))), values)
     kept = [Terms(*_nonzero(bound(term, values) for term in f.as_ordered_terms())) for f in sums]
@@ -110,7 +109,7 @@ def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
 
 
 def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
-    """A term whose factor is zero is left out, as one does on paper."""
+    """Leave out the terms that vanish."""
     kept = [term for term in terms if explicit(term) != 0]
     return kept or [Integer(0)]
 
@@ -123,10 +122,9 @@ WITH_VALUES = Rule(
 
 
 def with_values(general: Quantity, *values: Quantity, key: str | None = None) -> Quantity:
-    """The value of a general result once the letters in it have values.
-
+    """Value of a general result with values for its letters.
     general   a scalar in letters, any unit
-    values    what some of its letters stand for
+    values    quantities for some of its letters
     Check: the law itself, evaluated with these values from the start.
     Errors: the general result contains none of these letters.
     Source: none needed: substitution.
@@ -138,7 +136,7 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
     for value in values:
         meant = next((q for q in general.ancestors() if q.symbol == value.symbol), None)
         if meant is not None and meant.step != value.step:
-            message = f"`{general.key}` rests on `{meant.key}`, not on `{value.key}`: both are {value.symbol}"
+            message = f"`{general.key}` depends on `{meant.key}`, not on `{value.key}`: both are called {value.symbol}"
             raise Rejected(Complaint("different-subjects", message))
     if not general.value.free_symbols & set(known):
         names = " and ".join(f"`{q.key}`" for q in values)
@@ -225,7 +223,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
 
 
 def _rate_of_square(of: Quantity) -> list[RateOfSquare]:
-    """d(v.v)/dt = 2 v.dv/dt, where the rate of the vector is known by particles."""
+    """Return the fact for d(v.v)/dt = 2 v.dv/dt, if the rate of the vector is known by particles."""
     known = of.fact(RateByParticles)
     return [] if known is None else [RateOfSquare(of.value, known)]
 
@@ -251,17 +249,16 @@ def let(
     kind: str | None = None,
     because: str | None = None,
 ) -> Quantity:
-    """A name for an expression in quantities, or an equation that is set up: a definition, shown with its substitution.
-
-    key          what the step is called
+    """Name for an expression in quantities, or an equation set up by the author: a definition, with its substitution.
+    key          the key of the step
     law          a function of the quantities; it gives an expression, or an equation as SymPy's `Eq(left, right)`
-    kind         what kind of quantity it is, "force", "time"; else it has the dimension of the expression and no kind
-    because      why it is so, in the words of the script: "by Newton's second law"
-    It is about what the quantities are about, as far as they agree, and changes with the coordinates and the time that
-    it contains. Mass points and forces that all its quantities have go with it. Nothing checks that it is what its
-    letter says: where it is an answer, the page calls it a definition.
+    kind         the kind of the quantity, "force", "time"; by default it has only the dimension of the expression
+    because      the reason, in the words of the script: "by Newton's second law"
+    It has the subject of the quantities, as far as they agree, and changes with the coordinates and the time that it
+    contains. If all its quantities have mass points and forces, it has them too. Nothing checks that it is what its
+    letter means: if it is an answer, the page calls it a definition.
     Outcomes: generic, because (with the reason that is given), equation, equation_because.
-    Errors: no such kind; the expression is no scalar; an equation with a letter or a kind, or which holds by itself.
+    Errors: no such kind; the expression is not a scalar; an equation with a letter or a kind, or one that always holds.
     Source: none needed: a definition.
     """
     if kind is not None and kind not in KINDS:
@@ -310,7 +307,7 @@ def let(
 
 
 def _by_rates(value: Expr) -> Expr:
-    """(1/2) m R^2 theta_dot^2 + m g R cos(theta): an energy has its terms apart."""
+    """Write an energy with separate terms: (1/2) m R^2 theta_dot^2 + m g R cos(theta)."""
     moving = list(coordinates_in(value))
     return by_rates(explicit(value), moving, halves=True) if moving else tidied(value)
 
@@ -322,6 +319,6 @@ def _sort_of(is_equation: bool, has_reason: bool) -> str:
 
 
 def _facts_of(quantities: Sequence[Quantity]) -> list[Fact]:
-    """The mass points and forces of all quantities, where each of them has some of one motion."""
+    """Return the mass points and forces of all quantities, if each of them has some of one motion."""
     known = [matter for q in quantities if (matter := q.fact(Matter)) is not None]
     return [sum(known[1:], known[0])] if known and len(known) == len(quantities) else []

@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of the outcomes of impacts, and of the things that their sentences name."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from derive.steps.step import is_zero
 
 
 def is_struck(wanted: bool) -> Predicate:
-    """Whether some impulse has power where that coordinate changes."""
+    """Whether some impulse has power when the coordinate changes."""
     return lambda facts: wanted != is_zero(explicit(facts.inputs["slope"]))
 
 
 def restitution(wanted: int | None) -> Predicate:
-    """Elastic with all of the speed, together with none of it, else with a part."""
+    """Judge by the coefficient of restitution: 1 is elastic, 0 is together, and any other is a part of the speed."""
 
     def is_so(facts: Judged) -> bool:
         part = facts.inputs["restitution"]
@@ -30,7 +30,7 @@ def restitution(wanted: int | None) -> Predicate:
 
 
 def momentum_of(facts: Judged, q: Any) -> bool:
-    """The rates stand in the jump with the second derivatives of T by q_dot and each rate, in that moment."""
+    """Whether each rate has the second derivative of T by q_dot and this rate as its factor in the jump."""
     T, there = value_of_role(facts, "kinetic"), dict(facts.inputs["at"])
     moving = facts.quantities["kinetic"].coordinates
     inertia = {s: diff(T, rate(q), rate(s)).subs(there, simultaneous=True) for s in moving}
@@ -38,7 +38,7 @@ def momentum_of(facts: Judged, q: Any) -> bool:
 
 
 def impulse_of_its_condition(facts: Judged, letter: Any) -> bool:
-    """The power of the impulse has each rate with the factor that it has in the condition."""
+    """Whether each rate has the same factor in the power of the impulse and in the condition, up to a common factor."""
     power, left = diff(value_of_role(facts, "power"), letter), explicit(facts.result).left
     rates = power.free_symbols | left.free_symbols
     return parallel({v: diff(power, v) for v in rates}, {v: diff(left, v) for v in rates})

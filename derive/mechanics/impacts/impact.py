@@ -1,4 +1,4 @@
-"""A blow: what acts on a system in a moment, where it is then and how it moves before."""
+"""A blow: the impulses on a system at one instant, its coordinates at that instant, and its rates before."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ Vector = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Impulse:
-    """A given impulse at a place, N s; or on an angle, N m s. The law has the components; a route reads the given ones
-    for itself, as it does the state of a blow. `of` is the body that it acts on, if that is stated."""
+    """A given impulse at a place, N s; or on an angle, N m s. The law uses the components; a route reads the given ones
+    again, like the state of a blow. `of` is the body that it acts on, if this is stated."""
 
     components: Vector
     at: Vector
@@ -42,12 +42,11 @@ class Impulse:
 
 @dataclass(frozen=True)
 class Collision:
-    """Two places that meet, or one that meets what is at rest, where `start` is none.
-
-    along         the common normal, along which the impulse acts; without one the two stay together
-    restitution   the part of the speed of approach with which they part
-    letter        of the impulse; that of each component has its axis as index where they stay together
-    of            the bodies or particles that meet, of the start and of the end, where that is stated
+    """Two places that meet, or one that meets an object at rest, if `start` is None.
+    along         the common normal, along which the impulse acts; by default the two stay together
+    restitution   the ratio of the speeds of separation and of approach
+    letter        of the impulse; if they stay together, each component has its axis as index
+    of            the bodies or particles of the start and of the end, if they are stated
     given         normal and restitution as the author gave them, for a route
     """
 
@@ -63,10 +62,10 @@ class Collision:
 def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
     """A given impulse, the integral of a force over the short time of a blow, at a place, N s.
 
-    of   the body or particle whose particle at that place it acts on, where the place does not move with it
+    of   the body or particle that it acts on at that place, if the place does not move with it
     """
     if not isinstance(at, Location) or len(components) != len(at.components):
-        message = "`impulse` needs a place, and as many components as that has"
+        message = "`impulse` needs a place, and as many components as the place has"
         raise Rejected(Complaint("wrong-argument", message))
     return Impulse(tuple(as_expr(c) for c in components), at.components, of, tuple(components))
 
@@ -74,7 +73,7 @@ def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
 def angular_impulse(amount: Any, on: Any) -> Impulse:
     """A given angular impulse, the integral of a torque over the short time of a blow, on an angle, N m s."""
     if not coordinates_in(as_expr(on)):
-        raise Rejected(Complaint("wrong-argument", f"`angular_impulse` turns something, but {on} does not move"))
+        raise Rejected(Complaint("wrong-argument", f"`angular_impulse` needs a moving angle, but {on} does not move"))
     return Impulse((as_expr(amount),), (as_expr(on),), given=(amount,))
 
 
@@ -86,14 +85,13 @@ def collision(
     letter: str = "K",
     of: Any = None,
 ) -> Collision:
-    """A collision of two places, or of one with what is at rest: smooth along a normal, or they stay together.
-
-    start, end    the places, `start` none where the other meets what is at rest
-    along         a vector along the common normal, from `start` to `end`, of any length; without it the two have one
-                  velocity afterwards
-    restitution   1 where it is elastic, 0 where they do not part; a number
-    letter        of the impulse, N s, which acts on the end, and with the other sign on the start
-    of            the body or particle of the end, or those of start and end, where a place does not move with it
+    """A collision of two places, or of one with an object at rest: smooth along a normal, or they stay together.
+    start, end    the places; `start` is None if the other meets an object at rest
+    along         a vector along the common normal, from `start` to `end`, of any length; by default the two have the
+                  same velocity afterwards
+    restitution   1 if it is elastic, 0 if they do not separate; a number
+    letter        of the impulse, N s, which acts on the end, and with the opposite sign on the start
+    of            the body or particle of the end, or those of start and end, if a place does not move with it
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
@@ -104,7 +102,7 @@ def collision(
         raise Rejected(Complaint("wrong-argument", message))
     part = as_expr(restitution)
     if not normal and part != 0:
-        message = "a collision after which two places part again needs its normal"
+        message = "a collision after which two places separate needs its normal"
         raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
     if (part < 0) == True or (part > 1) == True:  # noqa: E712  which may be undecided
         raise Rejected(
@@ -118,13 +116,12 @@ def collision(
 
 @dataclass(frozen=True)
 class Meeting:
-    """One condition on the rates just after a blow, and the impulse that brings it about.
-
-    gap          what changes at the rate that the condition is about; of a condition in rates this rate itself
-    restitution  the part of it that is left, with the other sign
+    """One condition on the rates just after a blow, and the impulse that causes it.
+    gap          the quantity whose rate the condition fixes; for a condition in rates this rate itself
+    restitution  the ratio of this rate after and before, with the opposite sign
     what         "together", "elastic", "rebound" or "kept"
-    ends         of a collision the two places, the impulse being on the second, and its direction as it was given
-    given        the restitution as it was given
+    ends         the two places of a collision, with the impulse on the second, and its direction as given
+    given        the restitution as given
     """
 
     gap: Expr
@@ -145,7 +142,7 @@ class Meeting:
         return diff(self.gap, rate(q) if self.in_rates else q)
 
     def speed_by_time(self, moving: Sequence[Symbol]) -> Expr:
-        """The speed by the second route, of a collision from the velocities of its two places."""
+        """Return the speed by the second route; for a collision from the velocities of its two places."""
         if self.in_rates:
             return self.gap
         if self.ends is None:
@@ -156,12 +153,11 @@ class Meeting:
 
 
 class Blow:
-    """What happens to a system in a moment.
-
-    system   its particles and bodies; the constraints that forces keep are kept by impulses too
-    acts     impulses that are given, and collisions
-    at       coordinate -> its value in that moment; of others it may have any
-    before   coordinate -> its rate before; that of the others is zero
+    """A blow on a system at one instant.
+    system   its particles and bodies; impulses keep the constraints that forces keep
+    acts     given impulses, and collisions
+    at       coordinate -> its value at that instant; other coordinates may have any value
+    before   coordinate -> its rate before; other rates are zero
     """
 
     def __init__(
@@ -198,11 +194,11 @@ class Blow:
         self.meetings += [self._kept(c) for c in system.constraints]
         letters = [m.letter for m in self.meetings]
         if len(set(letters)) < len(letters):
-            message = "two impulses of this blow have one letter"
+            message = "two impulses of this blow have the same letter"
             raise Rejected(Complaint("letter-clash", message, help="give each a letter, `impulse: K_2`"))
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """An impulse acts on a particle of a body; a place that moves with none is not one."""
+        """Check that each impulse acts on a particle of a body; a place that moves with no body has no particle."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):
@@ -217,20 +213,20 @@ class Blow:
             raise ActsOnNothing.of(act, Complaint("which-body", message, help=help_line))
 
     def _particle(self, of: Any, at: Vector) -> Vector:
-        """The particle of a body at a place, where it is in the moment of the blow: its place as the body moves."""
+        """Return the place of the body's particle on which the impulse acts, as a function of the coordinates."""
         if of is None or len(at) < 2:
             return at
         point = material_point("impulse", of, Location(at))
         arms = {name: tidied(self.there(value)) for name, value in point.held}
         if moving := coordinates_in(ImmutableDenseMatrix([ZERO, *arms.values()])):
             name = next(iter(moving)).name
-            message = f"where in the body the impulse acts depends on {name}"
-            raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` in that moment under `at`"))
+            message = f"the point of the body on which the impulse acts depends on {name}"
+            raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` at that instant under `at`"))
         return tuple(c.xreplace(arms) for c in point.place)
 
     @property
     def described(self) -> Struck:
-        """What the witness is given of it: the parts as they were described."""
+        """Return the described parts for the witness."""
         acts = self.acts
         given = [plain.Force(a.components, a.at, self._number(a.of)) for a in acts if isinstance(a, Impulse)]
         meetings = [self._described_meeting(act) for act in acts if isinstance(act, Collision)]
@@ -260,22 +256,22 @@ class Blow:
         return symbol
 
     def there(self, value: Any) -> Expr:
-        """The value in the moment of the blow."""
+        """Return the value at the instant of the blow."""
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
-        """The same as one writes it, with the places at which it is taken; `holds` is what it is made of."""
+        """Return the value with the coordinates at which it is evaluated, as on the page; `holds` contains them."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)
         return value
 
     def earlier(self, value: Any) -> Expr:
-        """The value just before."""
+        """Return the value just before the blow."""
         return self.there(value).xreplace(self.before)
 
     def read_again(self, value: Any, rates: bool = False) -> Expr:
-        """The value in the moment of the blow, with `rates` just before it, by what the author gave."""
+        """Return the value at the instant of the blow, with `rates` just before it, from the given state."""
         places, speeds = ({getattr(q, "symbol", q): at for q, at in given.items()} for given in self._given)
         found = explicit(value).subs(list(places.items()), simultaneous=True)
         if rates:
@@ -307,7 +303,7 @@ class Blow:
             found = [each for each in every if each is not None]
             if not found:
                 raise Rejected(
-                    Complaint("nothing-happens", "the two places of this collision have one velocity already")
+                    Complaint("nothing-happens", "the two places of this collision already have the same velocity")
                 )
             return found
         gap = Add(*(c * w for c, w in zip(along, way, strict=True)))
@@ -323,14 +319,14 @@ class Blow:
         return [one]
 
     def _check_approach(self, speed: Expr) -> None:
-        """Along the normal the two come together: what they touch with can push and not pull."""
+        """Check that the two approach each other along the normal: surfaces can push but not pull."""
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
             message = "the two do not approach each other before this collision"
             raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
         if sign == -1:
             message = "the two move apart before this collision, along its normal"
-            help_line = "turn the normal, which points from the first place to the second, or the rates `before` it"
+            help_line = "reverse the normal, which points from the first place to the second, or the rates `before` it"
             raise Rejected(Complaint("nothing-happens", message, help=help_line))
         if sign is None:
             assume(Relation(tidied(speed), ">", Integer(0)))
@@ -344,17 +340,17 @@ class Blow:
         ends: tuple[Vector, Vector, Vector],
         given: Any = 0,
     ) -> Meeting | None:
-        """None of a component in which neither moves."""
+        """Return the condition of a component; None if neither place moves in it."""
         if is_zero(self.there(TimeRate(gap, *self.moving))):
             return None
         return Meeting(gap, restitution, unknown(letter, "momentum"), what, ends=ends, given=given)
 
     def _check_meet(self, way: Sequence[Expr], along: Vector) -> None:
-        """Two places meet where they are one, or where the way from one to the other is along the normal: two balls."""
+        """Check that two places meet: they are equal, or displaced along the normal, as for two balls."""
         across = [way[i] * along[j] - way[j] * along[i] for i in range(len(way)) for j in range(i)] if along else way
         if not all(is_zero(c) for c in across):
             message = "the two places of this collision do not meet"
-            raise Rejected(Complaint("wrong-argument", message, help="give the coordinates of that moment under `at`"))
+            raise Rejected(Complaint("wrong-argument", message, help="give the coordinates at that instant under `at`"))
 
     def _kept(self, c: Constraint) -> Meeting:
         if not is_zero(self.earlier(c.velocity(self.moving))):
@@ -365,7 +361,7 @@ class Blow:
         return Meeting(c.residual, ZERO, letter, "kept", c.in_rates)
 
     def shares(self, q: Symbol) -> list[Expr]:
-        """J . dr/dq of each impulse, given or not."""
+        """Return J . dr/dq of each impulse, given or not."""
         pairs = [(j, c) for one in self.impulses for j, c in zip(one.components, one.at, strict=True) if j != 0]
         acting = [(j, c) for j, c in pairs if not is_zero(self.there(diff(c, q)))]
         found = [Factors(j, self.shown_there(Partial(c, q), diff(c, q))) for j, c in acting]
@@ -376,7 +372,7 @@ class Blow:
         return found
 
     def power(self) -> Expr:
-        """The sum of J . v, by the places as functions of the time and by what the author gave."""
+        """Return the sum of J . v, by the places as functions of the time and from the given state."""
         found = ZERO
         for one in self.impulses:
             for j, c in zip(one.given, one.at, strict=True):

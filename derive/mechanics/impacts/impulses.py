@@ -1,7 +1,6 @@
-"""Blows: forces so great and so short that in their time nothing moves on and only the velocities change.
-
-Lagrange's equations, integrated over that time, give the jump of each momentum, p - p_before = sum of J . dr/dq: finite
-forces have no share in it. The rates that stand in the results are those just after the blow.
+"""Blows: forces so great and so short that positions stay fixed and only the velocities jump.
+Lagrange's equations, integrated over the short time, give the jump of each momentum, p - p_before = sum of J . dr/dq:
+finite forces do not contribute. The rates in the results are those just after the blow.
 """
 
 from __future__ import annotations
@@ -47,14 +46,14 @@ MOMENTUM_JUMP = Rule(
 
 
 def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
-    """The jump of a momentum in a blow, dT/dq_dot - its value before = sum of J . dr/dq.
+    """Jump of a momentum in a blow, dT/dq_dot - its value before = sum of J . dr/dq.
 
     blow      the system, its state and the impulses
     kinetic   its kinetic energy T, J, as `kinetic_energy_of` yields it
     q         one of its coordinates
     Second route: the sum of m (v - v_before) . dr/dq over mass points, and the slope of the power J . v in q_dot.
     Outcomes: struck, free (no impulse acts along q).
-    Errors: nothing moves by q.
+    Errors: q is not a coordinate of the blow.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz,
     *Mechanics*, section 7.
     """
@@ -116,12 +115,11 @@ MEETING_CONDITION = Rule(
 
 
 def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quantity:
-    """What holds of the rates just after a blow, v = -e v_before, for the velocity v of one place relative to another.
-
-    blow     the system, its state and the collisions; e is the coefficient of restitution of that one
-    number   which of its conditions, from 0 on; those of constraints come last
+    """Condition on the rates just after a blow, v = -e v_before, for the velocity v of one place relative to another.
+    blow     the system, its state and the collisions; e is the coefficient of restitution of the collision
+    number   the index of the condition, from 0; those of constraints come last
     Check: the places as functions of the time, each coordinate by its Taylor series.
-    Outcomes: together (one velocity), elastic, rebound (with a part of the speed), kept (a constraint that holds on).
+    Outcomes: together (one velocity), elastic, rebound (with a part of the speed), kept (a constraint that remains).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.5 and 4.14.
     """
     meeting = blow.meetings[number]
@@ -160,7 +158,7 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
 
 
 def rates_after(blow: Blow, jumps: Sequence[Quantity], conditions: Sequence[Quantity]) -> tuple[Quantity, ...]:
-    """The rates just after a blow, and the impulses that are not given, from the jumps of the momenta.
+    """Rates just after a blow, and the impulses that are not given, from the jumps of the momenta.
 
     blow         the system, its state and the impulses
     jumps        as `momentum_jump` yields them, one for each coordinate
@@ -172,7 +170,7 @@ def rates_after(blow: Blow, jumps: Sequence[Quantity], conditions: Sequence[Quan
     """
     count = len(blow.moving) + len(blow.meetings)
     if len(jumps) + len(conditions) != count:
-        message = f"what follows from this blow needs {count} equations, not {len(jumps) + len(conditions)}"
+        message = f"the unknowns of this blow need {count} equations, not {len(jumps) + len(conditions)}"
         raise Rejected(Complaint("wrong-argument", message, help="a jump for each coordinate, and each condition"))
     of = [jump.needed(OfCoordinate).coordinate for jump in jumps]
     letters = [each.letter for each in blow.meetings]
@@ -183,7 +181,7 @@ def rates_after(blow: Blow, jumps: Sequence[Quantity], conditions: Sequence[Quan
 def energy_after(
     blow: Blow, kinetic: Quantity, after: Sequence[Quantity], key: str = "kinetic_energy_after"
 ) -> Quantity:
-    """The kinetic energy just after a blow: that of the system with its places in that moment and the rates put in.
+    """Kinetic energy just after a blow: that of the system with its coordinates at that instant and the rates after it.
 
     blow      the system, its state and the impulses
     kinetic   its kinetic energy T, J
@@ -208,7 +206,7 @@ WORK_OF_IMPULSES = Rule(
 def work_of_impulses(
     blow: Blow, energy: Quantity, after: Sequence[Quantity], symbol: str = "W", key: str = "work_of_impulses"
 ) -> Quantity:
-    """What a blow adds to the kinetic energy, W = T - T_before.
+    """Work of a blow, the change of the kinetic energy, W = T - T_before.
 
     blow     the system, its state and the impulses
     energy   its kinetic energy T just after it, J, as `energy_after` yields it

@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of the outcomes of motions, and of the things that their sentences name."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def released(at_rest: bool) -> Predicate:
 
 
 def isochronous(wanted: bool) -> Predicate:
-    """The acceleration is proportional to the coordinate, or it is not."""
+    """Judge whether the acceleration is proportional to the coordinate."""
 
     def is_so(facts: Judged) -> bool:
         q, a = facts.inputs["coordinate"], facts.inputs["acceleration"]
@@ -60,7 +60,7 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """By the force at the start, with numbers for the letters: it is positive there, or it is zero."""
+    """Judge numerically by the force at the start: it is positive there, or, for a later loss, zero."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -78,7 +78,7 @@ def lost(later: bool) -> Predicate:
 
 
 def _gets_there_as_told(facts: Judged) -> bool:
-    """By numbers for the letters: the squared rate is positive at the place just where its condition holds."""
+    """Whether, numerically, the squared rate is positive at the place exactly where its condition holds."""
     told = facts.inputs.get("reached")
     if "squared" not in facts.inputs:
         return told is None
@@ -95,8 +95,8 @@ def _gets_there_as_told(facts: Judged) -> bool:
 
 
 def turned_back(facts: Judged) -> bool:
-    """With numbers for the letters: the force vanishes at the place and the squared rate is negative there, or zero,
-    while at the start the force pushes and the squared rate is not negative."""
+    """Whether, numerically, the force vanishes at the place and the squared rate is negative there, or zero, while
+    at the start the force is positive and the squared rate is not negative."""
     just_there = facts.result.mark == ">="
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
@@ -117,7 +117,7 @@ def turned_back(facts: Judged) -> bool:
 
 
 def by_energy(facts: Judged, fact: ByEnergy) -> bool:
-    """The acceleration is half the slope of the square of the rate, which at the start is that of the start."""
+    """Whether the acceleration is half the slope of the squared rate, which has the given value at the start."""
     square, q = explicit(facts.result), fact.coordinate
     acceleration = fact.acceleration.subs(rate(q) ** 2, square)
     there = square.subs(q, fact.start) - fact.start_rate**2
@@ -125,7 +125,7 @@ def by_energy(facts: Judged, fact: ByEnergy) -> bool:
 
 
 def steady(facts: Judged, fact: Steady) -> bool:
-    """What it says of each coordinate is what the sentence says, and some condition is the result."""
+    """Whether the fact agrees with the sentence on each coordinate, and one of its conditions is the result."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
     fits = any(same_equation(each, explicit(facts.result).residual) for each in fact.conditions)
@@ -133,7 +133,7 @@ def steady(facts: Judged, fact: Steady) -> bool:
 
 
 def energy_there(facts: Judged, place: Any) -> bool:
-    """The energy has there, with the rate at the start, the value that it keeps."""
+    """Whether the energy at this place, with the rate at the start, has the conserved value."""
     start = {place.left: explicit(place.right), rate(place.left): explicit(facts.inputs["initial"])}
     return place.mark == "=" and is_zero(
         value_of_role(facts, "energy").subs(start, simultaneous=True) - explicit(facts.result).right
@@ -145,7 +145,7 @@ def turns_back_there(facts: Judged, amplitude: Any) -> bool:
 
 
 def pushes_there(facts: Judged, place: Any) -> bool:
-    """At the start the two touch: the force is not negative."""
+    """Whether the two touch at the start: the force is not negative."""
     alone = bool(facts.result.left == place.left) and place.mark == "="
     if not isinstance(place.left, Symbol):
         return alone
@@ -153,16 +153,16 @@ def pushes_there(facts: Judged, place: Any) -> bool:
 
 
 def force_vanishes_there(facts: Judged, place: Any) -> bool:
-    """At a place that the motion does not reach the force would be zero."""
+    """Whether the force would be zero at a place that the motion does not reach."""
     return place.mark == "=" and is_zero(value_of_role(facts, "force").xreplace({place.left: explicit(place.right)}))
 
 
 def stays_and_turns(facts: Judged, relation: Any) -> bool:
-    """With what stays and what turns as the sentence says, the slope of L vanishes where the result does."""
+    """Whether, with the constant coordinates and rates of the sentence, the slope of L vanishes with the result."""
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     if relation.mark != "=" or relation.left == relation.right:
         return False
-    if "lagrangian" not in facts.quantities:  # of an equation of motion, which holds the rates themselves
+    if "lagrangian" not in facts.quantities:  # from an equation of motion, which contains the rates
         q = facts.inputs["coordinate"]
         still = {rate(q): Integer(0), rate(q, 2): Integer(0), **told}
         left = explicit(facts.inputs["equation"]).residual.subs(still, simultaneous=True)
@@ -175,7 +175,7 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def sum_left(wanted: str) -> Predicate:
-    """What becomes of the terms that have no highest rate: there were none, they cancelled, or some are left."""
+    """Judge the terms without a highest rate: there were none, they cancelled, or some remain."""
 
     def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
@@ -189,20 +189,20 @@ def sum_left(wanted: str) -> Predicate:
 
 
 def times_its_factor(facts: Judged) -> bool:
-    """Whether it is the equation times the factor that the sentence names."""
+    """Whether the result is the equation times the factor that the sentence names."""
     multiplied = explicit(facts.inputs["factor"]) * explicit(facts.inputs["written"].left)
     return is_zero(explicit(facts.result.left) - multiplied)
 
 
 def nothing_else_moves(facts: Judged) -> bool:
-    """Of an equation of motion is left what holds no acceleration, and not the rate of its own coordinate."""
+    """Whether the rest of the equation of motion contains no acceleration, and not the rate of its coordinate."""
     q = facts.inputs["coordinate"]
     moving = {s for s in facts.result.free_symbols if s.name.endswith("_ddot")} | {rate(q)}
     return not is_zero(facts.result.residual) and not moving & facts.result.free_symbols
 
 
 def sum_of_the_equations_times_their_factors(facts: Judged, outcome: str) -> bool:
-    """Each equation that is named, times the factor that is named with it, adds up to the result."""
+    """Whether the named equations, times their named factors, add up to the result."""
     named = [role for role in facts.quantities if role.startswith("equation_")]
     products = (facts.inputs[f"factor_{role[9:]}"] * explicit(facts.quantities[role].value).residual for role in named)
     return is_zero(explicit(facts.result).residual - sum(products, Integer(0)))

@@ -1,8 +1,7 @@
-"""What the equations of motion make of a quantity: its rate of change, and whether it is conserved.
-
-As on paper: each equation is multiplied by a factor, the products are added, and what is left is recognised as the rate
-of change of the quantity. The factors are not guessed. The rate of Q holds the highest rates linearly, so those factors
-are wanted for which the equations, added up, hold them alike.
+"""The rate of change of a quantity by the equations of motion, and whether it is conserved.
+As in a textbook, each equation is multiplied by a factor, the products are added, and the sum is recognised as the rate
+of change of the quantity Q. The factors are computed: the rate of Q is linear in the highest rates, and the sum of the
+products must contain them with the same coefficients.
 """
 
 from __future__ import annotations
@@ -44,10 +43,10 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
 
     quantity    a scalar Q in coordinates and their rates; its unit per second is that of the result
     equations   equations of motion, as many as they have highest rates, and linear in these
-    Each equation times its factor is a step, and so is the sum of these, where there are several.
-    Second route: Q as a function of time, its highest rates put in as the equations give them; the same less the sum of
-    the equations, for all motions alike; where Q belongs to a body, also what its particles contribute, the sum put
-    back, and what a body does whose tensor is not diagonal; and one motion followed in numbers.
+    Each equation times its factor is a step, and so is the sum of several products.
+    Second route: Q as a function of time, with its highest rates by the equations substituted; the same minus the sum
+    of the equations, for any motion; if Q belongs to a body, also the contributions of its particles, with the sum
+    substituted back, and a body whose inertia tensor is not diagonal; and one motion integrated numerically.
     Outcomes: conserved (the rate is zero), changes.
     Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -93,9 +92,8 @@ def _moving(quantities: Sequence[Quantity]) -> list[Symbol]:
 
 
 def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequence[Symbol]) -> tuple[Expr, list[Expr]]:
-    """A number and the factors for which the equations, added up, hold each highest rate as the rate of Q does.
-
-    The number is what is common to all of them: on paper nobody multiplies by it.
+    """Return a number and the factors: with them the sum of the equations has the highest rates of dQ/dt.
+    The number is the common factor, which the page leaves out.
     """
     matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
     wanted = Matrix([diff(own_rate, a) for a in unknown])
@@ -118,9 +116,9 @@ PRODUCT = Rule(
 def _product(
     quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr], of_many: int
 ) -> Quantity:
-    """An equation of motion times a factor, multiplied out.
+    """Equation of motion times a factor, multiplied out.
 
-    Outcomes: alone, one_of_several (which are added up).
+    Outcomes: alone, one_of_several (products that are added).
     """
     written = equation.value
     return establish(
@@ -143,7 +141,7 @@ def _product(
 
 
 def _divided(found: Relation, factor: Expr, written: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Any, Any]:
-    """Where the factor is not zero, each side divided by it is that of the equation: by its rates, and what is left."""
+    """Divide each side by the factor, if it is not zero, and compare with the equation: its rates, and the rest."""
 
     def parts(relation: Relation, divisor: Expr) -> list[Expr]:
         at_rest = dict.fromkeys(motion, Integer(0))
@@ -155,7 +153,7 @@ def _divided(found: Relation, factor: Expr, written: Relation, motion: Mapping[S
 
 
 def _one_by_one(found: Relation, products: Sequence[Quantity]) -> tuple[Any, Any]:
-    """Each side less those of the products, one after another: nothing is left."""
+    """Subtract the sides of the products one after another: nothing remains."""
     left = [explicit(side) for side in found.sides]
     for product in products:
         left = [side - explicit(other) for side, other in zip(left, product.value.sides, strict=True)]
@@ -184,9 +182,9 @@ def _sum(
     of: Sequence[tuple[Quantity, Expr]],
     motion: Mapping[Symbol, Expr],
 ) -> Quantity:
-    """The sum of the products, collected.
+    """Sum of the products, collected.
 
-    Outcomes: plain, cancel (the terms without a rate do), remain.
+    Outcomes: plain, cancel (the terms without a highest rate), remain.
     """
     sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
     moving = _moving([quantity, *products])
@@ -217,7 +215,7 @@ def _sum(
 
 
 def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
-    """The terms with highest rates = (c_1 + c_2 + ...) times the one product of components that the others have."""
+    """Return the line: the terms with highest rates = (c_1 + c_2 + ...) times the common product of the other terms."""
     with_rates, rest = [], []
     for equation, factor in of:
         number, moved = factor.as_independent(*moving, as_Add=False)
@@ -234,12 +232,12 @@ def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], hig
 
 
 def _added(sides: Sequence[Expr]) -> list[Expr]:
-    """The terms of several sums in a row; nothing is written for a zero, unless there is nothing else."""
+    """Return the terms of several sums in a row, without zeros, unless there is nothing else."""
     return [term for side in sides for term in side.as_ordered_terms() if term != 0] or [Integer(0)]
 
 
 def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
-    """What becomes of the terms without a highest rate: there were none, they cancel, or some remain."""
+    """Return the outcome for the terms without a highest rate: there were none, they cancel, or some remain."""
     without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
     if all(rest == 0 for rest in without):
         return "plain"
@@ -252,6 +250,6 @@ def _sides(value: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
 
 
 def _by_sides(value: Relation, moving: Sequence[Symbol]) -> Relation:
-    """Both sides multiplied out and gathered, the terms with rates first."""
+    """Multiply out and collect both sides, the terms with rates first."""
     left, right = (by_products(explicit(side), moving) for side in value.sides)
     return Relation(left, value.mark, right)

@@ -1,4 +1,4 @@
-"""What conservation of energy gives for one coordinate: its rate at any place, and the period of a swing."""
+"""Conservation of energy for one coordinate: its rate at any place, and the period of an oscillation."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ __all__ = ["period_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
-NOISE = 1e-9  # what the numbers may differ by near the turning points, where most figures cancel
+NOISE = 1e-9  # error allowed near the turning points, where most figures cancel
 
 
 SPEED_FROM_ENERGY = Rule(
@@ -55,11 +55,11 @@ def speed_from_energy(
     energy       of the motion, J: a conserved quantity in this one coordinate and its rate
     q            the coordinate
     start        its value at the start
-    start_rate   its rate at the start, 0 where it is released from rest
-    motion       the equation of motion, or q_ddot as it gives that, for an energy without mass points and forces
-    That the energy keeps the value of the start is a step of its own.
+    start_rate   its rate at the start, 0 if it is released from rest
+    motion       the equation of motion, or q_ddot from it, for an energy without mass points and forces
+    The conservation of the initial energy is a separate step.
     Second route: along every motion of the mass points the energy does not change (d'Alembert's principle); the
-    acceleration q_ddot is half the derivative of q_dot^2 by q, and at the start the rate is that of the start.
+    acceleration q_ddot is half the derivative of q_dot^2 by q, and at the start the rate has its given value.
     Errors: the energy is not conserved, contains another coordinate, or is not quadratic in the rate.
     Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
     """
@@ -71,11 +71,11 @@ def speed_from_energy(
     along = explicit(TimeRate(value, letter)).xreplace({q.acceleration: acceleration})
     if not is_zero(along):
         message = f"`speed_from_energy`: `{energy.key}` is not conserved"
-        raise Rejected(Complaint("not-conserved", message, help="give an energy that keeps its value in this motion"))
+        raise Rejected(Complaint("not-conserved", message, help="give an energy that is conserved in this motion"))
     mass = tidied(diff(value, speed, 2))
     rest = value.xreplace({speed: ZERO})
     if mass.has(speed) or mass == 0 or not is_zero(value - rest - mass * speed**2 / 2):
-        message = f"`speed_from_energy`: `{energy.key}` is no sum of m q_dot^2/2 and an energy of place"
+        message = f"`speed_from_energy`: `{energy.key}` is not of the form m(q) q_dot^2/2 + U(q)"
         raise Rejected(Complaint("wrong-argument", message))
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 
@@ -84,7 +84,7 @@ def speed_from_energy(
     conserved = _energy_kept(energy, q, first, initial, acceleration, kept_key, about)
 
     def by_motion(found: Expr) -> tuple[Any, Any]:
-        """q_ddot = (1/2) d(q_dot^2)/dq, and the rate at the start."""
+        """Check q_ddot = (1/2) d(q_dot^2)/dq, and the rate at the start."""
         expected = with_unknown(acceleration, speed**2, found)
         there = found.xreplace({letter: first})
         return ImmutableDenseMatrix([diff(found, letter) / 2, there]), ImmutableDenseMatrix([expected, initial**2])
@@ -125,12 +125,12 @@ def _energy_kept(
     key: str,
     about: Sequence[Quantity],
 ) -> Quantity:
-    """The energy keeps the value that it has at the start."""
+    """Conservation of energy: its value is that at the start."""
     value, letter, speed = explicit(energy.value), q.symbol, q.rate
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 
     def keeps(found: Relation) -> tuple[Any, Any]:
-        """It holds at the start, and its rate vanishes along the motion; the right side is a constant."""
+        """Check that the equation holds at the start, and that its rate vanishes along the motion."""
         there = found.residual.xreplace({letter: first, speed: initial})
         changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
         is_equation = int(found.mark == "=")
@@ -154,7 +154,7 @@ def _energy_kept(
 
 
 def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> Expr:
-    """What the equation of motion, or else d'Alembert's principle, makes of q_ddot."""
+    """Return q_ddot by the equation of motion, or by d'Alembert's principle."""
     matter = energy.fact(Matter)
     if motion is not None and motion.symbol == q.acceleration:
         return tidied(explicit(motion.value))
@@ -163,7 +163,7 @@ def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> E
     elif matter is not None and tuple(matter.coordinates) == (q.symbol,):
         left = matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
     else:
-        message = f"`speed_from_energy`: `{energy.key}` does not say by which forces {q.symbol.name} moves"
+        message = f"`speed_from_energy`: `{energy.key}` does not determine the forces on {q.symbol.name}"
         raise Rejected(
             Complaint(
                 "wrong-argument",
@@ -187,7 +187,7 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
             others[0].name if others else "the time t" if TIME in value.free_symbols else f"no rate of {q.symbol.name}"
         )
         message = (
-            f"`speed_from_energy` needs an energy of {q.symbol.name} and its rate alone, but `{energy.key}` has {what}"
+            f"`speed_from_energy` needs an energy of only {q.symbol.name} and its rate, but `{energy.key}` has {what}"
         )
         raise Rejected(Complaint("wrong-argument", message))
 
@@ -203,21 +203,21 @@ PERIOD_BY_ENERGY = Rule(
 
 @in_results(
     "period",
-    "the period, from such a squared rate",
+    "the period, from a squared rate",
     squared="period: a squared rate, as `speed` finds it",
     order="order: in the amplitude",
     symbol="symbol",
 )
 def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = None, key: str = "period") -> Quantity:
-    """Period of a swing to and fro, 4 times the integral of dq/q_dot from 0 to the amplitude A, in powers of A.
+    """Period of an oscillation, 4 times the integral of dq/q_dot from 0 to the amplitude A, in powers of A.
 
     squared   q_dot^2 as `speed_from_energy` yields it for a release from rest at q = A, the same for q and -q, 1/s^2
     order     the highest power of the amplitude that is kept
-    The series has a letter of its own, tau_lim; the numbers of the period are those of the integral itself.
-    Second route: for small amplitudes it is that of the linearised equation of motion, 2 pi/omega_0; and the integral
-    in numbers.
+    The series has a separate letter, tau_lim; the numbers of the period are those of the integral.
+    Second route: for small amplitudes the period of the linearised equation of motion, 2 pi/omega_0; and the integral,
+    numerically.
     Outcomes: exact (the period does not depend on the amplitude), expanded.
-    Errors: it did not start from rest at a letter; the motion is not the same to both sides.
+    Errors: the start is not from rest at a letter; the motion is not the same to both sides.
     Source: Landau, Lifshitz, *Mechanics*, section 11.
     """
     known = squared.needed(ByEnergy)
@@ -234,7 +234,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
         found = 4 * quarter_swing(value, q, amplitude, order)
         leading = quarter_swing(value, q, amplitude, 0)
     except NoExpansion:
-        message = f"`period_by_energy`: the motion of `{squared.key}` is no oscillation about {q.name} = 0"
+        message = f"`period_by_energy`: the motion of `{squared.key}` is not an oscillation about {q.name} = 0"
         raise Rejected(Complaint("no-oscillation", message)) from None
     stiffness = tidied((pi / 2 / leading) ** 2)
     exact = is_zero(value - stiffness * (amplitude**2 - q**2))
@@ -273,7 +273,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
 
 
 def _written(value: Expr, amplitude: Symbol) -> Expr:
-    """2 pi sqrt(l/g) (1 + A^2/16), in ascending powers."""
+    """Write 2 pi sqrt(l/g) (1 + A^2/16), in ascending powers."""
     whole = value.subs(amplitude, 0)
     rest = tidied(value / whole).expand()
     terms = sorted(Add.make_args(rest), key=lambda term: int(term.as_coeff_exponent(amplitude)[1]))
@@ -281,7 +281,7 @@ def _written(value: Expr, amplitude: Symbol) -> Expr:
 
 
 def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order: int) -> Verdict:
-    """The integral over the whole swing in numbers, at two amplitudes: the rest shrinks faster than the last power."""
+    """Compare with the numerical integral at two amplitudes: the rest decreases faster than the last power."""
     from mpmath import mp
 
     letters = (letters_of(value) | letters_of(found)) - {q, amplitude}
@@ -289,7 +289,7 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
     point = next((p for p in drawn if _swings(found, {**p, amplitude: Rational(1, 40)})), None)
     if point is None:
         return Verdict(Grade.REFUTED, "the period is real for no numbers that were tried")
-    figures = FIGURES + 5 * order  # what is left is compared with that power of a small amplitude
+    figures = FIGURES + 5 * order  # the rest is compared with that power of a small amplitude
     with mp.workdps(figures):
         rests = []
         for small in (Rational(1, 40), Rational(1, 80)):
@@ -300,12 +300,12 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
             told = Rational(str(found.xreplace(there).evalf(mp.dps)))
             rests.append(mp.mpf(str((abs(2 * half / told - 1) / small**order).evalf(mp.dps))))
     if not (rests[1] <= rests[0] * 0.6 or rests[1] <= NOISE):
-        return Verdict(Grade.REFUTED, f"the integral in numbers differs by {mp.nstr(rests[1], 5)} of the last power")
-    return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, in numbers")
+        return Verdict(Grade.REFUTED, f"the numerical integral differs by {mp.nstr(rests[1], 5)} of the last power")
+    return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, numerically")
 
 
 def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:
-    """Whether the period is real there, and the force drives back."""
+    """Whether the period is real there, so the force is restoring."""
     return bool(found.subs(point).evalf().is_positive)
 
 
@@ -316,7 +316,7 @@ def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:
     q="for: a coordinate",
     start="start",
     start_rate="start_rate: 0 by default",
-    motion="results: its equation of motion, where the energy alone does not suffice",
+    motion="results: its equation of motion, if the energy does not suffice",
 )
 def _in_results(
     energy: Quantity,
@@ -327,7 +327,7 @@ def _in_results(
     motion: Quantity | None = None,
     ask: Ask | None = None,
 ) -> Quantity:
-    """With the equation of motion, where the energy does not say by itself which forces act."""
+    """Ask for the equation of motion, if the energy does not determine the forces."""
     matter = energy.fact(Matter)
     says_all = matter is not None and tuple(matter.coordinates) == (q.symbol,)
     if motion is None and not says_all and ask is not None:

@@ -1,4 +1,4 @@
-"""Where a contact that can only push is lost: the normal force vanishes, and the motion gets there."""
+"""Loss of a contact that can only push: the normal force vanishes at a place that the motion reaches."""
 
 from __future__ import annotations
 
@@ -57,26 +57,27 @@ LEAVES_CONTACT = Rule(
     "leaves",
     "where a force of contact vanishes",
     force="leaves: a force of contact",
-    letter="for: what specifies the place, such as `cos(theta)`",
+    letter="for: a function of the place, such as `cos(theta)`",
     start="start",
 )
 def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "leaves_contact") -> Quantity:
-    """Where a contact that can only push is lost: the normal force vanishes, N = 0, solved for one letter.
+    """Place where a contact that can only push is lost: the normal force vanishes, N = 0, solved for one letter.
 
     force    the normal force, positive while it pushes, N; or the tension of a string, which can only pull
-    letter   what stands alone in the end: a coordinate, or such as `cos(theta)`
+    letter   the unknown: a coordinate, or such as `cos(theta)`
     start    the value of that letter at the start, where the surfaces touch
-    The motion must get there: where the force rests on a squared rate, q_dot^2 = f(q) by conservation of energy, f is
-    positive at the place. If that depends on the letters it is a condition; if it never is, contact is not lost.
-    Factors of the force that are positive in the ranges of the letters, sin(theta) for 0 < theta < pi/2, take no part.
-    Check: a little towards the start the force is still positive, a little beyond it would be negative; where
-    there are such factors also numerically, along the coordinate itself. Witness: the described motion, followed from
+    The motion must reach the place: if the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
+    f must be positive there. If its sign depends on the letters, f > 0 is a condition; if it never is, contact is not
+    lost.
+    Factors of the force that are positive in the ranges of the letters, sin(theta) for 0 < theta < pi/2, are left out.
+    Check: a little towards the start the force is still positive, a little beyond it would be negative; with such
+    factors also numerically, along the coordinate. Witness: the described motion, followed from
     the start until the multiplier vanishes.
-    Outcomes: lost; lost_later (at the start itself the force is zero, and positive from then on); never (the force is
-    positive whatever the letter is); turns_back (it would vanish at a place that the motion does not reach);
+    Outcomes: lost; lost_later (at the start the force is zero, and positive after it); never (the force is always
+    positive); turns_back (it would vanish at a place that the motion does not reach);
     turns_there (it vanishes only where the motion turns back).
-    Errors: the force is not positive from the start on, or it is not linear in the letter; the motion need not get
-    there.
+    Errors: the force is not positive from the start on, or it is not linear in the letter; the motion need not reach
+    the place.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
@@ -114,7 +115,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     existing = existence(force, unknown, "=", solved)
 
     def on_both_sides(found: Relation) -> tuple[object, object]:
-        """N at the place, and on the way there from the start, but for the factor that stays positive."""
+        """Compare N at the place, and between the start and the place, without the factor that stays positive."""
         place = explicit(found.right)
         u = part_of_the_way()
         on_the_way = tidied(with_unknown(pushing, unknown, place + u * (begin - place)))
@@ -152,27 +153,27 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
 
 
 def _as_positive(condition: Relation) -> Relation:
-    """An inequality without what is positive whatever the letters are: v^2 < 5 g l."""
+    """Write an inequality without its positive factors: v^2 < 5 g l."""
     return positive(condition.residual if condition.mark in (">", ">=") else -condition.residual)
 
 
 def _speed_behind(force: Quantity, unknown: Expr) -> Quantity | None:
-    """The squared rate of the coordinate, f(q) by conservation of energy, that a force rests on."""
+    """Return the squared rate of the coordinate, f(q) by conservation of energy, from which a force was derived."""
     q = letter_of(unknown)
     return next((a for a in force.ancestors() if (known := a.fact(ByEnergy)) and known.coordinate == q), None)
 
 
 def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: Expr) -> None:
-    """The contact begins where the motion does from which the force was found."""
+    """Check that the contact begins at the start of the motion from which the force was found."""
     known = speed.needed(ByEnergy)
     begun = unknown.xreplace({known.coordinate: known.start})
     if not is_zero(tidied(begun - start)):
-        message = f"`leaves_contact`: `{force.key}` is that of a motion from {unknown} = {begun}, not from {start}"
+        message = f"`leaves_contact`: `{force.key}` belongs to a motion from {unknown} = {begun}, not from {start}"
         raise Rejected(Complaint("contradiction", message, help=f"give the start of that motion, `start: {begun}`"))
 
 
 def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
-    """The motion turns back before the place where the force would vanish, or just there.
+    """Statement that the motion turns back before the place where the force would vanish, or exactly there.
 
     Outcomes: turns_back, turns_there.
     Source: that of `leaves_contact`.
@@ -185,7 +186,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
     at_angle = squared.xreplace({q: angle})
 
     def on_the_way(found: Relation) -> tuple[object, object]:
-        """From the start to the place the force is positive; only at the place would it vanish."""
+        """Check that the force is positive from the start to the place, where it would vanish."""
         u = part_of_the_way()
         between = tidied(with_unknown(value, unknown, place + u * (begin - place)))
         sure = int(sign_known(between) == 1 and found.mark == mark)
@@ -209,7 +210,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 
 
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
-    """Of sin(theta)(a cos(theta) - b) the sine, where it is known to be positive, and the bracket."""
+    """Split sin(theta)(a cos(theta) - b) into the sine, if it is known to be positive, and the bracket."""
     u = mark_for(unknown)
     rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
     held = Mul(*beside)
@@ -217,20 +218,20 @@ def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
 
 
 def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:
-    """Whether a factor that is positive on the way is zero at the start, as sin(theta) of what stands upright."""
+    """Whether a factor that is positive on the way is zero at the start, as sin(theta) in an upright position."""
     (letter, there) = next(iter(meaning(unknown, explicit(start)).items()))
     return bool(tidied(held.xreplace({letter: there})) == 0)
 
 
 def _unsolvable_contact(force: Quantity, unknown: Expr) -> Rejected:
     letter = letter_of(unknown)
-    message = f"`leaves_contact`: `{force.key}` has factors with {letter} beside {unknown}, of unknown sign"
+    message = f"`leaves_contact`: `{force.key}` has factors of unknown sign with {letter} outside {unknown}"
     help_line = f"give the coordinate the range in which it moves, `{letter}: angle in (0, pi/2)`"
     return Rejected(Complaint("no-contact", message, help=help_line))
 
 
 def _pushes_until(found: Relation, value: Expr, unknown: Expr, start: Expr) -> Verdict:
-    """In numbers, along the coordinate itself: the force is positive on the way, zero at the place, negative beyond."""
+    """Check numerically, along the coordinate: the force is positive before the place, zero there, negative beyond."""
     letter = letter_of(unknown)
     value, begin, end = (with_numbers(each) for each in (value, start, explicit(found.right)))
     letters = letters_of(value) | letters_of(begin) | letters_of(end)
@@ -244,7 +245,7 @@ def _pushes_until(found: Relation, value: Expr, unknown: Expr, start: Expr) -> V
         except (Undefined, NoNumber, TypeError):
             continue
         if not all(force > 0 for force in there[:-1]) or not there[-1] < 0:
-            return Verdict(Grade.REFUTED, "the force is not positive on the way, or is so beyond it")
+            return Verdict(Grade.REFUTED, "the force is not positive on the way, or is positive beyond it")
         seen += 1
     return (
         Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "undefined wherever it was tried")

@@ -1,5 +1,5 @@
-"""Steady motions: the cyclic coordinates turn at constant rates while the others do not move; and what small
-oscillations there are about them, the momenta of the cyclic coordinates held constant.
+"""Steady motions: the cyclic coordinates change at constant rates while the others are constant; and small
+oscillations about them, with constant momenta of the cyclic coordinates.
 
 Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.6 and 5.7.
 """
@@ -42,19 +42,18 @@ def steady_motion(
     at: Mapping[Any, Any] | None = None,
     key: str = "steady_motion",
 ) -> Quantity | tuple[Quantity, ...]:
-    """Condition of a steady motion, dL/dq = 0 with q_dot = 0 for each coordinate that is not cyclic, the cyclic ones
-    turning at constant rates; one for each coordinate that is not cyclic.
-
-    of      the Lagrangian, J, which does not contain the time; or the equation of motion of one coordinate, into which
-            the values of conserved momenta were put: they tell the rates of their coordinates
-    rates   of the cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its own letter
-    at      where the others stay, `{theta: alpha}`; one that is not given keeps its own letter
-    key     what the keys begin with; with the name of the coordinate where there are several
-    Second route: the mass points carried along by this very motion, their accelerations as functions of the time:
+    """Condition of a steady motion, dL/dq = 0 with q_dot = 0 for each coordinate that is not cyclic, with
+    constant rates of the cyclic ones; one condition for each coordinate that is not cyclic.
+    of      the Lagrangian, J, which does not contain the time; or the equation of motion of one coordinate, with the
+            values of conserved momenta substituted: they determine the rates of their coordinates
+    rates   of the cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its letter
+    at      the constant values of the others, `{theta: alpha}`; one that is not given keeps its letter
+    key     the beginning of the keys; followed by the name of the coordinate if there are several
+    Second route: the mass points in this motion, with their accelerations as functions of the time:
     sum of (m a - F) . dr/dq = 0.
-    Outcomes: generic, always (it holds whatever the rates are), of_equation.
+    Outcomes: generic, always (it holds for any rates), of_equation.
     Errors: L contains the time, has no cyclic coordinate or no other; a force without a potential energy acts; a rate
-    is given of a coordinate that is not cyclic; it can never hold.
+    is given for a coordinate that is not cyclic; the condition can never hold.
     Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
     known = of.fact(WithMomenta)
@@ -62,13 +61,13 @@ def steady_motion(
     require_kind("steady_motion", "of", of, "energy")
     L = explicit(of.value)
     if L.has(TIME) or of.fact(ActedOn) is not None:
-        why = "holds the time itself" if L.has(TIME) else "has forces beside it that have no potential energy"
+        why = "contains the time explicitly" if L.has(TIME) else "has additional forces without a potential energy"
         raise Rejected(Complaint("changes", f"`steady_motion`: `{of.key}` {why}"))
     every = coordinates_of(of)
     turning = [q for q in every if not L.has(q.symbol)]
     still = [q for q in every if L.has(q.symbol)]
     if not turning or not still:
-        missing = "coordinate that is not cyclic" if turning else "cyclic coordinate, so nothing turns steadily"
+        missing = "coordinate that is not cyclic" if turning else "cyclic coordinate, so no rate is constant"
         raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has no {missing}"))
     given_rates, values = _given("rate", rates, turning, still), _given("value", at, turning, still)
     given_rates |= {k.coordinate: bound(k.turning, values) for k in (known.kept if known is not None else ())}
@@ -101,7 +100,7 @@ STEADY_MOTION = Rule(
 def _of_equation(
     equation: Quantity, steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key: str
 ) -> Quantity:
-    """What is left of an equation of motion where its own coordinate stays and the cyclic ones turn at constant rates.
+    """Equation of motion with a constant value of its coordinate and constant rates of the cyclic ones.
 
     Outcomes: of_equation.
     Source: that of `steady_motion`.
@@ -137,26 +136,26 @@ def _of_equation(
 def _given(
     role: str, given: Mapping[Any, Any] | None, turning: Sequence[Coordinate], still: Sequence[Coordinate]
 ) -> dict[Symbol, Expr]:
-    """What is given for each coordinate, all of it constant."""
+    """Return the constant value that is given for each coordinate."""
     known = {q.symbol for q in (turning if role == "rate" else still)}
     moving = {TIME, *(s for q in (*turning, *still) for s in (q.symbol, q.rate))}
     found: dict[Symbol, Expr] = {}
     for q, value in (given or {}).items():
         letter = q.symbol if isinstance(q, Coordinate) else q
         if letter not in known:
-            wrong = "not cyclic" if role == "rate" else "cyclic, or no coordinate of it"
+            wrong = "not cyclic" if role == "rate" else "cyclic, or not a coordinate of it"
             message = f"`steady_motion`: a {role} is given for {letter}, which is {wrong}"
             raise Rejected(Complaint("wrong-argument", message))
         number = value.value if isinstance(value, Quantity) else as_expr(value)
-        held = {s for s in number.free_symbols if any(s == q.rate for q in turning)}  # constant in this very motion
-        held |= ({number} if isinstance(number, Symbol) else set()) - moving  # what the rate, or the place, is called
+        held = {s for s in number.free_symbols if any(s == q.rate for q in turning)}  # constant in this motion
+        held |= ({number} if isinstance(number, Symbol) else set()) - moving  # the symbol of the rate, or of the place
         require_constant("steady_motion", role, number.xreplace({s: Dummy("held", real=True) for s in held}))
         found[letter] = number
     return found
 
 
 def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key: str) -> Quantity:
-    """The condition that belongs to one coordinate.
+    """Condition of a steady motion for one coordinate.
 
     Outcomes: generic, always.
     Source: that of `steady_motion`.
@@ -188,7 +187,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
 
 
 def _rates_first(value: Expr, steady: Steady) -> Expr:
-    """With a plus sign before the highest power of a rate."""
+    """Choose the sign so that the highest power of a rate is positive."""
     for letter in sorted({s for v in steady.rates.values() for s in v.free_symbols}, key=str):
         for each in Mul.make_args(value):
             polynomial = each.as_poly(letter)
@@ -204,7 +203,7 @@ def _without_positive(value: Expr) -> Expr:
 
 
 def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
-    """What is left of d'Alembert's principle for mass points whose places are those of this motion at each time."""
+    """Return the residual of d'Alembert's principle for the mass points in this motion."""
     motion: dict[Symbol, Expr] = {**steady.values}
     motion |= {s: s + v * TIME for s, v in steady.rates.items()}
     rates = {rate(s): steady.rates.get(s, ZERO) for s in matter.coordinates}
@@ -234,7 +233,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 def _in_results(
     of: Quantity, key: str, coordinates: Mapping[str, Coordinate], values: Values = NONE, symbols: Symbols = ()
 ) -> Quantity | tuple[Quantity, ...]:
-    """With the places and the rates that have values; the other cyclic rates have letters."""
+    """Find the steady motion with the given places and rates; the other cyclic rates have letters."""
     places = {coordinates[name]: value for name, value in values.items() if name in coordinates}
     rates: dict[Coordinate, Any] = {
         q: value for name, value in values.items() for q in coordinates.values() if q.rate.name == name

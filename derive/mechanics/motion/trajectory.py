@@ -1,7 +1,6 @@
-"""A motion followed in numbers: equations of motion integrated, and a quantity compared with its rate along the way.
-
-This proves nothing, for it is one motion, to some figures; but it shares nothing with the algebra that it checks. The
-integration is by Gragg's rule, extrapolated to steps of no length.
+"""Numerical integration of a motion: a quantity is compared with the integral of its rate.
+This proves nothing, since it is one motion, to some figures; but it shares nothing with the algebra that it checks. The
+integration is by Gragg's rule, extrapolated to zero step length.
 Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 17.3.
 """
 
@@ -17,19 +16,19 @@ from sympy import Expr, Rational, Symbol, lambdify
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import RATES, TIME, rate, scalar
 
-FIGURES = 10  # to which the two must agree, of the 15 that are carried
-STEPS = (4, 16, 64, 256)  # from 0 to 1; more are taken where the two do not agree
-PARTS = range(2, 18, 2)  # of a step, from which one goes on to no length
+FIGURES = 10  # to which the two must agree, out of 15
+STEPS = (4, 16, 64, 256)  # from 0 to 1; more steps if the two do not agree
+PARTS = range(2, 18, 2)  # of a step, for the extrapolation to zero length
 
-State: TypeAlias = list[complex]  # a root may be imaginary where the numbers happen to lie
+State: TypeAlias = list[complex]  # a root may be imaginary at the random numbers
 Flow: TypeAlias = Callable[..., Sequence[complex]]
 
 
 def followed(value: Expr, its_rate: Expr, motion: Mapping[Symbol, Expr]) -> Verdict:
     """Whether Q(1) - Q(0) is the integral of dQ/dt from 0 to 1 along one motion.
 
-    value, its_rate   Q and what is claimed of dQ/dt
-    motion            highest rate -> what the equations of motion make of it
+    value, its_rate   Q and the claimed dQ/dt
+    motion            highest rate -> its value by the equations of motion
     """
     state = _state(motion)
     onwards = [motion.get(rate(s), rate(s)) for s in state]
@@ -47,7 +46,7 @@ def followed(value: Expr, its_rate: Expr, motion: Mapping[Symbol, Expr]) -> Verd
         try:
             *end, expected = _end(lambda t, y: flow(t, *y[:-1]), [*start, 0j], steps)
             gained = quantity(1, *end) - before
-        except (OverflowError, ZeroDivisionError):  # a step led out of where the motion is
+        except (OverflowError, ZeroDivisionError):  # a step left the domain of the motion
             continue
         if abs(gained - expected) <= (abs(before) + abs(expected)) * 10**-FIGURES:
             return Verdict(Grade.APPROXIMATION, f"one motion, to {FIGURES} figures")
@@ -60,13 +59,13 @@ def _shown(number: complex) -> str:
 
 
 def _end(flow: Flow, start: State, steps: int) -> State:
-    """Where the state is at 1."""
+    """Return the state at time 1."""
     y, length = start, 1 / steps
     for n in range(steps):
         row: list[State] = []
         for k, parts in enumerate(PARTS):
             further = [_by_midpoints(flow, y, n * length, length / parts, parts)]
-            for j, beside in enumerate(row):  # the error goes by even powers of the parts' length
+            for j, beside in enumerate(row):  # the error has only even powers of the parts' length
                 weight = 1 / ((parts / PARTS[k - 1 - j]) ** 2 - 1)
                 further.append([a + (a - b) * weight for a, b in zip(further[-1], beside, strict=True)])
             row = further
@@ -75,7 +74,7 @@ def _end(flow: Flow, start: State, steps: int) -> State:
 
 
 def _by_midpoints(flow: Flow, y: State, t: float, h: float, parts: int) -> State:
-    """Gragg's rule: one step of Euler's, then each from the point before last, with the slope between them."""
+    """Gragg's rule: one Euler step, then midpoint steps, each from the point before last."""
     last, now = y, [a + h * v for a, v in zip(y, flow(t, y), strict=True)]
     for k in range(1, parts):
         slopes = flow(t + k * h, now)
@@ -85,7 +84,7 @@ def _by_midpoints(flow: Flow, y: State, t: float, h: float, parts: int) -> State
 
 
 def _state(motion: Mapping[Symbol, Expr]) -> list[Symbol]:
-    """The coordinates and rates below the highest ones: their values at one time fix the motion."""
+    """Return the coordinates and rates below the highest ones: their values at one instant determine the motion."""
     found: list[Symbol] = []
     for highest in motion:
         order = next(n for n in (3, 2, 1) if highest.name.endswith(RATES[n]))

@@ -1,4 +1,4 @@
-"""Whether a motion of one coordinate gets to a place: by conservation of energy it does not turn back before it."""
+"""Whether a motion of one coordinate reaches a place: by conservation of energy it does not turn back before it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<":
 
 
 def squared_by_energy(speed: Quantity) -> Expr:
-    """The squared rate that conservation of energy gives, f(q); the error of the fact for anything else."""
+    """Return the squared rate by conservation of energy, f(q); raise the error of the fact for any other quantity."""
     assert speed.symbol == rate(speed.needed(ByEnergy).coordinate) ** 2
     return explicit(speed.value)
 
@@ -29,30 +29,29 @@ def squared_by_energy(speed: Quantity) -> Expr:
 def condition_to_reach(
     of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None
 ) -> Relation | None:
-    """The condition on the letters under which a motion gets to a place; None where it always does.
-
-    of        the result that says something of the place
+    """Return the condition on the letters under which a motion reaches a place; None if it always does.
+    of        the result that refers to the place
     speed     the squared rate of a coordinate by conservation of energy, f(q)
     unknown   the coordinate q or a function of it, cos(q), and `place` its value there, which may be infinite
-    there     f at the place, where it is a limit
-    The motion turns back where f = 0. It gets to the place if f is negative neither there nor between the start and the
-    place. If the sign of f at the place depends on the letters, the condition is f > 0 there. Between the two the sign
-    is decided by algebra or, where that does not decide, by numbers.
-    Errors: the motion turns back before the place, always or for some of the letters.
+    there     f at the place, if it is a limit
+    The motion turns back where f = 0. It reaches the place if f is negative neither there nor between the start and the
+    place. If the sign of f at the place depends on the letters, the condition is f > 0 there. Between the start and the
+    place the sign is decided by algebra or, if algebra does not decide, numerically.
+    Errors: the motion turns back before the place, always or for some values of the letters.
     """
     q = speed.needed(ByEnergy).coordinate
     there = tidied(_put(explicit(speed.value), unknown, place) if there is None else there)
     if sign_known(there) == -1:
-        message = f"`{of.key}`: the motion does not get to {unknown} = {place}, since {rate(q)}**2 would be negative"
+        message = f"`{of.key}`: the motion does not reach {unknown} = {place}, since {rate(q)}**2 would be negative"
         raise Rejected(Complaint("not-reached", message, help=f"it would be {there}"))
     if not _is_free_by_algebra(speed, unknown, place) and _is_barred(speed, unknown, place, there):
-        message = f"`{of.key}`: the motion need not get to {unknown} = {place}: on the way {rate(q)}**2 can be negative"
-        raise Rejected(Complaint("not-reached", message, help="state what lets it pass with `assume:`"))
+        message = f"`{of.key}`: the motion need not reach {unknown} = {place}: on the way {rate(q)}**2 can be negative"
+        raise Rejected(Complaint("not-reached", message, help="state a condition for that with `assume:`"))
     return positive(there) if sign_known(there) is None else None
 
 
 def assume_reached(of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None) -> None:
-    """What is put in at a place holds only if the motion gets there: the page states the condition."""
+    """Assume that the motion reaches a substituted place: the page states the condition."""
     condition = condition_to_reach(of, speed, unknown, place, there)
     if condition is not None:
         assume(Relation(condition.left, ">=", condition.right))
@@ -66,26 +65,26 @@ def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
         return False
     polynomial = written.as_poly(mark)
     if polynomial is not None and polynomial.degree() <= 1:
-        return True  # a linear function that is not negative at both ends is not so between them
+        return True  # a linear function that is not negative at the ends is not negative between them
     known = speed.needed(ByEnergy)
     begin = unknown.xreplace({known.coordinate: known.start})
     return sign_known(tidied(written.xreplace({mark: place + part_of_the_way() * (begin - place)}))) == 1
 
 
 def _put(squared: Expr, unknown: Expr, place: Expr) -> Expr:
-    """The squared rate where the unknown has this value; by the coordinate where that stands in another way too."""
+    """Return the squared rate at this value of the unknown; by the coordinate, if it occurs outside the unknown too."""
     found = with_unknown(squared, unknown, place)
     return squared.xreplace(meaning(unknown, place)) if left_over(found, unknown) else found
 
 
 def part_of_the_way() -> Expr:
-    """Any number between 0 and 1."""
+    """Return an arbitrary number between 0 and 1."""
     way = Dummy("s", positive=True)
     return way / (1 + way)
 
 
 def _is_barred(speed: Quantity, unknown: Expr, place: Expr, there: Expr) -> bool:
-    """Whether, with numbers for the letters, the squared rate is negative between the start and a place."""
+    """Whether, numerically, the squared rate is negative between the start and a place."""
     known = speed.needed(ByEnergy)
     q = letter_of(unknown)
     squared, start, there = map(with_numbers, (explicit(speed.value), known.start, there))

@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of the outcomes of equilibria and their stability, and of the things that their sentences name."""
 
 from __future__ import annotations
 
@@ -67,9 +67,8 @@ LITTLE = Rational(1, 10**12)
 
 
 def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
-    """Numbers for the letters, one large where another is small, of all the orders that they may have.
-
-    A letter that may be negative is so in some of them.
+    """Yield numbers for the letters, one large where another is small, in different orders of size.
+    A letter that may be negative is negative in some of them.
     """
     ordered = sorted(letters, key=str)
     for shift in range(SHIFTS):
@@ -100,7 +99,7 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _is_there(facts: Judged, point: dict[Any, Expr]) -> bool:
-    """It is real, what is a distance is positive, and no force is left there."""
+    """Whether the equilibrium exists at these numbers: it is real, distances are positive, and no force remains."""
     if not _is_real(facts.result, point):
         return False
     entries = _entries(facts.result)
@@ -111,7 +110,7 @@ def _is_there(facts: Judged, point: dict[Any, Expr]) -> bool:
 
 
 def _sided_forces(facts: Judged) -> list[Expr]:
-    """The forces that have another formula on each side of a place, as that of a spring along a line."""
+    """Return the forces with different formulas on the two sides of a place, as that of a spring along a line."""
     sought = facts.inputs.get("sought", ())
     if len(sought) != len(_entries(facts.result)):
         return []
@@ -123,7 +122,7 @@ def _force(facts: Judged, i: int) -> Expr:
 
 
 def anywhere(facts: Judged) -> bool:
-    """It is there whatever the numbers, and no condition is told."""
+    """Whether it exists for all numbers, and no condition is stated."""
     return "exists" not in facts.inputs and all(_is_there(facts, n) for n in _numbers(_letters(facts)))
 
 
@@ -132,7 +131,7 @@ def several(facts: Judged) -> bool:
 
 
 def under_its_condition(facts: Judged) -> bool:
-    """It is there just where the condition holds, which some of the numbers fulfil and some do not."""
+    """Whether it exists exactly where the condition holds, which some numbers fulfil and some do not."""
     if "exists" not in facts.inputs:
         return False
     tried = [(_holds(facts.inputs["exists"], n), _is_there(facts, n)) for n in _numbers(_letters(facts))]
@@ -140,13 +139,13 @@ def under_its_condition(facts: Judged) -> bool:
 
 
 def _can_be_counted(sought: Sequence[Symbol]) -> bool:
-    """Whether each equilibrium is a change of sign of one force, of a coordinate that reaches no end of its range."""
+    """Whether each equilibrium is a change of sign of one force, for a coordinate that reaches no end of its range."""
     known = range_of(sought[0])
     return len(sought) == 1 and not (known is not None and any(known.closed))
 
 
 def all_are_told(facts: Judged) -> bool:
-    """Of several coordinates no place without a force is left out; of one all are counted by a route."""
+    """Whether no equilibrium is missing, for several coordinates; for one coordinate, a route counts them."""
     sought = facts.inputs["sought"]
     if _can_be_counted(sought):
         return True
@@ -166,7 +165,7 @@ def _letters_here(facts: Judged) -> list[Any]:
 
 
 def _signs_by_numbers(facts: Judged) -> list[tuple[dict[Any, Expr], int]]:
-    """Some numbers for the letters, where the state exists, and how the energy changes there to second order."""
+    """Return numbers for the letters, for which the equilibrium exists, with the sign of the energy to second order."""
     exists, letters = facts.inputs.get("exists"), _letters_here(facts)
     points = [n for n in _numbers(set(letters)) if exists is None or _holds(exists, n)]
     numbers = tuple(tuple(point[s] for s in letters) for point in points)
@@ -174,7 +173,7 @@ def _signs_by_numbers(facts: Judged) -> list[tuple[dict[Any, Expr], int]]:
     return list(zip(points, signs, strict=True))
 
 
-@lru_cache(maxsize=16)  # the predicates of one outcome ask for the same
+@lru_cache(maxsize=16)  # several predicates of one outcome use the same signs
 def _signs_at(
     potential: Expr, moving: tuple[Any, ...], there: tuple[Expr, ...], letters: tuple[Any, ...], numbers: Any
 ) -> list[int]:
@@ -193,10 +192,9 @@ def signs(facts: Judged) -> set[int]:
 
 
 def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
-    """1 where the energy rises in all directions, -1 where it falls in one, 0 where it rises in all but some.
-
-    Nothing is differentiated: the energy is compared a little to all sides, which gives the matrix of second order,
-    and its least eigenvalue has that sign, each coordinate being measured in a size of its own.
+    """Return 1 if the energy rises in all directions, -1 if it falls in one, 0 if it is constant in some, else rising.
+    Nothing is differentiated: differences of the energy at nearby points give the matrix of second order, scaled to a
+    suitable size for each coordinate, and the sign is that of its least eigenvalue.
     """
     step, here, size = mp.mpf(10) ** -12, energy(*place), len(place)
 
@@ -205,7 +203,7 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
         return (energy(*moved) - here) / step**2
 
     def twice(i: int, j: int) -> Any:
-        """The second order along the sum of two directions."""
+        """Return the second order along the sum of two directions."""
         way = [int(k == i) + int(k == j and j != i) for k in range(size)]
         return gained(*way) + gained(*(-w for w in way))
 
@@ -231,21 +229,21 @@ def always(sign: int) -> Predicate:
 
 
 def runs_away(facts: Judged) -> bool:
-    """Where the energy falls to some side the motion grows; what turns the motion aside would hold it all the same."""
+    """Whether the motion grows where the energy falls to some side: gyroscopic forces could stabilise it."""
     matter = matter_of(facts.quantities["potential"])
     falling = [numbers for numbers, sign in _signs_by_numbers(facts) if sign == -1]
     return matter is None or grows_always(matter, _at_rest(facts), falling)
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """A minimum of the potential energy is stable only then; numbers without a meaning do not count."""
+    """Whether the kinetic energy is positive: only then is a minimum of U stable; meaningless numbers do not count."""
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
     return matter is None or inertia_is_positive(matter, _at_rest(facts), there)
 
 
 def falls_as_told(facts: Judged) -> bool:
-    """The energy along a straight line through the state of rest, in the direction that is told, and its curvature."""
+    """Whether the energy along the stated direction through the equilibrium has the stated, negative curvature."""
     along, told = Dummy("s"), facts.inputs["falling"]
     moved = zip(_moving(facts), facts.inputs["place"], _entries(explicit(facts.inputs["direction"])), strict=True)
     energy = facts.inputs["potential_here"].subs({q: at + along * way for q, at, way in moved}, simultaneous=True)
@@ -272,7 +270,7 @@ def both(*predicates: Predicate) -> Predicate:
 
 
 def higher(kind: str) -> Predicate:
-    """To second order it is level; the first derivative that is not zero tells what it is."""
+    """Judge by the first nonzero derivative, if the second derivative vanishes."""
 
     def is_so(facts: Judged) -> bool:
         if not all(is_zero(entry) for entry in _entries(facts.result)):
@@ -283,7 +281,7 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """No order decides; the sentence tells of the derivative whose sign is not known, where there is one."""
+    """Whether no order decides; the sentence states the derivative of unknown sign, if there is one."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 
@@ -300,7 +298,7 @@ def kind_of_order(value: Expr, facts: Judged) -> str:
 
 
 def depends(border: str | None) -> Predicate:
-    """The sign is not one for all numbers; the condition that is told holds just where it is positive."""
+    """Whether the sign depends on the numbers, and the stated condition holds exactly where it is positive."""
 
     def is_so(facts: Judged) -> bool:
         condition, where = facts.inputs["condition"], facts.inputs.get("at_border")
@@ -315,7 +313,7 @@ def depends(border: str | None) -> Predicate:
 
 
 def bordered(border: str | None) -> Predicate:
-    """Whether the border belongs to it, by the order that decides there."""
+    """Whether the boundary belongs to the condition, by the order that decides there."""
 
     def is_so(facts: Judged) -> bool:
         where = facts.inputs.get("at_border")
@@ -328,33 +326,32 @@ def bordered(border: str | None) -> Predicate:
 
 
 def is_at_rest(facts: Judged) -> bool:
-    """No rate is left in it."""
+    """Whether the result contains no rate."""
     return not explicit(facts.result).has(*map(rate, facts.inputs["coordinates"]))
 
 
 def is_what_the_lagrangian_has(facts: Judged) -> bool:
-    """Whether nothing of it comes from elsewhere: V + L is of the rates alone, and vanishes with them."""
+    """Whether V comes from the Lagrangian only: V + L contains only terms with rates, and vanishes with them."""
     moving = [rate(q, n) for q in facts.inputs["coordinates"] for n in (1, 2)]
     whole = explicit(facts.result + facts.inputs["lagrangian"])
     return is_zero(whole.subs(dict.fromkeys(moving, 0)))
 
 
 def higher_lasts(facts: Judged) -> bool:
-    """The first derivative that does not vanish does not."""
+    """Whether the derivative that should not vanish does not."""
     return "higher" not in facts.inputs or not is_zero(facts.inputs["higher"])
 
 
 def sides_as_told(facts: Judged) -> bool:
-    """A side of a place is spoken of just where one is assumed, and springs where words assume it."""
+    """Whether the sentence mentions a side exactly if one is assumed, and springs if a step assumes it in words."""
     sides = [each for each in assumed() if each.mark == ">" and explicit(each.residual).has(*facts.inputs["sought"])]
     in_words = set(assumed_in_words()).issuperset(sides)
     return facts.words["seen"] == ("any" if not sides else "stretched" if in_words else "one_side")
 
 
 def level_as_told(facts: Judged) -> bool:
-    """Where the force vanishes whatever the coordinate is, no place is distinguished: just these letters are excluded.
-
-    All coefficients of the force, as a polynomial in what holds the coordinate, have a factor in common.
+    """Whether the sentence excludes exactly the letters for which the force vanishes at all values of the coordinate.
+    They make a common factor of all coefficients of the force vanish, as a polynomial in functions of the coordinate.
     """
     told, sought = facts.inputs.get("excluded"), facts.inputs["sought"]
     if len(sought) > 1:
@@ -387,12 +384,12 @@ def facts_derivative(facts: Judged, fact: DerivativeOf) -> bool:
 
 
 def _nearby(point: SamplePoint) -> Expr:
-    """A distance that is small beside every number of a point."""
+    """Return a distance that is small compared with every number of a point."""
     return min((abs(number) for number in point.values()), default=Integer(1)) / 10**9
 
 
 def _is_slope_in_numbers(energy: Expr, q: Symbol, order: int, found: Expr) -> bool:
-    """Of an energy with distances |x - d|, by central differences at drawn places."""
+    """Check the derivative of an energy with distances |x - d|, by central differences at random places."""
     seen = 0
     for point in islice(points(letters_of(energy) | letters_of(found), seed_of(energy)), TRIED):
         try:
@@ -422,7 +419,7 @@ def lowest_order(facts: Judged, fact: LowestOrder) -> bool:
 
 
 def shape(facts: Judged, fact: Shape) -> bool:
-    """The curvature at the place is the result, and vanishes on the border."""
+    """Whether the curvature at the place is the result, and vanishes on the boundary."""
     q, result, energy = fact.coordinate, explicit(facts.result), explicit(fact.potential.value)
     on_border = fact.border is None or is_zero(result.subs(fact.border.left, fact.border.right))
     if energy.has(Abs):
@@ -431,7 +428,7 @@ def shape(facts: Judged, fact: Shape) -> bool:
 
 
 def _is_curvature_in_numbers(facts: Judged, energy: Expr, fact: Shape, found: Expr) -> bool:
-    """Of an energy with distances |x - d| at the place, where this is a state of rest: by a central difference."""
+    """Check the curvature of an energy with distances |x - d| at an equilibrium, by a central difference."""
     seen, exists = 0, facts.inputs.get("exists")
     conditions = [each for each in (exists, *assumed()) if each is not None]
     letters = letters_of(energy) | letters_of(found) | {s for c in conditions for s in letters_of(c.residual)}
@@ -444,7 +441,7 @@ def _is_curvature_in_numbers(facts: Judged, energy: Expr, fact: Shape, found: Ex
             apart = (below - 2 * there + above) / near**2 - value_at(found, point)
         except (Undefined, NoNumber):
             continue
-        if abs(there) > near**2 * DIGITS_LEFT:  # the numbers differ so much in size that the difference has no digits
+        if abs(there) > near**2 * DIGITS_LEFT:  # no digits are left in the difference of such numbers
             continue
         if abs(apart) > (abs(value_at(found, point)) + 1) / 10**6:
             return False
@@ -474,7 +471,7 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """The first derivative that does not vanish, by differentiation where the verb expands in a series."""
+    """Judge by the first nonzero derivative, by differentiation; the verb expands in a series."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]
@@ -497,7 +494,7 @@ def _shape_by(order: int, derivative: Expr) -> str:
 
 
 def bent(sign: int | None) -> Predicate:
-    """The second derivative at the place, by differentiation of the value that was put there."""
+    """Judge by the sign of the second derivative at the place, by differentiation of the energy."""
 
     def curvature(facts: Judged) -> Expr:
         q, at = facts.inputs["coordinate"], facts.inputs["at"]
@@ -510,13 +507,13 @@ NEARLY = Rational(1, 10**9)
 
 
 def only_coordinate(facts: Judged, q: Any) -> bool:
-    """The one coordinate that the potential energy contains."""
+    """Whether q is the only coordinate in the potential energy."""
     of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
     return {s for s in of.coordinates if explicit(of.value).has(s)} == {q}
 
 
 def level_there(role: str) -> Naming:
-    """The slope of the energy vanishes at the place that is named."""
+    """Check that the slope of the energy vanishes at the named place."""
 
     def is_so(facts: Judged, place: Any) -> bool:
         slope = diff(value_of_role(facts, role), place.left).subs(place.left, explicit(place.right))
@@ -526,7 +523,7 @@ def level_there(role: str) -> Naming:
 
 
 def _vanishes_as_assumed(slope: Expr) -> bool:
-    """With numbers for the letters: which side of a point of the spring the place is on may be assumed."""
+    """Whether the slope vanishes numerically; the side of the spring's end on which the place is may be assumed."""
     drawn = islice(points_as_assumed(letters_of(slope), seed_of(slope)), TRIED)
     seen = [abs(value_at(slope, point)) < NEARLY for point in drawn]
     return bool(seen) and all(seen)
@@ -538,7 +535,7 @@ def extreme_there(facts: Judged, place: Any) -> bool:
 
 
 def flat_in_that_case(facts: Judged, case: Any) -> bool:
-    """On the border the curvature vanishes too, and the left side shows that border."""
+    """Whether the curvature vanishes on the boundary too, and the left side shows that boundary."""
     q, place = facts.inputs["coordinate"], facts.inputs["place"]
     curvature = explicit(At(value_of_role(facts, "potential"), case.left, case.right)).diff(q, 2).subs(q, place)
     return case.mark == "=" and is_zero(curvature) and facts.symbol.args[1:] == (case.left, case.right)
@@ -549,7 +546,8 @@ def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
 
 
 def on_the_constraints(facts: Judged, named: Any) -> bool:
-    """The coordinates, their values at rest, at which every constraint holds, or one of the constraints itself."""
+    """Whether the named thing is the coordinates, their equilibrium values, which fulfil every constraint, or one of
+    the constraints."""
     there = _there_on_constraints(facts)
     kept = all(is_zero(explicit(residual).xreplace(there)) for residual in facts.inputs["constraints"])
     if not isinstance(named, Relation):
@@ -560,7 +558,7 @@ def on_the_constraints(facts: Judged, named: Any) -> bool:
 
 
 def along_the_constraints(facts: Judged, way: Any) -> bool:
-    """To first order a displacement in this direction keeps every constraint."""
+    """Whether a displacement in this direction keeps every constraint to first order."""
     there = _there_on_constraints(facts)
     slopes = [
         sum(diff(explicit(residual), q) * dq for q, dq in zip(there, explicit(way), strict=True)).xreplace(there)
@@ -570,7 +568,7 @@ def along_the_constraints(facts: Judged, way: Any) -> bool:
 
 
 def falls_along(facts: Judged, _: Any) -> bool:
-    """Along the line in that direction the second derivative of the energy is what the sentence says."""
+    """Whether the second derivative of the energy along that direction is the stated one."""
     s = Symbol("s_along", real=True)
     names, way = explicit(facts.inputs["moving"]), explicit(facts.inputs["direction"])
     line = {q: p + s * u for q, p, u in zip(names, facts.inputs["place"], way, strict=True)}
@@ -579,7 +577,7 @@ def falls_along(facts: Judged, _: Any) -> bool:
 
 
 def at_its_place(facts: Judged, state: Any) -> bool:
-    """Each coordinate has the value at which the energy is judged, or the name of the state of rest."""
+    """Whether each coordinate has the value at which the energy is judged, or the symbol of the equilibrium."""
     moving, place = facts.inputs["coordinates"], facts.inputs["place"]
     if state.mark != "=":
         return False
@@ -591,7 +589,7 @@ def at_its_place(facts: Judged, state: Any) -> bool:
 
 
 def steady_as_its_potential(facts: Judged, outcome: str) -> bool:
-    """Where momenta are kept a coordinate that stays is no rest: the sentence says that others move steadily."""
+    """Whether the sentence calls the motion steady if momenta are conserved: the other coordinates still move then."""
     of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
     reduced = [
         e for e in of.ancestors() if (e.step.rule, e.step.outcome) == ("hamilton.effective_potential", "reduced")

@@ -1,7 +1,7 @@
-"""Stability of a state of rest where forces keep constraints between the coordinates.
+"""Stability of an equilibrium with constraints between the coordinates, which forces keep.
 
-Only the displacements z with grad f . z = 0 are allowed. With grad U = sum of lambda_a grad f_a at rest, the potential
-energy along the constraints is, to second order, (1/2) z . (U'' - sum of lambda_a f_a'') z.
+Only the displacements z with grad f . z = 0 are allowed. With grad U = sum of lambda_a grad f_a at equilibrium, the
+potential energy along the constraints is, to second order, (1/2) z . (U'' - sum of lambda_a f_a'') z.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ from derive.steps.step import Quantity, is_zero
 
 __all__: list[str] = []
 
-MOST = 3  # directions that a sentence tells
+MOST = 3  # directions that a sentence can list
 
 
 def constraints_of(of: Quantity) -> tuple[Constraint, ...]:
-    """The constraints that forces keep in the system of an energy or an equation of motion."""
+    """Return the constraints that forces keep in the system of an energy or an equation of motion."""
     kept, body = of.fact(Kept), of.subject.body
     return kept.constraints if kept is not None else body.constraints if isinstance(body, System) else ()
 
 
 @dataclass(frozen=True)
 class Allowed:
-    """The potential energy, the constraints, and the values of the coordinates at rest."""
+    """The potential energy, the constraints, and the equilibrium values of the coordinates."""
 
     energy: Expr
     constraints: tuple[Constraint, ...]
@@ -57,19 +57,19 @@ class Allowed:
 
     @cached_property
     def gradients(self) -> MatrixBase:
-        """One row for each constraint."""
+        """Return the gradients, one row for each constraint."""
         rows = [[self.there(derivative(c.residual, q)) for q in self.coordinates] for c in self.constraints]
         return ImmutableDenseMatrix(rows)
 
     @cached_property
     def ways(self) -> list[MatrixBase]:
-        """Displacements that the constraints allow; all others are sums of them."""
+        """Return a basis of the displacements that the constraints allow."""
         columns = Matrix(self.gradients).nullspace(iszerofunc=is_zero)
         return [ImmutableDenseMatrix(column.applyfunc(tidied)) for column in columns]
 
     @cached_property
     def multipliers(self) -> list[Expr] | None:
-        """lambda of grad U = sum of lambda grad f; nothing where a force is left along the constraints."""
+        """Return lambda of grad U = sum of lambda grad f; None if a force remains along the constraints."""
         slopes = ImmutableDenseMatrix([self.there(derivative(self.energy, q)) for q in self.coordinates])
         if any(not is_zero((way.T * slopes)[0]) for way in self.ways):
             return None
@@ -79,7 +79,7 @@ class Allowed:
 
     @cached_property
     def matrix(self) -> MatrixBase:
-        """z . (U'' - sum of lambda f'') z for each pair of displacements."""
+        """Return z . (U'' - sum of lambda f'') z for each pair of displacements."""
         assert self.multipliers is not None
         terms = (m * c.residual for m, c in zip(self.multipliers, self.constraints, strict=True))
         whole = self.energy - Add(*terms)
@@ -88,7 +88,7 @@ class Allowed:
         return ImmutableDenseMatrix([[tidied((a.T * second * b)[0]) for b in self.ways] for a in self.ways])
 
     def along_curves(self) -> MatrixBase:
-        """The same from the energy along curves on the constraints, without the multipliers."""
+        """Return the same matrix from the energy along curves on the constraints, without the multipliers."""
         count = len(self.ways)
         squares = {}
         for i, j in product(range(count), repeat=2):
@@ -104,7 +104,7 @@ class Allowed:
         return ImmutableDenseMatrix(entries)
 
     def _along(self, way: MatrixBase) -> Expr:
-        """The second order of the energy where one moves by s z + s^2 w, with w such that the constraints hold."""
+        """Return the second order of the energy for a displacement s z + s^2 w, whose w keeps the constraints."""
         moved = dict(zip(self.coordinates, way, strict=True))
         bent = ImmutableDenseMatrix([coefficient_along(c.residual, self.place, moved, 2) for c in self.constraints])
         normal = self.gradients
@@ -133,11 +133,11 @@ STABILITY_ON_CONSTRAINTS = Rule(
 
 @dataclass(frozen=True)
 class OnConstraints:
-    """A state of rest on constraints.
+    """An equilibrium on constraints.
 
     potential     the potential energy, J
-    constraints   those between the coordinates, with their forces
-    place         the coordinates at rest
+    constraints   between the coordinates, with their forces
+    place         the equilibrium values of the coordinates
     """
 
     potential: Quantity
@@ -145,11 +145,11 @@ class OnConstraints:
     place: Mapping[Symbol, Expr]
 
     def stability(self, key: str) -> Quantity:
-        """Stability of rest on constraints, by the second order of U along the displacements that they allow.
+        """Stability of an equilibrium on constraints, by the second order of U along the allowed displacements.
 
         Second route: the energy along curves that stay on the constraints, to second order.
         Outcomes: stable, unstable, level, depends.
-        Errors: a constraint is one on the rates or changes in time; the place is not on it; a force is left there.
+        Errors: a constraint is on the rates or changes in time; the place does not fulfil it; a force remains there.
         Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear
         Programming*, section 11.5.
         """
@@ -198,12 +198,12 @@ def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapp
     energy = explicit(potential.value)
     for each in constraints:
         if each.in_rates or explicit(each.residual).has(TIME):
-            message = f"`stability` needs constraints between the coordinates alone, not {each.left} = {each.right}"
+            message = f"`stability` needs constraints between coordinates only, not {each.left} = {each.right}"
             raise Rejected(Complaint("constrained", message, help="ask for the equations of motion"))
     needed = {q for each in constraints for q in each.coordinates} | {q for q in potential.coordinates if energy.has(q)}
     missing = sorted(q.name for q in needed - set(place))
     if missing:
-        message = f"`stability`: nothing says what {missing[0]} is at rest"
+        message = f"`stability`: the value of {missing[0]} at equilibrium is unknown"
         raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0]}: 0`"))
     allowed = Allowed(energy, tuple(constraints), place)
     where = ", ".join(f"{q} = {value}" for q, value in allowed.place.items())
@@ -215,12 +215,12 @@ def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapp
         message = f"`stability`: at {where} the gradients of the constraints are not independent"
         raise Rejected(Complaint("constrained", message, help="write each constraint once, and without a square"))
     if not allowed.ways:
-        message = "`stability`: the constraints allow no displacement at all"
+        message = "`stability`: the constraints allow no displacement"
         raise Rejected(Complaint("constrained", message))
     if len(allowed.ways) > MOST:
-        message = f"`stability`: the constraints leave {len(allowed.ways)} directions, which are too many to be told"
+        message = f"`stability`: the constraints allow {len(allowed.ways)} directions, which are too many to list"
         raise Rejected(Complaint("too-large", message))
     if allowed.multipliers is None:
-        message = f"`stability`: at {where} a force is left along the constraints"
+        message = f"`stability`: at {where} a force remains along the constraints"
         raise Rejected(Complaint("no-equilibrium", message, help="give a state in which the forces balance"))
     return allowed

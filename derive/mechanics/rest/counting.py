@@ -1,4 +1,4 @@
-"""Whether a force changes its sign as often as places of rest were found: zeros counted in numbers for the letters."""
+"""Whether a force changes its sign as often as equilibria were found: its zeros are counted numerically."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
-STEPS, TRIALS = 1500, 3  # into which a range is divided, and sets of letters
-HALVINGS, SHRUNK = 40, 1e-6  # of an interval, and to which part a force has shrunk at a zero
+STEPS, TRIALS = 1500, 3  # parts of a range; sets of numbers for the letters
+HALVINGS, SHRUNK = 40, 1e-6  # of an interval; ratio to which a force decreases at a zero
 LITTLE = 1e-9
 
 
 def is_countable(sought: Sequence[Symbol]) -> bool:
-    """Changes of sign are those of the force of one coordinate, which has no place at an end of its range."""
+    """Whether the changes of sign can be counted: the force of one coordinate, without equilibria at a range's end."""
     known = range_of(sought[0])
     return len(sought) == 1 and (known is None or True not in known.closed)
 
@@ -30,9 +30,9 @@ def is_countable(sought: Sequence[Symbol]) -> bool:
 def signs_counted(
     potential: Quantity, q: Symbol, states: Sequence[tuple[Expr, Relation | None]], found: Expr
 ) -> Verdict:
-    """Whether the force changes its sign as often as there are states, for some numbers in place of the letters.
+    """Whether the force changes its sign as often as there are equilibria, for some numbers in place of the letters.
 
-    states   each value with the condition under which there is rest
+    states   each value with the condition under which the equilibrium exists
     """
     force = derivative(explicit(potential.value), q)
     letters = {s for s in force.free_symbols if s != q}
@@ -62,14 +62,13 @@ def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:
 
 
 def _is_place(value: Expr, q: Symbol) -> bool:
-    """Whether it is real, and positive where it is a distance: else it is no place for these letters."""
+    """Whether the value is real, and positive for a distance: otherwise it is not a place at these numbers."""
     return bool(value.is_real and (value > 0 or not q.is_positive))
 
 
 def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
-    """Once round, from no likely zero; else from one end to the other, finest where zeros are expected.
-
-    A wire that is twisted does not come back to the same force after one turn.
+    """Return the grid: one full turn, starting at an unlikely zero; else the whole range, finest near expected zeros.
+    The force of a twisted wire is not the same after one turn.
     """
     if once_round:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
@@ -84,9 +83,8 @@ def _grid_within(known: Range) -> list[float]:
 
 
 def _vanishes_between(curve: Any, low: float, high: float) -> bool:
-    """Whether the force changes its sign since it vanishes there.
-
-    Else it grows beyond all bounds, as between two charges, or jumps, as that of a spring whose length is zero there.
+    """Whether the force vanishes where it changes its sign.
+    Otherwise it diverges, as between two charges, or jumps, as that of a spring whose length is zero there.
     """
     sign, before = _sign(curve, low), max(abs(curve(low)), abs(curve(high)))
     for _ in range(HALVINGS):

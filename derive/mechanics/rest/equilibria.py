@@ -1,8 +1,6 @@
-"""States of rest: all places at which no force is left, with the conditions under which they exist.
-
-The forces are those of a potential energy, or of a Lagrangian in which the coordinates do not move: there -L is the
-potential energy that they see, V. Two coordinates or more are solved one after the other, or together where the forces
-are linear.
+"""Equilibria: all places at which the forces vanish, with the conditions under which they exist.
+The forces are those of a potential energy, or of a Lagrangian with the rates set to zero: then V = -L is an effective
+potential energy. Two or more coordinates are solved for one after the other, or together if the forces are linear.
 """
 
 from __future__ import annotations
@@ -67,7 +65,7 @@ from derive.witness.facts import Rest
 __all__ = ["equilibria", "potential_at_rest"]
 
 ZERO = Integer(0)
-MOST = 32  # states of rest
+MOST = 32  # equilibria
 
 
 POTENTIAL_AT_REST = Rule(
@@ -82,18 +80,18 @@ POTENTIAL_AT_REST = Rule(
 
 
 def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_rest") -> Quantity:
-    """Potential energy that a system at rest sees, V = -L without the rates: U, less what the given motion has of T;
-    and less F . r for each constant force F that is given at a place r.
+    """Effective potential energy of a system at rest, V = -L without the rates: U minus the part of T from a given
+    motion, minus F . r for each given constant force F at a place r.
 
-    of   the Lagrangian, J; an energy without rates is its own answer
+    of   the Lagrangian, J; an energy without rates is returned unchanged
     Second route: the work of the forces and of the inertia of the mass points at rest, -dV for any displacement.
     Outcomes: generic, pushed (constant forces are given).
-    Errors: the Lagrangian holds the time itself; a given force is not constant.
+    Errors: the Lagrangian contains the time explicitly; a given force is not constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
     """
     require_kind("potential_at_rest", "of", of, "energy")
     if explicit(of.value).has(TIME):
-        raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
+        raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
     moving, pushes = list(of.coordinates), _given_pushes(of)
     if not explicit(of.value).free_symbols & {rate(q) for q in moving} and not pushes:
         return of
@@ -125,13 +123,13 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
 
 
 def _given_pushes(of: Quantity) -> list[Expr]:
-    """F . r of the constant forces that are given; others do not have a potential energy that is told here."""
+    """Return F . r of the given constant forces; reject other forces, whose potential energy is unknown."""
     acted = of.fact(ActedOn)
     found = []
     for push in acted.forces if acted is not None else ():
         strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
         if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
-            message = f"a force is given that is not constant, {push.components[0]}: where it leaves rest is not told"
+            message = f"a given force is not constant, {push.components[0]}, so its potential energy is unknown"
             help_line = "a force with a potential energy U is given by `potential(U)`"
             raise Rejected(Complaint("changes", message, help=help_line))
         found += [Factors(f, at) for f, at in zip(push.components, push.at, strict=True) if f != 0]
@@ -143,30 +141,30 @@ def _force_at_rest(matter: Matter, q: Symbol, still: Mapping[Symbol, Expr]) -> E
 
 
 def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
-    """All states of rest, dU/dq = 0 for every coordinate, with the conditions under which they exist.
+    """All equilibria, dU/dq = 0 for every coordinate, with the conditions under which they exist.
 
     of            a potential energy or an effective one, or a Lagrangian, J
-    coordinates   those in which rest is sought; all that it depends on unless given
-    Angles are between -pi and pi; what is a distance is positive. A coordinate that no force depends on is left open.
-    Keys: condition_ and the name of the coordinate; rest_1, rest_2, ... the states.
-    Second route: the virtual work of forces and inertia at that place; of one coordinate also all zeros of the force
-    are counted in numbers, for some letters.
+    coordinates   the unknowns; by default all coordinates that it depends on
+    Angles are between -pi and pi; distances are positive. A coordinate that no force depends on may have any value.
+    Keys: condition_ and the name of the coordinate; rest_1, rest_2, ... for the equilibria.
+    Second route: the virtual work of forces and inertia at that place; for one coordinate also all zeros of the force
+    are counted numerically, for some values of the letters.
     Outcomes: always, where (it exists under a condition), only (there is no other); of the condition: generic, zero (no
     force along that coordinate).
-    Errors: a zero of the force has no closed form; there is no state of rest; it holds the time; forces keep a
-    constraint on the coordinates.
+    Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; forces keep
+    a constraint on the coordinates.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
     Source: that of `equilibria`.
     """
     require_kind("equilibria", "of", of, "energy")
     if explicit(of.value).has(TIME):
-        raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
+        raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
     potential = potential_at_rest(of)
     sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]
     _check_free(of, [q.symbol for q in coordinates] or list(of.coordinates))
     missing = [q.name for q in sought if not explicit(potential.value).has(q)]
     if missing or not sought:
-        message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: there is rest anywhere"
+        message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: equilibrium at every value"
         raise Rejected(Complaint("wrong-argument", message))
     forces = {q: _factored(tidied(derivative(explicit(potential.value), q))) for q in sought}
     others = [q for q in potential.coordinates if q not in sought and any(f.has(q) for f in forces.values())]
@@ -182,11 +180,11 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
 
 
 def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
-    """Refuse coordinates that conditions tie together: a force of constraint balances the others at rest."""
+    """Reject coordinates with a constraint between them: a constraint force balances the others at equilibrium."""
     tied = next((c for c in constraints_of(of) if any(c.along(q) != 0 for q in sought)), None)
     if tied is not None:
-        message = f"`equilibria`: the coordinates are tied by {tied.left} = {tied.right}, which a force keeps"
-        help_line = "rest is sought in free coordinates: write the places by fewer of them, without this constraint"
+        message = f"`equilibria`: a force keeps the constraint {tied.left} = {tied.right} between the coordinates"
+        help_line = "use free coordinates: write the places with fewer coordinates, without this constraint"
         raise Rejected(Complaint("constrained", message, help=help_line))
 
 
@@ -202,27 +200,25 @@ def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
         found = _on_all_sides(forces)
     except SidesOpen as fault:
         where = ", ".join(f"{q} = {value}" for q, value in fault.state.values.items())
-        message = f"`{of.key}` has a state of rest {where} only if {fault.state.exists} and {fault.other}"
-        help_line = "say on which side it is: give a coordinate a range, such as `x: positive length`"
+        message = f"`{of.key}` has an equilibrium {where} only if {fault.state.exists} and {fault.other}"
+        help_line = "specify the side: give a coordinate a range, such as `x: positive length`"
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     except Unsolved as fault:
-        message = f"the states of rest of `{of.key}` have no closed form: where {fault.factor} vanishes is not known"
-        help_line = "give a state of rest that you know where it is needed, `at={theta: 0}`"
+        message = f"the equilibria of `{of.key}` have no closed form: the zeros of {fault.factor} are unknown"
+        help_line = "where a verb needs an equilibrium, give a known one, `at={theta: 0}`"
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     found = [state for state in found if _in_range(of, state)]
     if not found:
         ranged = [q.name for q in forces if range_of(q) is not None]
-        where = f" for {' and '.join(ranged)} in the range that is given" if ranged else ""
-        raise Rejected(
-            Complaint("no-equilibrium", f"`{of.key}` has no state of rest: its force vanishes nowhere{where}")
-        )
+        where = f" for {' and '.join(ranged)} in the given range" if ranged else ""
+        raise Rejected(Complaint("no-equilibrium", f"`{of.key}` has no equilibrium: its force vanishes nowhere{where}"))
     if len(found) > MOST:
-        raise Rejected(Complaint("too-large", f"`{of.key}` has more than {MOST} states of rest"))
+        raise Rejected(Complaint("too-large", f"`{of.key}` has more than {MOST} equilibria"))
     return found
 
 
 def _in_range(of: Quantity, state: State) -> bool:
-    """Whether the coordinates are in their ranges there."""
+    """Whether the coordinates of the equilibrium are in their ranges."""
     inside = {q: lies_within(q, value, state.exists) for q, value in state.values.items()}
     open_ = next((q for q, known in inside.items() if known is None), None)
     if open_ is not None:
@@ -242,7 +238,7 @@ def _on_all_sides(forces: Mapping[Symbol, Expr]) -> list[State]:
 
 
 def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list[State]:
-    """The states that all forces allow, one force after another; nothing where they contradict each other."""
+    """Return the equilibria that all forces allow, one force after another; none if they contradict each other."""
     left = [force for force in (tidied(f) for f in forces) if not is_zero(force)]
     if any(not force.has(*unknown) for force in left):
         return []
@@ -264,7 +260,7 @@ def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list
 
 
 def factors_of_any(force: Expr, unknown: Sequence[Symbol]) -> list[Expr]:
-    """The factors of a force that hold some of the coordinates."""
+    """Return the factors of a force that contain some of the coordinates."""
     held = [q for q in unknown if force.has(q)]
     if len(held) == 1:
         return list(factors_of(force, held[0]))
@@ -283,7 +279,7 @@ def _with_zero(
 
 
 def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> State | None:
-    """The one solution of linear equations; none where they are not linear, or may have no or many solutions."""
+    """Return the unique solution of linear equations; None if they are not linear, or it may not be unique."""
     held = [q for q in unknown if any(force.has(q) for force in forces)]
     if len(held) < 2 or len(held) != len(forces):
         return None
@@ -309,7 +305,7 @@ CONDITION = Rule(
 
 
 def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
-    """dU/dq = 0, in factors.
+    """Equilibrium condition, dU/dq = 0, in factors.
 
     Outcomes: generic, zero.
     Source: that of `equilibria`.
@@ -331,7 +327,7 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
 
 
 def _term_by_term(force: Expr, q: Symbol) -> Expr:
-    """G M m/r^2 - l^2/(m r^3), not (G M m^2 r - l^2)/(m r^3)."""
+    """Write G M m/r^2 - l^2/(m r^3), not (G M m^2 r - l^2)/(m r^3)."""
     below = force.as_numer_denom()[1]
     if below.has(Abs):
         return by_rates(force, [q])
@@ -339,7 +335,7 @@ def _term_by_term(force: Expr, q: Symbol) -> Expr:
 
 
 def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
-    """What stays constant where other coordinates move steadily, by their constant momenta: that is no rest."""
+    """Return the coordinate that stays constant while others move steadily with constant momenta: a steady motion."""
     seen = potential.fact(SeenWith)
     if seen is None or not seen.constants or len(sought) != 1:
         return {}
@@ -347,7 +343,7 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol
 
 
 def all_matter(potential: Quantity) -> Matter | None:
-    """What moves in a potential energy, with the kinetic energy and the magnetic fields that it does not contain."""
+    """Return the matter of a potential energy, with the kinetic energy and the magnetic fields, absent from U."""
     body = potential.subject.body
     seen = potential.fact(SeenWith)
     return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
@@ -359,7 +355,7 @@ def named_by(potential: Quantity, routes: Mapping[str, Route]) -> dict[str, Rout
 
 
 def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
-    """dU/dq by the virtual work of what made U, else as the first order of U in a small displacement."""
+    """Return dU/dq by the virtual work of the forces behind U, or as the first order of U in a small displacement."""
     matter = matter_behind(potential)
     if matter is not None:
         still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
@@ -368,7 +364,7 @@ def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
 
 
 def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Symbol, list[Symbol]]:
-    """theta_0, or theta_1, theta_2, ... where there are several; theta_eq where these letters are given."""
+    """Return the names: theta_0, or theta_1, theta_2, ... for several; theta_eq if these letters are given."""
     taken = {s.name for s in explicit(potential.value).free_symbols} | given_letters()
 
     def letters(q: Symbol) -> list[Symbol]:
@@ -381,7 +377,7 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Where a factor of the force that does not hold the coordinate vanishes there is rest anywhere; unless, told."""
+    """Return the condition that no factor without the coordinate vanishes: else every value is an equilibrium."""
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
     if left is None or not left.left.is_Add:
@@ -391,7 +387,7 @@ def _level_where(force: Expr, q: Symbol) -> Relation | None:
 
 
 def _by_terms_if_shorter(value: Expr) -> Expr:
-    """l + m g/k, not (m g + k l)/k, where nothing but a product is divided by."""
+    """Write l + m g/k, not (m g + k l)/k, if the denominator is only a product."""
     if not value.as_numer_denom()[0].is_Add or value.as_numer_denom()[1].atoms(Add, sin, cos):
         return value
     return min((value, by_terms(value.expand())), key=length)
@@ -424,7 +420,7 @@ def _rest(
     n: int,
     states: Sequence[State],
 ) -> Quantity:
-    """One state of rest.
+    """One equilibrium.
 
     Outcomes: always, where, only.
     Source: that of `equilibria`.
@@ -478,7 +474,7 @@ def _rest(
 
 
 def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:
-    """Values by the coordinates' letters, of a state of rest or as a script writes them."""
+    """Return the values of an equilibrium, or those that a script writes, by the coordinates' letters."""
     if isinstance(at, Quantity):
         return dict(at.needed(Rest).values)
     return {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in at.items()}

@@ -1,4 +1,4 @@
-"""Facts that results hand on besides their value, for the steps that rest on them."""
+"""Facts that results carry in addition to their value, for later steps."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ from derive.mechanics.hamilton.facts import SeenWith
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.step import Fact, Quantity
 
-NEAR = Rational(1, 1000)  # to a place
+NEAR = Rational(1, 1000)  # distance from an equilibrium
 
 
 @dataclass(frozen=True)
 class RestOf(Fact):
-    """The potential energy that a state of rest belongs to, and the coordinates that it was sought in."""
+    """The potential energy of an equilibrium, and the coordinates that were solved for."""
 
-    missing = "is not a state of rest that was found"
+    missing = "is not an equilibrium that was found"
     potential: Quantity
     coordinates: tuple[Symbol, ...]
 
 
 def matter_behind(potential: Quantity) -> Matter | None:
-    """What made a potential energy: mass points and forces, or of an effective one those with momenta held constant."""
+    """Return the mass points and forces behind a potential energy; for an effective one, with constant momenta."""
     seen, own = potential.fact(SeenWith), potential.fact(Matter)
     return seen.matter if seen is not None else own if own is not None and own.is_known else None
 
 
 @dataclass(frozen=True)
 class DerivativeOf(Fact):
-    """The potential energy that a slope or curvature is one of, and the coordinate that it was differentiated by."""
+    """The potential energy of a slope or curvature, and the coordinate by which it was differentiated."""
 
     missing = "is not the derivative of a potential energy"
     potential: Quantity
@@ -63,9 +63,9 @@ class LowestOrder(Fact):
 
 @dataclass(frozen=True)
 class Shape(Fact):
-    """The potential energy of which this is the curvature, the place, and a letter with its value on the border."""
+    """The potential energy behind a curvature, the place, and a letter with its value on the boundary."""
 
-    missing = "is not the curvature at a state of rest"
+    missing = "is not the curvature at an equilibrium"
     potential: Quantity
     coordinate: Symbol
     place: Expr
@@ -74,8 +74,8 @@ class Shape(Fact):
 
 @dataclass(frozen=True)
 class StableWhere(Fact):
-    """Of one coordinate: the potential energy, the place, the condition, and the letter at its border where a higher
-    order decides, with what it decides."""
+    """The condition for stability in one coordinate: the potential energy, the place, the condition, and the letter at
+    its boundary, with the verdict of the higher order that decides there."""
 
     missing = "does not depend on a condition, as `stability` may"
     energy: Expr
@@ -86,7 +86,7 @@ class StableWhere(Fact):
     stable_there: bool | None
 
     def lifted(self, values: Mapping[Any, Any]) -> Expr:
-        """By how much the energy a little beside the place is greater, on the side where that is less."""
+        """Return the rise of the energy a little away from the place, on the side where the rise is smaller."""
         q, energy = self.coordinate, self.energy.xreplace(values)
         place = self.place.xreplace(values)
         at = {s: value_at(energy, {q: place + s * NEAR}) for s in (1, -1)}

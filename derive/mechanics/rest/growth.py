@@ -1,8 +1,7 @@
-"""Whether a motion grows about a state of rest: the characteristic exponents of the linearised motion, in numbers.
-
-What mass points do along each coordinate, m a - F by virtual work, is linear in small displacements, rates and
-accelerations; M, C and K are its differences, and exp(s t) moves by det(M s^2 + C s + K) = 0.
-Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1 (with what forces do that depend on the rates).
+"""Whether a motion grows about an equilibrium: the characteristic exponents of the linearised motion, numerically.
+The virtual work of m a - F of the mass points along each coordinate is linear in small displacements, rates and
+accelerations; differences give M, C and K, and exp(s t) is a solution if det(M s^2 + C s + K) = 0.
+Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1 (extended by forces that depend on the rates).
 """
 
 from __future__ import annotations
@@ -24,26 +23,25 @@ from derive.mechanics.rest.facts import matter_behind
 from derive.steps.step import Quantity
 
 DIGITS = 75
-SMALL = 10  # digits by which a growth, or what turns a motion aside, is above rounding
-FEW = 3  # sets of letters, where nothing turns the motion aside
-ELSEWHERE = Rational(3, 8)  # a coordinate that the energy does not have
-SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # of letters that the energy does not have
+SMALL = 10  # digits by which a growth, or a gyroscopic force, is above rounding
+FEW = 3  # sets of numbers, if there are no gyroscopic forces
+ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain
+SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # of letters that the energy does not contain
 
 Numbers = Mapping[Symbol, Expr]
 Leftover = Callable[..., Sequence[Any]]
 
 
 def matter_of(potential: Quantity) -> Matter | None:
-    """What moves in a potential energy; also what a magnetic field does to it."""
+    """Return the matter of a potential energy, including magnetic forces."""
     if potential.fact(SeenWith) is None and isinstance(potential.subject.body, System):
         return potential.subject.body.matter
     return matter_behind(potential)
 
 
 def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether some small displacement grows, whatever the letters are.
-
-    place    the coordinates at rest
+    """Whether some small displacement grows for all values of the letters.
+    place    the equilibrium values of the coordinates
     points   numbers for the letters of the energy, where it falls
     """
     tried = 0
@@ -54,7 +52,7 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
                 return True
             if not _grows(*motion):
                 return False
-            if not _is_turned(*motion):  # what falls then runs away, however large the others are
+            if not _is_turned(*motion):  # then it grows for any size of the other letters
                 tried += 1
                 break
         if tried >= FEW:
@@ -63,7 +61,7 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
 
 def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether no motion through the place has a negative kinetic energy, by the eigenvalues of M."""
+    """Whether no motion through the place has negative kinetic energy, by the eigenvalues of M."""
     for point, falling in product(points[:FEW], (False, True)):
         motion = _motion(matter, place, point, SIZES[0], falling)
         if motion is None:
@@ -76,14 +74,14 @@ def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Se
 
 
 def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether forces that are linear in the rates do no work, as in a frame that turns or in a magnetic field."""
+    """Whether some forces linear in the rates do no work, as in a rotating frame or in a magnetic field."""
     motions = (_motion(matter, place, point, SIZES[0]) for point in points[:FEW])
     return any(motion is not None and _is_turned(*motion) for motion in motions)
 
 
-@lru_cache(maxsize=16)  # each state of rest of a system asks for the same
+@lru_cache(maxsize=16)  # the same for each equilibrium of a system
 def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
-    """m a - F along each coordinate, as a function of coordinates, rates, accelerations and letters."""
+    """Return m a - F along each coordinate, as a function of coordinates, rates, accelerations and letters."""
     moving = matter.coordinates
     idle = {other.force: Integer(0) for other in matter.others if isinstance(other, Reaction)}
     left = [explicit(matter.inertia_along(q) - matter.force_along(q)).xreplace(idle) for q in moving]
@@ -95,11 +93,10 @@ def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
 def _motion(
     matter: Matter, place: Numbers, point: Numbers, size: Expr, falling: bool = False
 ) -> tuple[Any, Any, Any] | None:
-    """M, C and K: how m a - F changes with accelerations, rates and coordinates, at rest.
-
-    falling   whether of the letters that the energy does not have each is smaller than the one before it
-    Nothing where the coordinates do not tell the places, as the angles of a top upright, or where the numbers have no
-    meaning: that is not judged.
+    """Return M, C and K, the derivatives of m a - F by accelerations, rates and coordinates, at rest.
+    falling   whether each letter that the energy does not contain is smaller than the one before it
+    None if the coordinates are singular, as the angles of an upright top, or if the numbers have no meaning: then
+    nothing is judged.
     """
     letters, left = _left_over(matter)
     count = len(matter.coordinates)
@@ -119,7 +116,7 @@ def _motion(
 
 
 def _slopes(left: Leftover, still: Sequence[Any], first: int, count: int) -> Any:
-    """By differences, of those that begin with one of them."""
+    """Return the derivatives by the coordinates, the rates or the accelerations, by differences."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     found = mp.matrix(count, count)
     for k in range(count):
@@ -134,12 +131,12 @@ def _number(value: Expr) -> Any:
 
 
 def _grows(inertia: Any, damping: Any, stiffness: Any) -> bool:
-    """Whether an exponent has a positive real part: an eigenvalue of the motion of first order."""
+    """Whether an exponent, an eigenvalue of the equivalent first-order system, has a positive real part."""
     count = inertia.rows
     with mp.workdps(DIGITS):
         try:
             inverse = inertia**-1
-        except ZeroDivisionError:  # what has no inertia, as an angle about a place at r = 0, has no motion to be told
+        except ZeroDivisionError:  # a coordinate without inertia, as an angle at r = 0, has no definite motion
             return True
         motion = mp.zeros(2 * count)
         of_place, of_rate = inverse * stiffness, inverse * damping

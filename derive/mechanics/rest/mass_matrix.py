@@ -1,7 +1,7 @@
 """The mass matrix of a system at a place: whether it has an inverse there, and whether it is positive definite.
 
-M_ij is what the rate of q_j adds to the momentum p_i. Where it has no inverse although it has one elsewhere, the
-coordinates are singular: they do not determine how the system leaves that place.
+M_ij is the factor of the rate of q_j in the momentum p_i. If M has no inverse at a place but has one elsewhere, the
+coordinates are singular there: they do not determine how the system leaves that place.
 """
 
 from __future__ import annotations
@@ -29,16 +29,15 @@ SMALL = 25  # digits by which a determinant is above rounding
 
 
 def mass_matrix(matter: Matter, coordinates: Sequence[Symbol]) -> MatrixBase:
-    """dp_i/dq_dot_j where nothing moves."""
+    """Return dp_i/dq_dot_j at rest."""
     still = {rate(q): Integer(0) for q in matter.coordinates}
     momenta = [explicit(matter.momentum_along(q)) for q in coordinates]
     return ImmutableDenseMatrix([[derivative(p, rate(q)).xreplace(still) for q in coordinates] for p in momenta])
 
 
 def check_regular(verb: str, matter: Matter | None, place: Mapping[Symbol, Expr]) -> None:
-    """Refuse a place at which the coordinates are singular.
-
-    A coordinate that is left out of the place may have any value: there it need not be regular.
+    """Reject a place at which the coordinates are singular.
+    A coordinate that is not in the place may have any value and need not be regular.
     """
     held = [q for q in place if matter is not None and q in matter.coordinates]
     if matter is None or not held:
@@ -48,7 +47,7 @@ def check_regular(verb: str, matter: Matter | None, place: Mapping[Symbol, Expr]
     if not has_no_value(there):
         if not _may_be_singular(there) or not is_zero(determinant_of(there.applyfunc(tidied))):
             return
-        if _may_be_singular(matrix):  # it has no inverse anywhere: a coordinate has no inertia
+        if _may_be_singular(matrix):  # no inverse anywhere: a coordinate has no inertia
             return
     where = ", ".join(f"{q} = {value}" for q, value in place.items())
     message = f"`{verb}`: the coordinates are singular at {where}: the mass matrix has no inverse there"
@@ -57,7 +56,7 @@ def check_regular(verb: str, matter: Matter | None, place: Mapping[Symbol, Expr]
 
 
 def _may_be_singular(matrix: MatrixBase) -> bool:
-    """Whether its determinant vanishes for some numbers, in many digits."""
+    """Whether the determinant vanishes at some numbers, in many digits."""
     letters = sorted(matrix.free_symbols, key=str)
     numbers = {s: rational_in_range(s, Rational(11 + 7 * i, 13 + 3 * i)) for i, s in enumerate(letters)}
     with mp.workdps(DIGITS):
@@ -69,10 +68,9 @@ def _may_be_singular(matrix: MatrixBase) -> bool:
 
 
 def has_positive_inertia(matter: Matter, place: Mapping[Symbol, Expr]) -> bool:
-    """Whether the kinetic energy is positive for every motion through the place; False where it is not.
-
-    That of masses is so by itself: a `System` has positive ones alone. Of a given Lagrangian the letters may leave it
-    open: it is taken to be so, and the page states the condition.
+    """Whether the kinetic energy is positive for every motion through the place.
+    It always is for a `System`, whose masses are positive. For a given Lagrangian the letters may leave the sign open:
+    then it is taken to be positive, and the page states the condition.
     """
     if not isinstance(matter, Varied):
         return True

@@ -1,6 +1,5 @@
-"""How the potential energy changes on the constraints, in numbers: nothing is differentiated by hand or by SymPy.
-
-One moves a little from the state of rest, returns to the constraints by Newton's method, and compares the energies.
+"""The change of the potential energy on the constraints, numerically, without analytical derivatives.
+A point near the equilibrium is moved back to the constraints by Newton's method, and the energies are compared.
 """
 
 from __future__ import annotations
@@ -16,12 +15,12 @@ from derive.steps.rule import Judged
 
 DIGITS = 60
 STEP = 14  # digits of a small displacement
-TURNS = 12  # of Newton's method, which doubles the digits in each
+TURNS = 12  # of Newton's method; each doubles the digits
 
 
 def signs_on_constraints(facts: Judged, points: Sequence[Mapping[Any, Expr]]) -> set[int]:
-    """1 where the energy rises along all allowed displacements, -1 where it falls along one, 0 where it is constant
-    along some to second order; for all the numbers that the letters are given."""
+    """Return the signs at all the given numbers: 1 if the energy rises along all allowed displacements, -1 if it falls
+    along one, 0 if it is constant along some to second order."""
     moving = list(facts.inputs["coordinates"])
     functions = [facts.inputs["potential_here"], *facts.inputs["constraints"]]
     letters = sorted(set().union(*(each.free_symbols for each in functions)) - set(moving), key=str)
@@ -44,7 +43,7 @@ def _sign(energy: Callable[..., Any], conditions: Sequence[Callable[..., Any]], 
     here, small = energy(*place), mp.mpf(10) ** -STEP
 
     def gained(*shares: Any) -> Any:
-        """Twice the energy that a displacement to both sides adds, per square of its size."""
+        """Return the sum of the energy changes for a displacement to both sides, divided by the square of its size."""
         total = mp.mpf(0)
         for side in (1, -1):
             moved = [
@@ -67,7 +66,7 @@ def _sign(energy: Callable[..., Any], conditions: Sequence[Callable[..., Any]], 
 
 
 def _slopes(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> Any:
-    """The gradients of the constraints, by differences."""
+    """Return the gradients of the constraints, by differences."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     found = mp.matrix(len(conditions), len(place))
     for i, condition in enumerate(conditions):
@@ -78,7 +77,7 @@ def _slopes(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> A
 
 
 def _allowed(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> list[Any]:
-    """An orthonormal basis of the displacements that the constraints allow."""
+    """Return an orthonormal basis of the displacements that the constraints allow."""
     slopes = _slopes(conditions, place)
     values, vectors = mp.eigsy(slopes.T * slopes)
     largest = max(abs(v) for v in values)
@@ -86,7 +85,7 @@ def _allowed(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> 
 
 
 def _returned(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> list[Any]:
-    """The place on the constraints that is reached from a place close to them, straight across."""
+    """Move a place close to the constraints onto them, along their gradients."""
     at = list(place)
     for _ in range(TURNS):
         left = mp.matrix([condition(*at) for condition in conditions])

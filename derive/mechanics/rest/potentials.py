@@ -1,4 +1,4 @@
-"""The shape of a potential energy: its slope and curvature, and what kind of equilibrium stands where it is level."""
+"""The shape of a potential energy: its slope and curvature, and the kind of equilibrium where it is stationary."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
 
 __all__ = ["extreme_value", "leading_order", "slope"]
 
-HIGHEST = 8  # where a potential is level to this order, nothing is decided
+HIGHEST = 8  # the highest order that may decide
 
 
 SLOPE = Rule(
@@ -41,7 +41,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
 
     potential   a function of one coordinate, J
     order       1, 2, ...
-    by          the coordinate, where it depends on several
+    by          the coordinate, if it depends on several
     Check: U expanded about an arbitrary point q + u; n! times the coefficient of u^n.
     Outcomes: slope, curvature, higher.
     Errors: the potential depends on several coordinates, or on none.
@@ -71,20 +71,20 @@ def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
 
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
-    """The coefficient of u^n in the expansion about q = place."""
+    """Return the coefficient of u^n in the expansion about q = place."""
     return coefficient_along(explicit(value), {q: place}, {q: Integer(1)}, order)
 
 
 def _check_lasts(verb: str, potential: Quantity, q: Symbol) -> None:
-    """A potential that changes with the time has no equilibrium that its shape could tell."""
+    """Reject a potential that changes with time: its shape does not determine equilibria."""
     require_constant(
-        verb, "potential energy but for its coordinate", potential.value.xreplace({q: Dummy("q", real=True)})
+        verb, "potential energy except for its coordinate", potential.value.xreplace({q: Dummy("q", real=True)})
     )
 
 
 def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> None:
     if tidied(derivative(value, q).xreplace({q: place})) != 0:
-        message = f"`{potential.key}` is not level at {q.name} = {place}"
+        message = f"`{potential.key}` is not stationary at {q.name} = {place}"
         raise Rejected(Complaint("no-equilibrium", message))
 
 
@@ -108,10 +108,10 @@ def extreme_value(
     """Value of a potential energy where its slope vanishes, U(q_0), which is a minimum or a maximum by U''(q_0).
 
     potential   a function of one coordinate, J
-    by          the coordinate, where it depends on several
-    at          q_0; 0 unless given
+    by          the coordinate, if it depends on several
+    at          q_0; 0 by default
     Check: the term of order zero of its expansion about that place.
-    Outcomes: minimum, maximum, level (the second derivative vanishes too), conditional (its sign is open).
+    Outcomes: minimum, maximum, level (the second derivative vanishes too), conditional (its sign is unknown).
     Errors: U' does not vanish there.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
@@ -164,14 +164,14 @@ def leading_order(
 ) -> Quantity:
     """Potential energy near an equilibrium to the lowest order that decides, U = U(q_0) + c_n (q - q_0)^n.
 
-    of          a potential energy of one coordinate, J; or its curvature at rest, as `stability` yields it, which knows
-                place and border
-    where       a letter and the value for which the curvature of this potential vanishes, as a relation
-    at          q_0; 0 unless given
-    Check: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
-    Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and where a letter is
+    of          a potential energy of one coordinate, J; or its curvature at equilibrium, as `stability` yields it, with
+               place and boundary
+    where      a letter and the value for which the curvature of this potential vanishes, as a relation
+    at         q_0; 0 by default
+    Check: the derivatives of U up to the n-th, at that point: only the n-th does not vanish.
+    Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a letter
     at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
-    Errors: U' does not vanish there; the border is that of another potential.
+    Errors: U' does not vanish there; the boundary belongs to another potential.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """
     shape = of.fact(Shape)
@@ -192,7 +192,7 @@ def leading_order(
     truncated = Terms(constant, leading * Pow(q - place, order))
 
     def by_derivatives(found: Expr) -> tuple[Expr, Expr]:
-        """Each derivative with a mark of its own, so that no two can make up for one another."""
+        """Add the derivatives, each with its own factor, so that no two can cancel."""
         orders = range(1, (order or HIGHEST) + 1)
         marks = {n: stand_in(f"u_{n}") for n in orders}
         expected = leading * factorial(order) * marks[order] if order else Integer(0)
@@ -228,15 +228,15 @@ def leading_order(
 
 
 def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, where: Relation | None) -> None:
-    """At the border of this very potential its curvature vanishes."""
+    """Check that the curvature of this potential vanishes on the boundary."""
     if where is not None and not is_zero(derivative(value, q, 2).xreplace({q: place})):
-        message = f"the curvature of `{potential.key}` does not vanish at {where}, so that is not its border"
+        message = f"the curvature of `{potential.key}` does not vanish at {where}, so this is not its boundary"
         help_line = "leave `where` out, or give the letter at its bound"
         raise Rejected(Complaint("wrong-border", message, help=help_line))
 
 
 def _first_that_decides(value: Expr, q: Symbol, place: Expr) -> tuple[int, Expr]:
-    """The lowest order whose coefficient is not zero, and that coefficient; (0, 0) if there is none."""
+    """Return the lowest order whose coefficient is not zero, and that coefficient; (0, 0) if there is none."""
     for n in range(2, HIGHEST + 1):
         coefficient = tidied(_coefficient(value, q, place, n))
         if coefficient != 0:

@@ -1,7 +1,7 @@
-"""Whether a state of rest is missing: with numbers for the letters rest is sought by Newton's method from many starts.
-
-A start is drawn, or is a place that was found, turned over or round. What is found counts once it is confirmed in many
-digits, with the second power of each error; a place where the forces only grow small, or are level, is not.
+"""Whether an equilibrium is missing: a numerical search by Newton's method from many starting points.
+A starting point is random, or an equilibrium that was found, reflected or displaced. A new equilibrium counts if it
+is confirmed in many digits by quadratic convergence; a place where the forces only become small, or are stationary,
+is not confirmed.
 Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 9.6.
 """
 
@@ -20,7 +20,7 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 
-TRIALS, DRAWN, STARTS, TURNS = 2, 24, 90, 25  # sets of letters; starts, drawn and in all; steps of one search
+TRIALS, DRAWN, STARTS, TURNS = 2, 24, 90, 25  # sets of numbers; random starts, all starts; steps of one search
 CLOSE, DIGITS = 1e-6, 50
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, TypeError)
 
@@ -30,17 +30,17 @@ Motion: TypeAlias = Callable[..., Sequence[float]]
 
 
 def none_is_missing(forces: Forces, sought: tuple[Symbol, ...], angles: tuple[Symbol, ...], states: States) -> bool:
-    """Whether all places that are found where no force is left are among the states.
+    """Whether all equilibria that the search finds are among the states.
 
     forces   dU/dq for each coordinate
-    angles   those of the coordinates that are the same after a turn
-    states   coordinate and value; a coordinate that is left out may have any
+    angles   coordinates that are the same after a full turn
+    states   coordinate and value; a coordinate that is not listed may have any value
     """
     letters = sorted({s for force in forces for s in force.free_symbols}, key=str)
     return _searched(forces, sought, angles, states, tuple((s, range_of(s)) for s in letters))
 
 
-@lru_cache(maxsize=16)  # each state of rest of a system asks for the same
+@lru_cache(maxsize=16)  # the same for each equilibrium of a system
 def _searched(
     forces: Forces,
     sought: tuple[Symbol, ...],
@@ -78,7 +78,7 @@ def _with(function: Motion, numbers: Sequence[Any]) -> Motion:
 
 
 def _place(state: Any, sought: Sequence[Symbol], point: Any) -> list[float | None] | None:
-    """In numbers; nothing where it does not exist for these."""
+    """Return an equilibrium numerically; None if it does not exist for these numbers."""
     values = dict(state)
     found: list[float | None] = []
     for q in sought:
@@ -92,7 +92,7 @@ def _place(state: Any, sought: Sequence[Symbol], point: Any) -> list[float | Non
 def _starts(
     sought: Sequence[Symbol], turning: Sequence[bool], there: Sequence[list[float | None]]
 ) -> Iterator[list[float]]:
-    """Drawn from the ranges; and each place that was found, with one coordinate turned over, round or beside."""
+    """Yield random starts from the ranges; and each known equilibrium with one coordinate reflected or displaced."""
     source = Random(len(sought))
     size = max([abs(x) for place in there for x, turns in zip(place, turning, strict=True) if x and not turns] or [1.0])
 
@@ -117,7 +117,7 @@ def _starts(
 
 
 def _followed(motion: Motion, start: Sequence[float]) -> list[float] | None:
-    """Newton's steps, none of which is large."""
+    """Follow Newton's steps, limited in size."""
     at = list(start)
     for _ in range(TURNS):
         step = _step(motion, at)
@@ -131,7 +131,7 @@ def _followed(motion: Motion, start: Sequence[float]) -> list[float] | None:
 
 
 def _solved(matrix: list[list[Any]], right: list[Any]) -> list[Any] | None:
-    """A x = b by elimination, the largest entry first."""
+    """Solve A x = b by elimination, with the largest entry as pivot."""
     count = len(right)
     rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     for k in range(count):
@@ -147,7 +147,7 @@ def _solved(matrix: list[list[Any]], right: list[Any]) -> list[Any] | None:
 
 
 def _is_inside(at: Sequence[float], sought: Sequence[Symbol]) -> bool:
-    """In the ranges, and not at their ends."""
+    """Whether the point is in the ranges, and not at their ends."""
     for x, q in zip(at, sought, strict=True):
         known = range_of(q)
         if known is not None and not float(known.least) + CLOSE < x < float(known.greatest) - CLOSE:
@@ -168,7 +168,7 @@ def _is_at(at: Sequence[float], place: Sequence[float | None], turning: Sequence
 
 
 def _is_rest(motion: Motion, start: Sequence[float]) -> bool:
-    """Whether four steps more lead to a place that all digits confirm."""
+    """Whether four more steps converge to all digits."""
     with mp.workdps(DIGITS):
         at, far = [mp.mpf(x) for x in start], [mp.inf]
         for _ in range(4):
@@ -181,7 +181,7 @@ def _is_rest(motion: Motion, start: Sequence[float]) -> bool:
 
 
 def _step(motion: Motion, at: Sequence[Any]) -> list[Any] | None:
-    """Newton's, J^-1 f."""
+    """Return Newton's step, J^-1 f."""
     count = len(at)
     try:
         found = motion(*at)

@@ -1,4 +1,4 @@
-"""Both sides of a place on a line: a distance |u| is u where u > 0 and -u where u < 0, and each is solved by itself."""
+"""Both sides of a place on a line: a distance |u| is u where u > 0 and -u where u < 0, each solved separately."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import Unsolved, positive, sign_where
 from derive.steps.record import assumed, assumed_in_words
 
-MOST = 4  # distances whose sides are all tried
+MOST = 4  # the most distances for which both sides are tried
 
 
 @dataclass(frozen=True)
 class State:
-    """Values of coordinates at equilibrium; those that are left out may have any value."""
+    """Values of coordinates at equilibrium; coordinates that are not listed may have any value."""
 
     values: Mapping[Symbol, Expr]
     exists: Relation | None = None
 
 
 class SidesOpen(Unsolved):
-    """A state on whose existence the letters must decide by two conditions at once."""
+    """An equilibrium that exists only under two conditions on the letters."""
 
     def __init__(self, state: State, other: Relation):
         super().__init__(other.residual)
@@ -34,7 +34,7 @@ class SidesOpen(Unsolved):
 
 
 def sides_of(forces: Mapping[Symbol, Expr]) -> Iterator[Mapping[Expr, Expr]]:
-    """Each choice of u or -u for every distance |u| in the forces; at u = 0 the force has no direction."""
+    """Yield each choice of u or -u for every distance |u| in the forces; at u = 0 the force has no direction."""
     sizes = sorted({size for f in forces.values() for size in f.atoms(Abs) if size.has(*forces)}, key=str)
     if len(sizes) > MOST:
         raise Unsolved(Mul(*sizes))
@@ -43,7 +43,7 @@ def sides_of(forces: Mapping[Symbol, Expr]) -> Iterator[Mapping[Expr, Expr]]:
 
 
 def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
-    """The state with the condition that all these lengths are positive there; None where one never is."""
+    """Return the state with the condition that all these lengths are positive there; None if one never is."""
     for each in lengths:
         there = tidied(each.xreplace(dict(state.values)))
         sign = sign_by_factors(there)
@@ -58,13 +58,13 @@ def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
 
 
 def keeps_sides(state: State) -> bool:
-    """Whether no distance that the page takes to be positive is negative or zero there."""
+    """Whether no distance that the page assumes to be positive is negative or zero there."""
     lengths = [each.residual for each in _sides_taken(tuple(state.values))]
     return all(sign_by_factors(tidied(u.xreplace(dict(state.values)))) not in (-1, 0) for u in lengths)
 
 
 def how_sides_are_taken(coordinates: Sequence[Symbol]) -> str:
-    """How the page states the sides that are taken: by springs that are "stretched", as "one_side", or not, "any"."""
+    """Return the word for the assumed sides: "stretched" for springs, "one_side", or "any" if none is assumed."""
     taken = _sides_taken(coordinates)
     if not taken:
         return "any"
@@ -76,7 +76,7 @@ def _sides_taken(coordinates: Sequence[Symbol]) -> list[Relation]:
 
 
 def on_known_sides(value: Expr, exists: Relation | None) -> Expr:
-    """The value with u or -u for each |u| whose sign is known where a condition of existence holds."""
+    """Replace |u| by u or -u wherever the condition of existence decides the sign."""
     if exists is None:
         return value
     sides = {size: sign * size.args[0] for size in value.atoms(Abs) if (sign := sign_where(size.args[0], exists))}

@@ -1,7 +1,6 @@
-"""Stability of a state of rest: whether the potential energy has a minimum there, and for which values of the letters.
-
-Of one coordinate the curvature decides, on its border the next order that does not vanish; of several the leading
-minors of the second derivatives (Sylvester).
+"""Stability of an equilibrium: whether the potential energy has a minimum there, and for which values of the letters.
+For one coordinate the curvature decides, on the boundary the next order that does not vanish; for several coordinates
+the leading minors of the second derivatives (Sylvester).
 """
 
 from __future__ import annotations
@@ -41,12 +40,12 @@ from derive.witness.facts import Rest
 
 __all__ = ["stability"]
 
-HIGHEST = 8  # the order to which a border is looked at
-FEW = 5  # coordinates of which every direction of zeros and ones is tried
-SHORT = 80  # operations of a curvature that is written down before a place is put in
+HIGHEST = 8  # the highest order that is tried on a boundary
+FEW = 5  # coordinates for which every direction of zeros and ones is tried
+SHORT = 80  # operations of a curvature that is shown before the place is substituted
 ZERO = Integer(0)
 BY_FIRST_ORDER = Spelled(
-    "to first order the equations of motion tell, `linear_stability(linearised(motion))`", "ask for `linearised`"
+    "to first order the equations of motion decide, `linear_stability(linearised(motion))`", "ask for `linearised`"
 )
 STEADY = Spelled(
     "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`",
@@ -56,7 +55,7 @@ STEADY = Spelled(
 
 @dataclass(frozen=True)
 class Place:
-    """Where stability is asked for: a potential energy, the coordinates that it depends on, their values."""
+    """The place whose stability is judged: a potential energy, the coordinates that it depends on, their values."""
 
     potential: Quantity
     coordinates: tuple[Symbol, ...]
@@ -75,19 +74,18 @@ class Place:
 def stability(
     of: Quantity, at: Quantity | Mapping[Any, Expr], letter: Expr | None = None, key: str | None = None
 ) -> Quantity:
-    """Stability of a state of rest, by U''(q_0) > 0, or by the leading minors of the second derivatives of U.
-
-    of       the potential energy, an effective one, or the Lagrangian that the rest is one of, J
-    at       the state of rest: as `equilibria` yields it, or `{theta: 0}`
-    letter   the letter that a condition is solved for; unless given it is one that occurs as a square alone, if any
-    Second route: the force on a small displacement, by virtual work where there are places and forces; of several
-    coordinates the energy of a small displacement in an arbitrary direction.
-    Outcomes: stable, unstable, depends (on the sign of what is told), depends_stable_on_border,
+    """Stability of an equilibrium, by U''(q_0) > 0, or by the leading minors of the second derivatives of U.
+    of       the potential energy, an effective one, or the Lagrangian, J
+    at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
+    letter   the letter that a condition is solved for; by default one that occurs only as a square, if any
+    Second route: the restoring force for a small displacement, by virtual work if mass points and forces are known; for
+    several coordinates the energy of a small displacement in an arbitrary direction.
+    Outcomes: stable, unstable, depends (on the sign of the stated condition), depends_stable_on_border,
     depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides),
-    of several coordinates also unstable_along (the energy falls in a direction that is told) and level (to second order
-    it does not change in one direction, and nowhere falls).
-    Errors: a force is left there; coordinates are missing; of several coordinates the energy has no minimum, but what
-    is linear in the rates, as in a frame that turns or a magnetic field, may hold the state all the same.
+    for several coordinates also unstable_along (the energy falls in a stated direction) and level (to second order
+    it does not change in one direction, and falls in none).
+    Errors: a force remains there; coordinates are missing; for several coordinates the energy has no minimum, but
+    forces linear in the rates, as in a rotating frame or a magnetic field, may still stabilise the equilibrium.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
     Source: that of `stability`.
     """
@@ -106,7 +104,7 @@ def stability(
 
 
 def _state(place: Place) -> Relation:
-    """Where it is, as the sentence says it: by the name of the state of rest, where that is one result."""
+    """Return the place as the sentence states it: by the symbol of the equilibrium, if it is one result."""
     if len(place.coordinates) == 1:
         (q,) = place.coordinates
         named = place.values[q] if place.rest is None else place.rest.symbol
@@ -118,12 +116,12 @@ def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
     known = place_given(at)
     rest, potential = at if isinstance(at, Quantity) else None, _potential(of, at)
     if rest is not None and not (of.step == potential.step or potential.rests_on(of)):
-        raise Rejected(Complaint("different-subjects", f"`{rest.key}` is no state of rest of `{of.key}`"))
+        raise Rejected(Complaint("different-subjects", f"`{rest.key}` is not an equilibrium of `{of.key}`"))
     held = tuple(q for q in potential.coordinates if explicit(potential.value).has(q))
     slopes = {q: derivative(explicit(potential.value), q).xreplace(known) for q in held}
     missing = [q for q in held if q not in known and not all(is_zero(slope) for slope in slopes.values())]
     if missing:
-        message = f"`stability`: nothing says what {missing[0].name} is at rest"
+        message = f"`stability`: the value of {missing[0].name} at equilibrium is unknown"
         raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0].name}: 0`"))
     values = {q: value for q, value in known.items() if q in held}
     place = Place(potential, tuple(values), values, rest.needed(Rest).exists if rest else None, rest)
@@ -133,7 +131,7 @@ def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
 
 
 def _potential(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Quantity:
-    """The potential energy of a state of rest, that of which it was found."""
+    """Return the potential energy from which an equilibrium was found."""
     if not isinstance(at, Quantity):
         return potential_at_rest(of)
     return next((parent for parent in at.parents if parent.step.kind == "energy"), of)
@@ -147,9 +145,9 @@ def _check_level(place: Place) -> None:
         force = tidied(on_known_sides(derivative(place.energy, q).xreplace(dict(place.values)), place.exists))
         if not is_zero(force):
             where = ", ".join(f"{s} = {v}" for s, v in place.values.items())
-            message = f"`{place.potential.key}` is not level at {where}: its slope by {q} is {force}"
+            message = f"`{place.potential.key}` is not stationary at {where}: its derivative by {q} is {force}"
             steady = place.potential.fact(SeenWith)
-            help_line = STEADY if steady is not None and steady.constants else "`equilibria` finds the states of rest"
+            help_line = STEADY if steady is not None and steady.constants else "`equilibria` finds the equilibria"
             raise Rejected(Complaint("no-equilibrium", message, help=help_line))
 
 
@@ -182,7 +180,7 @@ STABILITY = Rule(
 
 
 def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
-    """The curvature of the potential energy.
+    """Curvature of the potential energy at an equilibrium.
 
     Outcomes: stable, unstable, depends, depends_stable_on_border, depends_unstable_on_border, stable_by_higher_order,
     unstable_by_higher_order, flat.
@@ -208,7 +206,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
             Relation(value, "=", 0),
         )
     order = _order(place.energy.subs(border.left, border.right) if border is not None else place.energy, place)
-    is_open = outcome == "flat" and order > 0  # there is a derivative, of a sign that is not known
+    is_open = outcome == "flat" and order > 0  # there is a nonzero derivative of unknown sign
     if outcome.endswith("order") or border is not None or is_open:
         energy = place.energy.subs(border.left, border.right) if border is not None else place.energy
         there = tidied(derivative(energy, q, order).xreplace({q: place.values[q]}))
@@ -244,7 +242,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
 def _decided_where(
     place: Place, q: Symbol, condition: Relation | None, border: Relation | None, outcome: str
 ) -> list[Fact]:
-    """What `stable_where` makes a condition of."""
+    """Return the fact from which `stable_where` derives a condition."""
     if condition is None:
         return []
     there = {"depends_stable_on_border": True, "depends_unstable_on_border": False}.get(outcome)
@@ -252,7 +250,7 @@ def _decided_where(
 
 
 def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relation | None, Relation | None]:
-    """The word, the condition and the border: a letter and what it is there."""
+    """Return the outcome, the condition and the boundary: a letter with its value there."""
     if is_zero(value):
         return _by_higher_order(place, place.energy), None, None
     sign = sign_where(value, place.exists)
@@ -271,7 +269,7 @@ def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relati
 
 
 def _order(energy: Expr, place: Place) -> int:
-    """The first order beyond the first that does not vanish there; 0 if there is none."""
+    """Return the lowest order from the second on that does not vanish there; 0 if there is none."""
     (q,) = place.coordinates
     terms = series_along(energy, {q: place.values[q]}, {q: Integer(1)}, HIGHEST)
     return next((n for n in range(2, HIGHEST + 1) if not is_zero(terms[n])), 0)
@@ -295,7 +293,7 @@ def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
 
 
 def _small_force(place: Place, q: Symbol) -> Expr:
-    """What a unit of displacement adds to the force that drives back."""
+    """Return the restoring force per unit of displacement."""
     if matter_behind(place.potential) is not None:
         force = slope_otherwise(place.potential, q)
         return coefficient_along(force, place.values, {s: Integer(s == q) for s in place.values}, 1)
@@ -322,9 +320,8 @@ STABILITY_OF_SEVERAL = Rule(
 
 
 def _of_several(place: Place, key: str) -> Quantity:
-    """The leading minors of the second derivatives, all positive at a minimum.
-
-    Outcomes: stable, unstable, unstable_along (a direction is told), level, depends.
+    """Leading minors of the second derivatives, all positive at a minimum.
+    Outcomes: stable, unstable, unstable_along (a stated direction), level, depends.
     Source: that of `stability`.
     """
     moving = place.coordinates
@@ -347,7 +344,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
 
     def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """The second order of the energy of a displacement in an arbitrary direction has the same minors."""
+        """Compare with the minors of the second order of the energy for a displacement in an arbitrary direction."""
         marks = {q: stand_in(f"u_{q.name}") for q in moving}
         energy = coefficient_along(place.energy, place.values, marks, 2).expand()
         second = ImmutableDenseMatrix([[derivative(energy, marks[p], marks[q]) for q in moving] for p in moving])
@@ -392,10 +389,9 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
 
 
 def _way_down(matrix: MatrixBase) -> MatrixBase | None:
-    """A direction in which the energy falls whatever the letters are, though no minor says so.
-
-    What one spring holds often leaves a direction free, in which it is not stretched: the columns that the share of a
-    letter takes to zero.
+    """Return a direction in which the energy falls for all values of the letters, if the minors do not decide.
+    A spring often leaves a direction free, in which it is not stretched: a null vector of the part of the matrix that
+    is proportional to one letter.
     """
     for letter in sorted(matrix.free_symbols, key=str):
         share = matrix.applyfunc(lambda entry, s=letter: tidied(derivative(entry, s)))
@@ -409,9 +405,8 @@ def _way_down(matrix: MatrixBase) -> MatrixBase | None:
 
 
 def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | None:
-    """A direction of zeros and ones in which the energy falls, where no leading minor is negative.
-
-    kinds   those of the coordinates, of which only equal ones are moved together
+    """Return a direction of zeros and ones in which the energy falls, if no leading minor is negative.
+    kinds   the kinds of the coordinates; only coordinates of the same kind are moved together
     """
     size = matrix.shape[0]
     ways = product((0, 1, -1), repeat=size) if size <= FEW else ()
@@ -424,7 +419,7 @@ def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | No
 
 
 def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tuple[Any, Any]]:
-    """How the slope of the energy changes along it, by the matrix and by the energy itself."""
+    """Return the second derivative of the energy along the direction, by the matrix and by the energy."""
     along = coefficient_along(place.energy, place.values, dict(zip(place.coordinates, way, strict=True)), 2)
     return {
         "falling": (tidied((way.T * matrix * way)[0]), 2 * along),
@@ -432,11 +427,11 @@ def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tup
 
 
 def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
-    """A minimum is stable whatever forces turn the motion aside; what is none they may hold, as a top that spins."""
+    """Reject an equilibrium that gyroscopic forces may stabilise without a minimum of U, as for a spinning top."""
     matter = all_matter(place.potential)
     if matter is not None and not has_positive_inertia(matter, place.values):
-        message = f"`stability`: a minimum of `{place.potential.key}` is stable only where the kinetic energy is"
-        message += " positive for every motion, which is not known of this one"
+        message = f"`stability`: a minimum of `{place.potential.key}` is stable only if the kinetic energy is"
+        message += " positive for every motion, which is unknown here"
         raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))
     if outcome.startswith("stable") or matter is None:
         return
@@ -446,5 +441,5 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         turned += derivative(matter.other_force_along(p), rate(q)) - derivative(matter.other_force_along(q), rate(p))
         if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
             message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
-            message += f" depend on the rates of {q.name} and {p.name} may hold the state all the same"
+            message += f" depend on the rates of {q.name} and {p.name} may still stabilise the equilibrium"
             raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))

@@ -1,4 +1,4 @@
-"""For which values of a letter a state of rest is stable, with or without the border, which a higher order decides."""
+"""For which values of a letter an equilibrium is stable, with or without the boundary, which a higher order decides."""
 
 from __future__ import annotations
 
@@ -38,19 +38,18 @@ STABLE_WHERE = Rule(
 
 
 def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
-    """Condition under which a state of rest is stable, S >= S_0; S > S_0 where it is not stable at the border itself.
-
-    of   the stability, as `stability` yields it where it depends on the letters
-    Check: the sign of the second derivative a little above the border and a little below; in numbers, whether
-    the energy beside the place is greater than there: above the border, at it, and not below it.
-    Outcomes: with_border, without_border, open (the border is not decided by one letter).
-    Errors: the stability depends on no condition, or on that of several coordinates.
+    """Condition under which an equilibrium is stable, S >= S_0; S > S_0 if it is not stable at the boundary.
+    of   the stability, as `stability` yields it if it depends on the letters
+    Check: the sign of the second derivative a little above and below the boundary; numerically, whether the energy near
+    the place is greater than there: above the boundary, at it, and not below it.
+    Outcomes: with_border, without_border, open (the boundary is not decided by one letter).
+    Errors: the stability depends on no condition, or on a condition for several coordinates.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
     known = of.fact(StableWhere)
     if known is None:
-        message = f"`stable_where`: `{of.key}` depends on no condition that one coordinate decides"
-        raise Rejected(Complaint("no-condition", message, help="`stability` says itself whether the state is stable"))
+        message = f"`stable_where`: `{of.key}` has no condition for one coordinate"
+        raise Rejected(Complaint("no-condition", message, help="`stability` states whether the equilibrium is stable"))
     left, right = known.condition.sides
     mark = known.condition.mark + ("=" if known.stable_there else "")
     squared = Relation(left, mark, right)
@@ -59,7 +58,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
     border = known.border if known.border is not None and alone == known.border.left else None
 
     def beside(found: Relation) -> tuple[Any, Any]:
-        """What the relation says above and below its border, and the sign of the second derivative there."""
+        """Compare the relation above and below its boundary with the sign of the second derivative there."""
         u = Dummy("u", positive=True)
         says, is_so = [Integer(1)], [Integer(1)]
         for side in (1, -1) if border is not None else ():
@@ -92,7 +91,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
 
 
 def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -> Verdict:
-    """In numbers: where the relation holds the energy is least at the place, and where it does not it is not."""
+    """Check numerically that the energy is least at the place exactly where the relation holds."""
     letters = (letters_of(known.energy) | letters_of(found.residual)) - {known.coordinate}
     seen = 0
     for point in islice(points(letters, seed_of(known.energy)), 60):
@@ -105,7 +104,7 @@ def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -
                 holds = _sign(value_at(found.residual, case)) in SIGNS_OF[found.mark]
                 if holds != bool(known.lifted(case) > 0):
                     where = tuple((str(s), str(x)) for s, x in case.items())
-                    return Verdict(Grade.REFUTED, "the energy beside the place tells otherwise", where)
+                    return Verdict(Grade.REFUTED, "the energy near the place contradicts it", where)
         except (Undefined, NoNumber, TypeError):
             continue
         seen += 1

@@ -1,4 +1,4 @@
-"""A steady motion with small oscillations about it: what it holds constant, and how its displacements grow.
+"""A steady motion with small oscillations about it: its constant quantities, and the growth of displacements.
 
 Source: Landau, Lifshitz, *Mechanics*, sections 14 and 23.
 """
@@ -25,12 +25,11 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class About:
-    """A potential energy of one coordinate, what sees it, where, and what holds there besides.
-
+    """A potential energy of one coordinate, its matter, a place, and further conditions there.
     rates     of the cyclic coordinates there
-    momenta   what the letters of their momenta are there, where these are not given themselves
-    letter    one that the condition of the steady motion determines, and its value
-    instead   a rate by the letter of a momentum, which is shorter to write
+    momenta   letters of their momenta with the values there, if these are not given
+    letter    a letter that the condition of the steady motion determines, and its value
+    instead   a rate expressed by the letter of a momentum, for a shorter result
     """
 
     potential: Quantity
@@ -43,16 +42,16 @@ class About:
     instead: Mapping[Symbol, Expr] = field(default_factory=dict)
 
     def there(self, value: Expr) -> Expr:
-        """The value at that place, where nothing but the cyclic coordinates moves."""
+        """Return the value at that place, where only the cyclic coordinates move."""
         still = {rate(s, n): ZERO for s in self.matter.coordinates for n in (1, 2)}
         return bound(explicit(value), still).subs(self.q, self.place)
 
     def known(self, value: Expr) -> Expr:
-        """With the momenta that belong to the rates, and by the condition without one letter."""
+        """Substitute the momenta for these rates, and eliminate one letter by the condition."""
         return bound(bound(bound(value, self.momenta), self.letter), self.instead)
 
     def by_momenta(self) -> Iterator[About]:
-        """The same with a rate by the letter of a momentum: s = w - Omega cos(alpha) of w = s + Omega cos(alpha)."""
+        """Yield versions with a rate given by a momentum: s = w - Omega cos(alpha) from w = s + Omega cos(alpha)."""
         for momentum, value in self.momenta.items():
             for turning in self.rates.values():
                 found = solved_for_letter(momentum - value, turning) if isinstance(turning, Symbol) else None
@@ -61,19 +60,18 @@ class About:
 
 
 def letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity) -> dict[Symbol, Expr]:
-    """What the letter is by which a momentum was given: w = s + Omega cos(alpha) of C w = C (s + Omega cos(alpha))."""
+    """Return the letter of a given momentum: w = s + Omega cos(alpha) from C w = C (s + Omega cos(alpha))."""
     known = explicit(lagrangian.value).free_symbols | value.free_symbols
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := solved_for_letter(given - value, letter)) is not None:
             return {letter: presented(found)}
     message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, but in the steady motion it is {value}"
-    help_line = "give the momentum by a letter of its own, or none"
+    help_line = "give the momentum by a separate letter, or leave it out"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def determinant_about(about: About, found: Expr) -> Expr:
-    """Of what first order leaves of d'Alembert's principle, where every displacement grows as e^(s t), s^2 = -omega^2.
-
+    """Return the determinant of d'Alembert's principle to first order, with displacements e^(s t), s^2 = -omega^2.
     The cyclic coordinates have the factor s in each entry, which is taken out of their rows and columns.
     """
     matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
@@ -86,7 +84,7 @@ def determinant_about(about: About, found: Expr) -> Expr:
         other = moving[int(j)]
         slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
         at_place = [_without_angles(each.xreplace({**still, about.q: about.place}), about.rates) for each in slopes]
-        if j:  # a cyclic coordinate stands there by its rates alone: counted by its rate
+        if j:  # a cyclic coordinate occurs only by its rates: its rate is the unknown
             return at_place[1] + s * at_place[2]
         return at_place[0] + s * at_place[1] + s**2 * at_place[2]
 
@@ -98,6 +96,6 @@ def determinant_about(about: About, found: Expr) -> Expr:
 
 
 def _without_angles(value: Expr, cyclic: Iterable[Symbol]) -> Expr:
-    """The value with the cyclic coordinates zero, where it is shown not to depend on them: most of its terms go out."""
+    """Set the cyclic coordinates to zero in the value, if it does not depend on them: most terms vanish."""
     at_zero = value.xreplace(dict.fromkeys(cyclic, ZERO))
     return at_zero if is_zero(value - at_zero) else value

@@ -1,4 +1,4 @@
-"""Small oscillations about a steady motion, the momenta of the cyclic coordinates held constant.
+"""Small oscillations about a steady motion, with constant momenta of the cyclic coordinates.
 
 Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
 """
@@ -61,17 +61,17 @@ def frequency_squared_about(
     of: Quantity, at: Quantity, without: Expr | None = None, symbol: str = "omega_0", key: str = "frequency_squared"
 ) -> Quantity:
     """Square of the frequency of small oscillations, omega_0^2 = U''(q_0)/mu(q_0), of one coordinate with the kinetic
-    energy (1/2) mu(q) q_dot^2: about rest, or about a steady motion, U then being the effective potential energy.
+    energy (1/2) mu(q) q_dot^2: about an equilibrium, or about a steady motion with the effective potential energy U.
 
     of        a potential energy, an effective one, or a Lagrangian, J
-    at        a state of rest of it, as `equilibria` yields it; or of an effective potential energy the condition of a
+    at        its equilibrium, as `equilibria` yields it; or, for an effective potential energy, the condition of a
     steady motion of the same Lagrangian, as `steady_motion` yields it
-    without   the letter that the condition of the steady motion takes out; the shortest result unless given
-    The momenta of the cyclic coordinates stay what they are in the steady motion.
-    Second route: d'Alembert's principle for all coordinates, the cyclic ones free, to first order in the displacements:
+    without   the letter that the condition of the steady motion eliminates; by default the one with the shortest result
+    The momenta of the cyclic coordinates keep their values in the steady motion.
+    Second route: d'Alembert's principle for all coordinates, also the cyclic ones, to first order in the displacements:
     its determinant vanishes for oscillations of this frequency.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
-    Errors: several coordinates are left; the condition is that of another Lagrangian, or does not take out the letter.
+    Errors: several coordinates remain; the condition belongs to another Lagrangian, or does not eliminate the letter.
     Source: Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
     """
     about = _about_steady(of, at, without) if at.fact(Steady) is not None else _about_rest(of, at)
@@ -116,7 +116,7 @@ def frequency_squared_about(
 
 
 def _of_plain_sign(value: Expr) -> Expr:
-    """Each factor with sines or with cosines, as its sign is shown: 1 + 3 cos^2, not 4 - 3 sin^2."""
+    """Write each factor with sines or cosines so that its sign is obvious: 1 + 3 cos^2, not 4 - 3 sin^2."""
 
     def shown(part: Expr) -> Expr:
         base, power = part.as_base_exp()
@@ -136,7 +136,7 @@ def _sort(value: Expr, exists: Relation | None) -> str:
 def _about_rest(of: Quantity, at: Quantity) -> About:
     potential = at.needed(RestOf).potential
     if not (of.step == potential.step or potential.rests_on(of)):
-        raise Rejected(Complaint("different-subjects", f"`{at.key}` is no state of rest of `{of.key}`"))
+        raise Rejected(Complaint("different-subjects", f"`{at.key}` is not an equilibrium of `{of.key}`"))
     matter = _matter(potential)
     q = _only(potential)
     place = at.needed(Rest).values[q]
@@ -152,7 +152,7 @@ def _about_steady(of: Quantity, at: Quantity, without: Expr | None) -> About:
         raise Rejected(Complaint("different-subjects", message))
     q, matter = _only(of), seen.matter
     if {c.needed(OfCoordinate).coordinate.symbol for c in seen.constants} != set(steady.rates):
-        message = f"`{of.key}` does not have all cyclic coordinates put aside"
+        message = f"`{of.key}` does not have all cyclic coordinates eliminated"
         raise Rejected(Complaint("wrong-argument", message))
     place = steady.values[q]
     about = About(of, matter, q, place, steady.rates, {}, {})
@@ -179,13 +179,13 @@ def _only(potential: Quantity) -> Symbol:
     left = _matter(potential).coordinates
     if len(left) != 1:
         names = ", ".join(q.name for q in left)
-        message = f"`frequency_squared_about` needs one coordinate that is left, but `{potential.key}` has {names}"
+        message = f"`frequency_squared_about` needs one remaining coordinate, but `{potential.key}` has {names}"
         raise Rejected(Complaint("wrong-argument", message, help="`normal_modes` has the frequencies of several"))
     return left[0]
 
 
 def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity) -> dict[Symbol, Expr]:
-    """The letter that makes the result shortest once the condition has taken it out; none where it holds by itself."""
+    """Return the letter whose elimination gives the shortest result; none if the condition always holds."""
     if is_zero(condition):
         return {}
     letters = [without] if without is not None else sorted(condition.free_symbols, key=str)
@@ -207,7 +207,7 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
 
 @in_results(
     "frequency",
-    "from the effective potential small oscillations about a steady motion",
+    "small oscillations about a steady motion, from the effective potential",
     of="frequency: an effective potential energy",
     at="results: that motion",
     without="for: the letter that its condition eliminates",

@@ -1,4 +1,4 @@
-"""What must be true of a result for its outcome to be right, and of what its sentence names."""
+"""Predicates of the outcomes of oscillations, and of the things that their sentences name."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ from derive.steps.step import is_zero
 
 
 def free_motion(wanted: str) -> Predicate:
-    """By the roots of the characteristic equation, as far as the letters decide."""
+    """Judge by the roots of the characteristic equation, as far as the letters decide."""
 
     def is_so(facts: Judged) -> bool:
         a, b, c = facts.inputs["linear"]
@@ -75,8 +75,8 @@ def free_motion(wanted: str) -> Predicate:
 
 
 def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
-    """The border of the condition is where the discriminant vanishes; with numbers for the letters it is on the side
-    of the border on which the discriminant has this sign."""
+    """Whether the boundary of the condition is where the discriminant vanishes, and, numerically, the condition holds
+    on the side where the discriminant has this sign."""
     condition = explicit(facts.inputs["condition"])
     if not same_equation(condition.residual, discriminant) or (condition.mark == "=") != (wanted == 0):
         return False
@@ -98,7 +98,7 @@ def loses(wanted: bool) -> Predicate:
 
 
 def dies_away(manner: str) -> Predicate:
-    """How a free displacement dies away, by the exponents s of a s^2 + b s + c = 0."""
+    """Judge how a free displacement decays, by the exponents s of a s^2 + b s + c = 0."""
     signs = {"oscillating": -1, "critical": 0, "creeping": 1, "unknown": None}
 
     def is_so(facts: Judged) -> bool:
@@ -109,7 +109,7 @@ def dies_away(manner: str) -> Predicate:
 
 
 def in_step(*signs: int | None) -> Predicate:
-    """Without loss, with the force or against it by the sign of what is left of the stiffness."""
+    """Judge, without damping, by the sign of c - a omega^2 whether the motion is in phase with the force."""
     return lambda facts: is_zero(facts.inputs["loss"]) and sign_known(facts.inputs["stiff"]) in signs
 
 
@@ -118,7 +118,7 @@ def square(facts: Judged, fact: SquareOf) -> bool:
 
 
 def mode(facts: Judged, fact: Mode) -> bool:
-    """The square of the frequency is the root, but for the sign of one that grows; each column is in the kernel."""
+    """Whether the squared frequency is the root, up to the sign of a growing mode, and each column is in the kernel."""
     root = fact.root
     squared = explicit(facts.result) ** 2
     if not is_zero(squared - root.value) and not (root.sign == -1 and is_zero(squared + root.value)):
@@ -128,7 +128,7 @@ def mode(facts: Judged, fact: Mode) -> bool:
 
 
 def linear(facts: Judged, fact: Linear) -> bool:
-    """Each coefficient of the equation stands in some row of the matrices, all with one factor."""
+    """Whether the coefficients of the equation are some row of the matrices, up to a common factor."""
     residual = explicit(facts.result).residual
     orders = ((fact.mass, 2), (fact.turning, 1), (fact.stiffness, 0))
     names = [s.symbol for s in fact.displacements]
@@ -144,14 +144,14 @@ def linear(facts: Judged, fact: Linear) -> bool:
 SHIFTS, LITTLE = 20, 1e-9
 
 
-SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))  # so that one letter is large where another is small
+SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))  # one letter is large where another is small
 
 
 S = Dummy("s")
 
 
 def _numbers(facts: Judged) -> Iterator[dict[Any, Expr]]:
-    """Numbers for the letters, where the state exists."""
+    """Yield numbers for the letters for which the equilibrium exists."""
     matrices = [facts.inputs[role] for role in ("stiffness", "turning", "mass")]
     letters = sorted(set().union(*(each.free_symbols for each in matrices)), key=str)
     for shift in range(SHIFTS):
@@ -181,7 +181,7 @@ MATRICES = ("stiffness", "turning", "mass")
 
 @lru_cache(maxsize=128)
 def _roots_of(stiffness: MatrixBase, turning: MatrixBase, mass: MatrixBase) -> list[complex]:
-    """All different exponents s."""
+    """Return all different exponents s."""
     parts = (each.applyfunc(_as_number) for each in (stiffness, turning, mass))
     k, g, m = parts
     matrix = ImmutableDenseMatrix(k + S * g + S**2 * m)
@@ -232,7 +232,7 @@ def always(steady: bool) -> Predicate:
 
 
 def depends(facts: Judged) -> bool:
-    """All conditions together hold just where nothing grows; on their borders nothing is said."""
+    """Whether all conditions together hold exactly where nothing grows; their boundaries are not judged."""
     conditions = facts.inputs["conditions"]
     points = [n for n in _numbers(facts) if not any(is_zero(explicit(c.residual).xreplace(n)) for c in conditions)]
     tried = [(all(_holds(c, n) for c in conditions), _steady(facts, n)) for n in points]
@@ -240,7 +240,7 @@ def depends(facts: Judged) -> bool:
 
 
 def is_among_conditions(facts: Judged, place: int) -> bool:
-    """Whether it has this place among several."""
+    """Whether the result has this place among several conditions."""
     conditions = facts.inputs["conditions"]
     return len(conditions) > 1 and bool(facts.result == conditions[place])
 
@@ -250,7 +250,7 @@ def moving(facts: Judged) -> list[Expr]:
 
 
 def _at_quarters(facts: Judged) -> list[tuple[list[float], list[float]]]:
-    """Where the two that move are at the beginning, and a little later, in numbers."""
+    """Return the two moving coordinates at the start, and a little later, numerically."""
     found = []
     for point in _numbers(facts):
         entries = [explicit(entry).xreplace(point) for entry in moving(facts)]
@@ -272,14 +272,14 @@ def sense(wanted: int | None, circle: bool) -> Predicate:
 
 
 def departing(facts: Judged) -> bool:
-    """All that move grow at one rate, which is real and positive."""
+    """Whether all moving coordinates grow at one rate, which is real and positive."""
     rates = {tidied(entry.diff(TIME) / entry) for entry in map(explicit, moving(facts))}
     (rate, *others) = rates
     return not others and not rate.has(TIME) and all(rate.xreplace(n).evalf(20) > 0 for n in _numbers(facts))
 
 
 def straight(facts: Judged) -> bool:
-    """All that move vanish together."""
+    """Whether all moving coordinates vanish together."""
     first, *others = moving(facts)
     return all(is_zero((other / first).diff(TIME)) for other in others)
 
@@ -295,7 +295,7 @@ def sign_of_product(wanted: int) -> Predicate:
 
 
 def damped(sign: int | None) -> Predicate:
-    """-beta +- i omega are roots: with omega real, or imaginary."""
+    """Judge whether -beta +- i omega are roots: with omega real, or imaginary."""
 
     def is_so(facts: Judged) -> bool:
         for point in _numbers(facts):
@@ -314,7 +314,7 @@ def damped(sign: int | None) -> Predicate:
 
 
 def gyroscopic_rate(kind: str) -> Predicate:
-    """Whether it is half the sum of two roots, or a root itself, with the other sign."""
+    """Judge whether minus the result is half the sum of two roots, or a root."""
 
     def is_so(facts: Judged) -> bool:
         for point in _numbers(facts):
@@ -337,7 +337,7 @@ TINY = Rational(1, 10**15)
 
 
 def _modes_numbers(facts: Judged) -> Iterator[dict[Expr, Expr]]:
-    """Numbers for the letters, from one scale to another and of both signs; of a letter with a range those of it."""
+    """Yield numbers for the letters, of several magnitudes and both signs; within the range of a letter with one."""
     letters = sorted(facts.inputs["stiffness"].free_symbols | facts.inputs["mass"].free_symbols, key=str)
     drawn = (
         turned(
@@ -353,7 +353,7 @@ def _modes_numbers(facts: Judged) -> Iterator[dict[Expr, Expr]]:
 
 
 def _exists(facts: Judged, numbers: dict[Expr, Expr]) -> bool:
-    """Whether these numbers fulfil the condition under which there is the state of rest."""
+    """Whether these numbers fulfil the condition under which the equilibrium exists."""
     condition = facts.inputs.get("exists")
     if condition is None:
         return True
@@ -362,12 +362,12 @@ def _exists(facts: Judged, numbers: dict[Expr, Expr]) -> bool:
 
 
 def _polynomial(facts: Judged, numbers: dict[Expr, Expr]) -> Poly:
-    """det(K - lambda M) with numbers for the letters."""
+    """Return det(K - lambda M) with numbers for the letters."""
     stiffness, mass = (ImmutableDenseMatrix(facts.inputs[role].xreplace(numbers)) for role in ("stiffness", "mass"))
     return _determinant(stiffness, mass)
 
 
-@lru_cache(maxsize=64)  # each frequency and each shape of a system asks for the same few
+@lru_cache(maxsize=64)  # the same few for each frequency and each shape of a system
 def _determinant(stiffness: ImmutableDenseMatrix, mass: ImmutableDenseMatrix) -> Poly:
     unknown = Dummy("lambda")
     return Poly(determinant_of(stiffness - unknown * mass), unknown)
@@ -380,7 +380,7 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
-    """Whether det(K - lambda M) vanishes there; once, or as often as its slope does too."""
+    """Whether det(K - lambda M) vanishes there; for a repeated root its derivative vanishes too."""
     for numbers in _modes_numbers(facts):
         polynomial, place = _polynomial(facts, numbers), explicit(square.xreplace(numbers))
         several = _vanishes_at(polynomial.diff(), place)
@@ -390,7 +390,7 @@ def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
 
 
 def _sign_everywhere(value: Expr, facts: Judged) -> int | None:
-    """The sign at all points that were tried, if it is one."""
+    """Return the sign at all points that were tried, if it is the same."""
     signs = set()
     for numbers in _modes_numbers(facts):
         there = explicit(value.xreplace(numbers)).evalf(30)
@@ -408,8 +408,8 @@ def modes_frequency(sign: int | None, repeated: bool) -> Predicate:
 
 
 def is_in_order(whole: bool) -> Predicate:
-    """Whether it is a root of the determinant, and the number of its letter is that of its place, by Sturm's theorem,
-    among all roots, or among those of a factor of lower degree."""
+    """Judge whether the square is a root of the determinant, and the number of its letter is its place, by Sturm's
+    theorem, among all roots, or among those of a factor of lower degree."""
 
     def is_so(facts: Judged) -> bool:
         square = facts.result**2
@@ -429,7 +429,7 @@ def is_in_order(whole: bool) -> Predicate:
 
 
 def _is_not_negative(facts: Judged) -> bool:
-    """Of the two roots of a square the frequency is that which is not negative, wherever it is real."""
+    """Whether the frequency is the square root that is not negative, wherever it is real."""
     there = [explicit(facts.result.xreplace(numbers)).evalf(30) for numbers in _modes_numbers(facts)]
     return not any(value.is_negative or (value / I).is_negative for value in there)
 
@@ -462,20 +462,21 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """At rest or elsewhere, with a drag or without, by what the equation itself holds."""
+    """Judge the equation by its terms: displaced or not, with a drag or without, driven or not."""
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
         letters = facts.inputs["displacements"]
         if len(letters) == 1 and explicit(facts.result).left.has(rate(*letters)) != found[1]:
-            return False  # of one coordinate the equation itself shows the drag
+            return False  # for one coordinate the equation shows the drag
         return found[0] == displaced and found[2] == driven and lossy in (None, found[1])
 
     return is_so
 
 
 def drifts_as_told(facts: Judged, outcome: str) -> bool:
-    """That no force acts to any order needs equations that leave nothing of a uniform motion, in numbers."""
+    """Whether a uniform motion numerically fulfils the equations, if the sentence says that no force acts to any
+    order."""
     if "drift" not in facts.inputs:
         return True
     left = facts.inputs["left"]
@@ -488,12 +489,12 @@ def drifts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
-    """In numbers, where the state of rest exists; that it vanishes or is of no known sign, by the letters."""
+    """Judge the sign numerically where the equilibrium exists; zero or an unknown sign, by the letters."""
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
 
 def rate_of_square(sign: int | None, turned: int) -> Predicate:
-    """An oscillation has the root of the square as its rate, a motion that grows the root of minus the square."""
+    """Judge the rate: the root of the square for an oscillation, the root of minus the square for a growing motion."""
     judged = _of_square(sign)
     return lambda facts: judged(facts) and is_zero(explicit(facts.result) ** 2 - turned * facts.inputs["squared"])
 
@@ -518,19 +519,19 @@ def small_function(of: Callable[[Any], Any]) -> Naming:
 
 
 def nothing_is_left(facts: Judged, drift: Any) -> bool:
-    """In a uniform motion along the zero mode nothing is left of the whole equations of motion."""
+    """Whether a uniform motion along the zero mode fulfils the full equations of motion."""
     left = facts.inputs["left"]
     return drift == 0 and bool(left) and all(is_zero(explicit(each)) for each in left)
 
 
 def root_under_the_sign(facts: Judged, name: Any) -> bool:
-    """The square of the result is a root of that letter, and the sentence names the smallest, whose number is 1."""
+    """Whether the square of the result is a root of that letter, and the sentence names the smallest, number 1."""
     square = facts.result**2
     return isinstance(square, OrderedRoot) and str(name) == f"{str(square.name).rpartition('_')[0]}_1"
 
 
 def momentum_there(facts: Judged, relation: Any) -> bool:
-    """The momentum of that letter, as it was found, in the steady motion; or a letter of the value that it keeps."""
+    """Whether the relation gives the momentum of its letter in the steady motion, or a letter of its value."""
     steady = next((f for f in facts.quantities["where"].facts if hasattr(f, "conditions")), None)
     behind = list(facts.quantities["potential"].ancestors())
     if steady is None or relation.mark != "=":
@@ -556,7 +557,7 @@ def there_where_it_exists(facts: Judged, exists: Any) -> bool:
 
 
 def taken_out(facts: Judged, relation: Any) -> bool:
-    """It is in the condition, and no longer in the result."""
+    """Whether the letter is in the condition, and no longer in the result."""
     if relation.mark != "=":
         return False
     held = explicit(facts.quantities["where"].value).free_symbols
@@ -564,7 +565,7 @@ def taken_out(facts: Judged, relation: Any) -> bool:
 
 
 def trial(unit: Any, role: str) -> Naming:
-    """It starts from 1, and its rate is the exponent times itself."""
+    """Check that the trial function starts from 1, and its rate is the exponent times the function."""
 
     def is_so(facts: Judged, value: Any) -> bool:
         return value.subs(TIME, 0) == 1 and is_zero(diff(value, TIME) - unit * facts.inputs[role] * value)
@@ -573,7 +574,7 @@ def trial(unit: Any, role: str) -> Naming:
 
 
 def oscillator(facts: Judged, equation: Any) -> bool:
-    """Times the inertia, and with the result for the square of the frequency, it is the linear equation."""
+    """Whether the equation, times the inertia and with the result for omega_0^2, is the linear equation."""
     linear = explicit(facts.quantities["linear"].value).residual
     inertia = explicit(facts.inputs.get("inertia", Integer(1)))
     there = equation.left.doit().subs(facts.symbol, explicit(facts.result))
@@ -600,7 +601,7 @@ def moves_alone(facts: Judged, letter: Any) -> bool:
 
 
 def moves_so(facts: Judged, displacements: Any) -> bool:
-    """The motion that is told of each displacement satisfies the linear equation."""
+    """Whether the stated motion of each displacement satisfies the linear equation."""
     equation = explicit(facts.quantities["linear"].value).residual
     motion: dict[Any, Any] = {}
     for s, course in zip(explicit(displacements), explicit(facts.result), strict=True):
@@ -617,7 +618,7 @@ def moves_as(which: int) -> Naming:
 
 
 def starts_as_told(facts: Judged, outcome: str) -> bool:
-    """The motion has the value and the rate at the start that the sentence says."""
+    """Whether the motion has the stated value and rate at the start."""
     if not _of_an_equation(facts, outcome):
         return False
     told, q = [facts.inputs[role] for role in ("start", "start_rate") if role in facts.inputs], facts.inputs["q"]
@@ -627,7 +628,7 @@ def starts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
-    """At the start the coordinate and its rate have the values that the sentence says, or zero where it says none."""
+    """Whether the coordinate and its rate have the stated values at the start, or zero if the sentence states none."""
     q = facts.inputs["coordinate"]
     told = {each.left: each.right for role, each in facts.inputs.items() if role.startswith("start_")}
     at_start = {q: facts.result.subs(TIME, 0), rate(q): diff(facts.result, TIME).subs(TIME, 0)}
@@ -638,7 +639,7 @@ def starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
 
 
 def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
-    """With what the letter that is taken out is said to be, the condition holds."""
+    """Whether the condition holds with the stated value of the eliminated letter."""
     told, where = facts.inputs.get("taken_out"), facts.quantities["where"].value
     if told is None or not isinstance(where, Relation):
         return True
@@ -646,7 +647,7 @@ def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
 
 
 def _of_an_equation(facts: Judged, outcome: str) -> bool:
-    """What moves is a letter, and what it obeys an equation, or what its rate or acceleration was found to be."""
+    """Whether the coordinate is a letter, and its law an equation, or a solution for its rate or acceleration."""
     q, found = facts.inputs["q"], facts.quantities.get("equation")
     solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
     return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)
@@ -657,17 +658,17 @@ def swings_of_its_equation(facts: Judged, outcome: str) -> bool:
 
 
 def positive_where_real(facts: Judged, outcome: str) -> bool:
-    """A frequency is not negative where it is real: in numbers."""
+    """Whether the frequency is numerically not negative, wherever it is real."""
     return all(number >= 0 for number in real_numbers(facts))
 
 
 def somewhere_positive(facts: Judged, outcome: str) -> bool:
-    """Which of two frequencies is greater may depend on the letters, but not the wrong one is so for all of them."""
+    """Whether the second frequency is the greater one for some values of the letters."""
     return not_negative(facts, outcome) and any(number >= 0 for number in real_numbers(facts))
 
 
 def lag_as_written(facts: Judged, outcome: str) -> bool:
-    """With a loss its tangent is told, without one the angle itself."""
+    """Whether the symbol is the tangent of the lag with damping, and the angle without."""
     return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
 
 

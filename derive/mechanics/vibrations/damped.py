@@ -1,7 +1,6 @@
-"""Small motions with drag: the exponents s of eta = a e^(s t), where det(M s^2 + C s + K) = 0 falls into factors.
-
-A factor a s^2 + b s + c is that of one damped oscillator, with the rate of decay b/2a and the frequency
-sqrt(c/a - b^2/4a^2); a factor a s + b that of a displacement which dies away at the rate b/a.
+"""Small motions with drag: the exponents s of eta = a e^(s t), if det(M s^2 + C s + K) = 0 factors.
+A factor a s^2 + b s + c belongs to one damped oscillator, with the decay rate b/2a and the frequency
+sqrt(c/a - b^2/4a^2); a factor a s + b to a displacement that decays at the rate b/a.
 """
 
 from __future__ import annotations
@@ -39,14 +38,14 @@ LETTERS = ("s", "lambda", "sigma", "p")  # of the exponent
 
 @dataclass(frozen=True)
 class DampedModes:
-    """What `normal_modes` yields where there is drag."""
+    """The results of `normal_modes` with drag."""
 
     linear: Sequence[Quantity]
     together: Linear
     start: str
 
     def found(self) -> tuple[Quantity, ...]:
-        """Rates of decay, frequencies and shapes, factor by factor."""
+        """Return decay rates, frequencies and shapes, factor by factor."""
         _check(self.together)
         factors = _factors(self.together)
         matrices = (self.together.mass, self.together.turning, self.together.stiffness)
@@ -83,25 +82,25 @@ def _check(together: Linear) -> None:
         for entry in matrix:
             require_constant("normal_modes", role, entry)
     if together.mass.shape[0] > LARGEST:
-        message = f"the exponents of {together.mass.shape[0]} coordinates with drag are too much to be worked out"
+        message = f"the exponents of {together.mass.shape[0]} coordinates with drag are too many to compute"
         raise Rejected(Complaint("too-large", message))
 
 
 def _factors(together: Linear) -> list[tuple[Poly, int]]:
-    """The factors of the determinant, each linear or quadratic in s, which itself comes first."""
+    """Return the factors of the determinant, each linear or quadratic in s; the factor s comes first."""
     matrix = ImmutableDenseMatrix(together.mass * S**2 + together.turning * S + together.stiffness)
     try:
         found = Poly(determinant_of(matrix), S).factor_list()[1]
     except PolynomialError:
         found = []
     if sum(part.degree() * times for part, times in found) != 2 * together.mass.shape[0]:
-        raise Rejected(Complaint("no-closed-form", "the determinant is no polynomial that could be factored"))
+        raise Rejected(Complaint("no-closed-form", "the determinant is not a polynomial that could be factored"))
     worst = max(part.degree() for part, _ in found)
     if worst > 2:
         message = (
             f"with this drag the modes do not separate: {worst} exponents are the roots of a polynomial that does "
         )
-        help_line = "where masses, springs and drags are alike, or the drag goes with the masses, the modes separate"
+        help_line = "the modes separate if masses, springs and drags are equal, or drag is proportional to mass"
         raise Rejected(Complaint("no-closed-form", f"{message}not factor", help=help_line))
     plain = [(-part if sign_by_factors(part.LC()) == -1 else part, times) for part, times in found]
     return sorted(plain, key=lambda each: (not is_zero(each[0].eval(0)), each[0].degree(), len(str(each[0].as_expr()))))
@@ -119,7 +118,7 @@ DAMPED_CHARACTERISTIC = Rule(
 def _characteristic(
     linear: Sequence[Quantity], together: Linear, factors: Sequence[tuple[Poly, int]], letter: Symbol, start: str
 ) -> Quantity:
-    """det(M s^2 + C s + K) = 0.
+    """Characteristic equation, det(M s^2 + C s + K) = 0.
 
     Outcomes: several, one.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
@@ -155,7 +154,7 @@ DAMPED_FREE = Rule(
 
 
 def _free(characteristic: Quantity, together: Linear, part: Poly, times: int, start: str) -> Quantity:
-    """The exponent zero: a place that nothing drives back to.
+    """Exponent zero: a displacement without a restoring force.
 
     Source: that of `normal_modes`.
     """
@@ -186,7 +185,7 @@ DAMPED_RATE = Rule(
 
 
 def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, start: str) -> Quantity:
-    """The rate of decay.
+    """Decay rate.
 
     Outcomes: oscillator, decay, growth.
     Source: that of `normal_modes`.
@@ -197,7 +196,7 @@ def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, s
     value = tidied(coefficients[1] / (coefficients[0] * (2 if twice else 1)))
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
-        """The motion's exponent in the determinant: s = -beta +- sqrt(beta^2 - c/a)."""
+        """Substitute the exponent of the motion in the determinant: s = -beta +- sqrt(beta^2 - c/a)."""
         root = sqrt(found**2 - coefficients[2] / coefficients[0]) if twice else 0
         return _remainder_at(characteristic, letter, -found, root), 0
 
@@ -218,7 +217,7 @@ def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, s
 
 
 def _remainder_at(characteristic: Quantity, letter: Symbol, middle: Expr, root: Expr) -> Expr:
-    """The determinant at s = middle + root, without its square root: by what stands with even and with odd powers."""
+    """Return the determinant at s = middle + root, without the square root: the even and the odd powers of the root."""
     mark = Symbol("r_mark")
     value = Poly(_left(characteristic).xreplace({letter: middle + mark}).expand(), mark)
     square = root**2 if root != 0 else Poly(0, mark).as_expr()
@@ -240,9 +239,8 @@ DAMPED_FREQUENCY = Rule(
 def _frequency(
     own: Quantity, characteristic: Quantity, together: Linear, part: Poly, number: str, start: str
 ) -> Quantity:
-    """The frequency of a damped oscillation, sqrt(omega_0^2 - beta^2).
-
-    Outcomes: oscillating, conditional, overdamped (the difference of the two rates of decay, halved).
+    """Frequency of a damped oscillation, sqrt(omega_0^2 - beta^2).
+    Outcomes: oscillating, conditional, overdamped (half the difference of the two decay rates).
     Source: that of `normal_modes`.
     """
     a, b, c = (tidied(each) for each in part.all_coeffs())
@@ -253,7 +251,7 @@ def _frequency(
     name = free_letter(f"{'gamma' if turned < 0 else 'omega'}{number}")
 
     def motion(found: Expr) -> tuple[Expr, Expr]:
-        """e^(-beta t) cos(omega t), or with a hyperbolic cosine, in a eta_ddot + b eta_dot + c eta."""
+        """Substitute e^(-beta t) cos(omega t), or a hyperbolic cosine, in a eta_ddot + b eta_dot + c eta."""
         w = stand_in("w", positive=True)
         course = exp(-own.value * T) * (cos(w * T) if turned > 0 else (exp(w * T) + exp(-w * T)) / 2)
         left = (a * diff(course, T, 2) + b * diff(course, T) + c * course) / exp(-own.value * T)
@@ -280,7 +278,7 @@ def _frequency(
 
 
 def _column(together: Linear, part: Poly) -> MatrixBase | None:
-    """The amplitudes where they are the same for both exponents of a factor, and so real."""
+    """Return the amplitudes, if they are the same for both exponents of a factor, and so real."""
     matrix = ImmutableDenseMatrix(together.mass * S**2 + together.turning * S + together.stiffness)
     adjugate, size = matrix.adjugate(), matrix.shape[0]
     modulus = part.as_expr()
@@ -322,14 +320,14 @@ def _shape(
     number: int,
     start: str,
 ) -> Quantity:
-    """The amplitudes of one damped motion.
+    """Amplitudes of one damped motion.
 
     Outcomes: in_phase, opposite, generic.
     Source: that of `normal_modes`.
     """
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """What the motion leaves of the equations is a multiple of its factor, so that it vanishes with it."""
+        """Check that the residual of the equations is a multiple of the factor, and so vanishes with it."""
         letter = Symbol("s_trial")
         course = exp(letter * T)
         left = [(with_motion(each, together, [a * course for a in found]) / course).expand() for each in linear]

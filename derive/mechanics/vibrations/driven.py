@@ -1,4 +1,4 @@
-"""The forced oscillation that is left once the free motion has died away, and the quality factor of the oscillator."""
+"""The steady-state forced oscillation, after the decay of the free motion, and the quality factor of the oscillator."""
 
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ def steady_amplitude(
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate
-    Check: the forced oscillation with this amplitude and this lag put back into the equation.
-    Outcomes: damped, undamped (the oscillation is in step, or opposite).
+    Check: the forced oscillation with this amplitude and this lag substituted back into the equation.
+    Outcomes: damped, undamped (the oscillation is in phase, or opposite).
     Errors: the equation is not linear with constant coefficients, or not driven by one oscillation.
     Source: Taylor, *Classical Mechanics*, section 5.5.
     """
@@ -79,20 +79,20 @@ def steady_amplitude(
     lag = scalar("delta")
 
     def forced(amplitude: Expr) -> tuple[Any, Any]:
-        """cos(delta) and sin(delta) are the two legs over F/A."""
+        """Substitute the motion with cos(delta) and sin(delta) as the legs over the hypotenuse F/A."""
         over = force / amplitude
         motion = amplitude * (cos(angle) * stiff + sin(angle) * loss) / over
         return put_back(equation, q, motion), Integer(0)
 
     def lagging(tangent: Expr) -> tuple[Any, Any]:
-        """With sin(delta) = tan(delta) cos(delta), what the oscillation leaves a quarter turn on vanishes."""
+        """Check that the residual in sin(omega t) vanishes, with sin(delta) = tan(delta) cos(delta)."""
         motion = cos(angle) + (tangent if damped == "damped" else tan(tangent)) * sin(angle)
         return put_back(equation, q, motion).coeff(sin(angle)), Integer(0)
 
     in_phase = None if excluded is None else positive(stiff)
 
     def in_step(lag: Expr) -> tuple[Any, Any]:
-        """Where the stiffness is the greater, the oscillation with the positive amplitude has the sign of the force."""
+        """Check that the oscillation with positive amplitude has the sign of the force if c > a omega^2."""
         size = stand_in("s", positive=True)
         there = with_numbers(stiff) if sign is not None else size
         return cos(lag) * there, Abs(there)
@@ -156,7 +156,7 @@ def _of_unknown_sign(value: Expr) -> Expr:
 
 
 def _one_swing(linear: Linear, equation: Quantity) -> tuple[Expr, Expr]:
-    """The size and the angle of what drives it, F cos(omega t)."""
+    """Return the amplitude and the phase of the driving force, F cos(omega t)."""
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
     if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
         message = f"`steady_amplitude`: `{equation.key}` is not driven by one F cos(omega t)"
@@ -190,9 +190,10 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
     equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
     q          the coordinate
     Second route: driven at omega_0 = sqrt(c/a) by F cos(omega_0 t), q = Q (F/c) sin(omega_0 t) satisfies the equation;
-    and of that oscillation, 2 pi times its energy over the work of the damping in one period is Q.
-    Outcomes: oscillates (Q > 1/2: the free motion swings), critical (Q = 1/2), creeps (Q < 1/2), depends (on letters).
-    Errors: the equation is not linear with constant coefficients; nothing is lost, or nothing restores.
+    and for that oscillation, 2 pi times its energy over the work of the damping in one period is Q.
+    Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (on
+    letters).
+    Errors: the equation is not linear with constant coefficients; no damping, or no restoring force.
     Source: Taylor, *Classical Mechanics*, section 5.6; French, *Vibrations and Waves*, chapter 3.
     """
     linear = linear_equation(equation, q)
@@ -207,7 +208,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
         return expand(driven - _sense(equation, linear, q) * force * cos(w * TIME)), Integer(0)
 
     def energy(found: Expr) -> tuple[Any, Any]:
-        """Of the unit oscillation cos(omega_0 t): its energy, and the work of b q_dot along one period."""
+        """Compare with the energy of the oscillation cos(omega_0 t) and the work of b q_dot in one period."""
         whole = linear.c / 2
         work = integrate(linear.b * diff(cos(w * TIME), TIME) ** 2, (TIME, 0, 2 * pi / w))
         return found, 2 * pi * whole / work
@@ -230,6 +231,6 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
 
 def _sense(equation: Quantity, linear: Linear, q: Coordinate) -> int:
-    """1 where the equation was found with the signs of its coefficients here, -1 where all are turned."""
+    """Return 1 if the equation was found with the signs of these coefficients, -1 if all signs are reversed."""
     unit = put_back(equation, q, Integer(1)) - put_back(equation, q, Integer(0))
     return 1 if tidied(unit - linear.c) == 0 else -1

@@ -1,4 +1,4 @@
-"""Facts that results hand on besides their value, for the steps that rest on them."""
+"""Facts that results carry in addition to their value, for later steps."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class Linear(Fact):
-    """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, where the
-    state of rest exists, what drives them, and what each coordinate is at rest."""
+    """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, the condition
+    for the equilibrium, the driving forces, and the value of each coordinate at equilibrium."""
 
     missing = "is not an equation of motion to first order"
     mass: MatrixBase
@@ -38,19 +38,18 @@ class Linear(Fact):
     place: tuple[tuple[Coordinate, Expr], ...] = ()
 
     def rows_of(self, matrix: MatrixBase) -> MatrixBase:
-        """A matrix of the amplitudes, each row without what all terms of its equation have in common."""
+        """Return a matrix of the amplitudes, each row without the common factor of its equation."""
         size = range(matrix.shape[0])
         return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
 
     def common(self, i: int) -> Expr:
-        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta.
-
-        Where each of them has something below it, all that is below is cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
+        """Return the positive common factor of all terms of one equation, m l of m l^2 theta_ddot + m g l theta.
+        If every term has a denominator, all are cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
         """
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
         parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]
         if len(parts) == 1:
-            return Integer(1)  # I theta_ddot = 0 stays as it is
+            return Integer(1)  # I theta_ddot = 0 remains unchanged
         found = common_factor([above for above, _ in parts])
         if all(below.free_symbols for _, below in parts):
             found /= factor(reduce(lcm, (below for _, below in parts)))
@@ -67,7 +66,7 @@ class Mode(Fact):
 
 @dataclass(frozen=True)
 class SquareOf(Fact):
-    """The letter of what this is the square of, and where the state exists about which it is."""
+    """The letter of a frequency, for its square, and the condition under which the equilibrium exists."""
 
     missing = "is not the square of a frequency"
     letter: str

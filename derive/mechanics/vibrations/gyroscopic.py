@@ -1,8 +1,7 @@
-"""Small motions with forces that are linear in the rates and do no work: in frames that turn, of tops, of charges.
-
+"""Small motions with gyroscopic forces, linear in the rates and without work: rotating frames, tops, charges.
 Equations M eta_ddot + G eta_dot + K eta = 0 with G antisymmetric have solutions eta = Re(a e^(i omega t)) where
-det(K + i omega G - omega^2 M) = 0, a polynomial in omega^2. Rest is stable if all omega^2 are real, positive and
-different: what the potential energy alone would let fall, the turning may hold.
+det(K + i omega G - omega^2 M) = 0, a polynomial in omega^2. An equilibrium is stable if all omega^2 are real, positive
+and different: gyroscopic forces may stabilise an equilibrium that is not a minimum of the potential energy.
 """
 
 from __future__ import annotations
@@ -50,7 +49,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class Turning(Fact):
-    """The frequency of a motion in which the coordinates turn round one another: what it is a root of."""
+    """The frequency of a motion with gyroscopic forces: the root that it is."""
 
     missing = "is not the frequency of a motion with forces linear in the rates"
     swing: Swing
@@ -58,7 +57,7 @@ class Turning(Fact):
 
 @dataclass(frozen=True)
 class TurningModes:
-    """What `normal_modes` yields where forces linear in the rates do no work."""
+    """The results of `normal_modes` with forces linear in the rates that do no work."""
 
     linear: Sequence[Quantity]
     together: Linear
@@ -66,7 +65,7 @@ class TurningModes:
     start: str
 
     def found(self) -> tuple[Quantity, ...]:
-        """The frequencies, and the motions of those that have one shape."""
+        """Return the frequencies, and the motions of those that have one shape."""
         linear, together, start, pencil = self.linear, self.together, self.start, self.pencil
         characteristic, name = self.characteristic, self.letter.name
         found = [_frequency(characteristic, together, pencil, n, name, start) for n in range(len(pencil.swings))]
@@ -87,15 +86,15 @@ class TurningModes:
 
 
 def pencil_of(together: Linear) -> GyroscopicPencil:
-    """The matrices, of forces that do no work and have a potential energy."""
+    """Return the matrices, for forces that do no work and forces with a potential energy."""
     require_turning("normal_modes", together)
     return GyroscopicPencil(together.stiffness, together.turning, together.mass, together.exists)
 
 
 def require_turning(verb: str, together: Linear) -> None:
-    """That nothing drives, that the stiffness is symmetric, and that what is linear in the rates does no work."""
+    """Require no driving force, a symmetric stiffness matrix, and no work of the forces linear in the rates."""
     if any(force != 0 for force in together.driven):
-        message = f"`{verb}` needs equations that nothing drives, but there is a force that depends on the time"
+        message = f"`{verb}` needs equations without a driving force, but a force depends on the time"
         raise Rejected(Complaint("wrong-argument", message))
     symmetric = is_zero((together.stiffness - together.stiffness.T).applyfunc(tidied))
     if not symmetric or not is_zero((together.mass - together.mass.T).applyfunc(tidied)):
@@ -120,7 +119,7 @@ GYROSCOPIC_CHARACTERISTIC = Rule(
 def _characteristic(
     linear: Sequence[Quantity], together: Linear, pencil: GyroscopicPencil, letter: Symbol, start: str
 ) -> Quantity:
-    """det(K + i omega G - omega^2 M) = 0.
+    """Characteristic equation, det(K + i omega G - omega^2 M) = 0.
 
     Outcomes: generic, plain (no term is linear in the rates).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23.
@@ -145,7 +144,7 @@ def _characteristic(
 def in_quadrature(
     found: Relation, linear: Sequence[Quantity], together: Linear, letter: Symbol
 ) -> tuple[Relation, Relation]:
-    """Cosines and sines of real amplitudes put in: twice as many real equations, whose determinant is the square."""
+    """Substitute cosines and sines with real amplitudes: the determinant of twice as many equations is the square."""
     whole = of_cosines_and_sines(linear, together, letter)
     return Relation(explicit(found).residual ** 2, found.mark, 0), Relation(whole, "=", 0)
 
@@ -156,7 +155,7 @@ def _tidy_entry(entry: Expr) -> Expr:
 
 
 def of_cosines_and_sines(linear: Sequence[Quantity], together: Linear, letter: Symbol) -> Expr:
-    """The determinant of what eta = u cos(omega t) + v sin(omega t) leaves of the equations, sorted by cos and sin."""
+    """Return the determinant of the equations for eta = u cos(omega t) + v sin(omega t), sorted by cos and sin."""
     size = len(linear)
     u, v = ([Symbol(f"{name}_{n}", real=True) for n in range(size)] for name in ("u", "v"))
     c, s = cos(letter * T), sin(letter * T)
@@ -186,7 +185,7 @@ GYROSCOPIC_FREQUENCY = Rule(
 def _frequency(
     characteristic: Quantity, together: Linear, pencil: GyroscopicPencil, n: int, symbol: str, start: str
 ) -> Quantity:
-    """One frequency, or rate of growth.
+    """Frequency of one mode, or its growth rate.
 
     Outcomes: oscillating, growing, free, conditional.
     Source: that of `normal_modes`.
@@ -227,7 +226,7 @@ def _frequency(
 
 
 def outcome_data(together: Linear, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
-    """What a word about such a motion is judged by: the matrices, and under which conditions it is told."""
+    """Return the data for judging an outcome of such a motion: the matrices, and the stated conditions."""
     found: dict[str, Any] = {
         "stiffness": together.stiffness,
         "turning": together.turning,
@@ -242,13 +241,13 @@ def _polynomial_of(characteristic: Quantity) -> Expr:
 
 
 def _at_square(value: Expr, letter: Symbol, square: Expr) -> Expr:
-    """A polynomial in omega^2 there."""
+    """Return a polynomial in omega^2 at this value of omega^2."""
     polynomial = Poly(value, letter)
     return Add(*(c * square ** (n // 2) for (n,), c in polynomial.terms()))
 
 
 def _sum_of_squares(together: Linear) -> Expr:
-    """Of all omega^2: tr(M^-1 K) - tr((M^-1 G)^2)/2, by the square of the whole motion's matrix."""
+    """Return the sum of all omega^2: tr(M^-1 K) - tr((M^-1 G)^2)/2, by the square of the first-order matrix."""
     inverse = together.mass.inv()
     turning = inverse * together.turning
     return tidied((inverse * together.stiffness).trace() - (turning * turning).trace() / 2)
@@ -283,7 +282,7 @@ def _motion(
     n: int,
     start: str,
 ) -> Quantity:
-    """One motion: a cosine or a sine for each coordinate, or what grows with all of them.
+    """Motion of one mode: a cosine or a sine for each coordinate, or a common growth.
 
     Outcomes: departing, circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight,
     generic.
@@ -297,12 +296,12 @@ def _motion(
         return [_of_time(entry, w, swing.turn) for entry in column]
 
     def in_equations(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """The motion put into the linear equations, at any time."""
+        """Substitute the motion in the linear equations, at any time."""
         left = [with_motion(each, together, list(explicit(found))) for each in linear]
         return ImmutableDenseMatrix(left), ImmutableDenseMatrix([ZERO] * len(left))
 
     def energy(found: MatrixBase) -> tuple[Expr, Expr]:
-        """T + U keeps its value, since what is linear in the rates does no work."""
+        """Check that T + U is conserved, since the forces linear in the rates do no work."""
         eta = explicit(found)
         rates = eta.applyfunc(lambda value: diff(value, T))
         whole = (rates.T * together.mass * rates + eta.T * together.stiffness * eta)[0]
@@ -331,7 +330,7 @@ def _motion(
 
 
 def _of_time(entry: Expr, w: Expr, turn: int) -> Expr:
-    """The real part of r e^(i omega t), where omega is w or -w, and r real or imaginary."""
+    """Return the real part of r e^(i omega t), where omega is w or -w, and r is real or imaginary."""
     if entry.has(I):
         return -turn * (entry / I).xreplace({OMEGA: turn * w}) * sin(w * T)
     return entry.xreplace({OMEGA: turn * w}) * cos(w * T)
@@ -344,7 +343,7 @@ def _letter(together: Linear) -> str:
 
 
 def _outcome(column: Sequence[Expr], swing: Swing) -> str:
-    """What path it is where two coordinates move, and in which sense, from the first of them to the second."""
+    """Return the shape of the path if two coordinates move, and its sense, from the first to the second."""
     if swing.sign == -1:
         return "departing"
     entries = [entry for entry in column if not is_zero(entry)]

@@ -1,7 +1,6 @@
-"""Stability of rest by its small motions, where forces linear in the rates do no work: tops, charges, frames that turn.
-
-What the potential energy alone would let fall, the turning may hold: all roots omega of det(K + i omega G - omega^2 M)
-must be real and different.
+"""Stability of an equilibrium by its small motions, with gyroscopic forces: tops, charges, rotating frames.
+Gyroscopic forces may stabilise an equilibrium that is not a minimum of the potential energy: all roots omega of
+det(K + i omega G - omega^2 M) must be real and different.
 """
 
 from __future__ import annotations
@@ -38,14 +37,15 @@ LARGEST = 200  # operations of a condition that is factored
 def linear_stability(
     linear: Sequence[Quantity], letter: Expr | None = None, key: str = "stability"
 ) -> Quantity | tuple[Quantity, ...]:
-    """Stability of rest where forces linear in the rates do no work: all omega^2 real, positive and different.
+    """Stability of an equilibrium with gyroscopic forces, linear in the rates: all omega^2 real, positive, different.
 
     linear   the equations, as `linearised` yields them together
-    letter   the letter that a condition is solved for; unless given it is one that occurs as a square alone, if any
-    Turning may hold what the potential energy alone would let fall; drag, however small, takes this away again.
-    Second route: on the border of the condition two roots of the determinant meet, or one vanishes, where the
-    determinant is that of cosines and sines put into the equations.
-    Outcomes: stable, unstable, depends; where there are several conditions first, further, and last for the last one.
+    letter   the letter that a condition is solved for; by default one that occurs only as a square, if any
+    Gyroscopic forces may stabilise an equilibrium that is not a minimum of the potential energy; drag, however small,
+    makes it unstable again.
+    Second route: on the boundary of the condition two roots of the determinant coincide, or one vanishes; the
+    determinant is that of cosines and sines substituted in the equations.
+    Outcomes: stable, unstable, depends; with several conditions first, further, and last for the last one.
     Errors: there is drag; the determinant does not factor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
     """
@@ -53,7 +53,7 @@ def linear_stability(
     require_turning("linear_stability", together)
     given = {s.name for each in (together.mass, together.turning, together.stiffness) for s in each.free_symbols}
     letter_of_frequency = scalar("omega" if "omega" not in given else "Omega")
-    is_shared = key == "stability" and not is_zero(together.turning)  # then the modes have this equation too
+    is_shared = key == "stability" and not is_zero(together.turning)  # then the modes share this equation
     modes = TurningModes(linear, together, letter_of_frequency, "" if is_shared else f"{key}_")
     pencil, characteristic = modes.pencil, modes.characteristic
     needs = _needed(pencil)
@@ -71,22 +71,20 @@ def linear_stability(
 
 
 def _needed(pencil: GyroscopicPencil) -> list[tuple[Expr, Part]]:
-    """What must be positive, each with the factor that it is about."""
+    """Return the expressions that must be positive, each with its factor of the determinant."""
     if pencil.is_minimum:
         return []
     free = [part for part in pencil.parts if part.is_free or len(part.coefficients) > 3 or part.times > 1]
     if free or any(_may_drift(part, pencil) for part in pencil.parts):
-        message = (
-            "`linear_stability`: a root of the determinant is zero or repeated, so that first order does not decide"
-        )
+        message = "`linear_stability`: a root of the determinant is zero or repeated, so first order does not decide"
         if any(not part.is_free and len(part.coefficients) > 3 for part in free):
-            message = "`linear_stability`: the determinant has a factor of which no closed form of the roots is known"
+            message = "`linear_stability`: the determinant has a factor whose roots have no known closed form"
         raise Rejected(Complaint("not-decided", message))
     return [(need, part) for part in pencil.parts for need in part.needs]
 
 
 def _open(need: Expr, pencil: GyroscopicPencil) -> Expr:
-    """Its factors whose sign is not known where the state exists: K - m w^2 of (K - m w^2)(k - m w^2), if k > m w^2."""
+    """Return the factors of unknown sign where the state exists: K - m w^2 of (K - m w^2)(k - m w^2), if k > m w^2."""
     if need.count_ops() > LARGEST:
         return need
     factors = Mul.make_args(factor(need))
@@ -94,7 +92,7 @@ def _open(need: Expr, pencil: GyroscopicPencil) -> Expr:
 
 
 def _may_drift(part: Part, pencil: GyroscopicPencil) -> bool:
-    """Whether a root may be zero, and the coordinates then move on evenly: not where no stiffness at all is left."""
+    """Whether a root may be zero, so that the coordinates move uniformly, while some stiffness remains."""
     if not part.mirrored or len(part.coefficients) != 3 or pencil.sign(part.coefficients[2]) is not None:
         return any(pencil.sign(need) == 0 for need in part.needs)
     below = (cancel(entry / part.coefficients[2]).as_numer_denom()[1] for entry in pencil.stiffness)
@@ -117,7 +115,7 @@ GYROSCOPIC_STABILITY = Rule(
 
 
 def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str) -> Quantity:
-    """What holds whatever the letters are.
+    """Stability that is the same for all values of the letters.
 
     Outcomes: stable, unstable.
     Source: that of `linear_stability`.
@@ -138,12 +136,12 @@ def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str)
 
 
 def _rests(characteristic: Quantity) -> list[Quantity]:
-    """The state of rest that the equations are about, where it is a result itself."""
+    """Return the equilibrium of the equations, if it is a result."""
     return [each for each in characteristic.parents[0].parents if each.fact(Rest) is not None]
 
 
 def _named(characteristic: Quantity) -> dict[str, Quantity]:
-    """What the sentence of a verdict names."""
+    """Return the steps that the sentence of a verdict names."""
     return {"characteristic": characteristic, **dict(zip(("rest",), _rests(characteristic), strict=False))}
 
 
@@ -156,8 +154,7 @@ def _condition(
     key: str,
     linear: Sequence[Quantity],
 ) -> Quantity:
-    """One condition.
-
+    """Condition for stability, one of those required.
     Outcomes: depends, first, further, last.
     Source: that of `linear_stability`.
     """
@@ -165,7 +162,7 @@ def _condition(
     need, condition = needs[i][0], conditions[i]
 
     def at_border(found: Relation) -> tuple[Expr, Expr]:
-        """Where the two sides are equal two roots of the determinant meet, or one is zero."""
+        """Check that, where the two sides are equal, two roots of the determinant coincide, or one is zero."""
         whole = Poly(of_cosines_and_sines(linear, together, letter), letter)
         square = Symbol("z")
         by_square = Add(*(c * square ** (n // 2) for (n,), c in whole.terms()))
@@ -192,20 +189,20 @@ def _condition(
 
 
 def _place_among(i: int, number: int) -> str:
-    """What is said of stability is said of all conditions together, behind the last."""
+    """Return the outcome; the last condition's sentence states stability for all conditions together."""
     if i == number - 1:
         return "last" if i else "depends"
     return "further" if i else "first"
 
 
 def _without_squares(value: Expr, square: Symbol) -> Expr:
-    """The discriminant of the polynomial whose square this is: zero where two of its roots meet."""
+    """Return the discriminant of the polynomial whose square this is: zero where two of its roots coincide."""
     found = Poly(value, square).sqf_part()
     return discriminant(found.as_expr(), square)
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """What is left of it where both sides of a condition are equal."""
+    """Return the remainder of the value where both sides of a condition are equal."""
     residual = condition.residual.as_numer_denom()[0].expand()
     letter = min(residual.free_symbols, key=str)
     return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual, letter)).as_expr()

@@ -1,7 +1,8 @@
-"""Linear equations of motion with constant coefficients, a q_ddot + b q_dot + c q = f(t), solved with their start.
-
-The roots of a s^2 + b s + c tell the free motion; what drives it, a sum of powers of t, exponentials, sines and
-cosines, tells a particular one. The solution put back into the equation, with its start, is the only one.
+"""Linear equations of motion with constant coefficients, a q_ddot + b q_dot + c q = f(t), solved with their
+initial values.
+The roots of a s^2 + b s + c give the free motion; the driving force, a sum of powers of t, exponentials, sines and
+cosines, gives a particular motion. The solution is substituted back into the equation; with its initial values it is
+unique.
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ class Linear:
         return 2 if self.a != 0 else 1
 
     def residual(self, motion: Expr) -> Expr:
-        """What is left of the equation for this function of the time."""
+        """Return the residual of the equation for this function of the time."""
         first = diff(motion, TIME)
         return self.a * diff(first, TIME) + self.b * first + self.c * motion - self.driven
 
@@ -112,21 +113,21 @@ def solution(
     case: str | None = None,
     key: str | None = None,
 ) -> Quantity:
-    """The motion q(t) that a linear equation with constant coefficients gives, from its start: with the roots s of
+    """Motion q(t) by a linear equation with constant coefficients, from its initial values: with the roots s of
     a s^2 + b s + c, q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
 
     equation     a q_ddot + b q_dot + c q = f(t), with f a sum of powers of t, exponentials, sines and cosines; or of
-    first order, a = 0; or q_ddot, q_dot as they were solved for
+    first order, a = 0; or a solution for q_ddot or q_dot
     q            the coordinate
     start        its value at t = 0
-    start_rate   its rate at t = 0, for an equation of second order; 0 where none is given
-    case         `underdamped`, `critically_damped` or `overdamped` where the letters leave that open
-    Check: put back into the equation; its value and its rate at t = 0.
+    start_rate   its rate at t = 0, for an equation of second order; 0 by default
+    case         `underdamped`, `critically_damped` or `overdamped`, if the letters leave the case open
+    Check: substituted back into the equation; its value and its rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (c/a is negative),
-    uniform (no force of its position or rate), slows (no force of its position: the rate dies away), relaxes (of first
-    order), accumulates (of first order, without q).
-    Errors: the equation is not linear with constant coefficients; the case is open, or another; a driving that is of no
-    such kind.
+    uniform (no force depends on position or rate), slows (no force depends on position: the rate decays), relaxes (of
+    first order), accumulates (of first order, without q).
+    Errors: the equation is not linear with constant coefficients; the case is open, or a different one; a driving force
+    of another kind.
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
     linear = linear_equation(equation, q)
@@ -171,7 +172,7 @@ def solution(
 
 
 def _by_powers(motion: Expr) -> Expr:
-    """Power by power of the time, each with one factor; as it is where it is no polynomial."""
+    """Sort a motion by powers of the time, each with one factor; or by terms if it is not a polynomial."""
     powers = motion.as_poly(TIME) if motion.is_polynomial(TIME) else None
     if powers is None:
         return by_terms(motion.expand())
@@ -180,7 +181,7 @@ def _by_powers(motion: Expr) -> Expr:
 
 
 def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) -> Expr:
-    """The motion that nothing drives, from its value and its rate; the page tells the condition of the case."""
+    """Return the free motion, from its initial value and rate; the page states the condition of the case."""
     sort, condition = _sort(linear, case, None)
     if condition is not None:
         assume(condition)
@@ -189,7 +190,7 @@ def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) ->
 
 
 def _told(linear: Linear, condition: Relation | None) -> dict[str, tuple[Any, Any]]:
-    """The condition of the case, and what may not vanish."""
+    """Return the condition of the case, and the factors that must not vanish."""
     told: dict[str, tuple[Any, Any]] = {}
     excluded = _excluded(linear)
     if excluded is not None:
@@ -200,13 +201,13 @@ def _told(linear: Linear, condition: Relation | None) -> dict[str, tuple[Any, An
 
 
 def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relation]:
-    """What the motion starts from."""
+    """Return the initial values of the motion."""
     at_rest = {} if initial is None else {"start_rate": Relation(q.rate, "=", initial)}
     return {"start": Relation(q.symbol, "=", first), **at_rest}
 
 
 def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
-    """What is left of an equation, as it was found, for this function of the time."""
+    """Return the residual of an equation, in its original form, for this function of the time."""
     state = (q.symbol, q.rate, q.acceleration)
     value = explicit(equation.value)
     left = value.residual if isinstance(value, Relation) else equation.symbol - value
@@ -225,30 +226,30 @@ def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
     constant = not any(k.has(*state, TIME) for k in (a, b, c))
     whole = is_zero(left - a * state[0] - b * state[1] - c * state[2] - rest)
     if not constant or not whole or (a == 0 and b == 0):
-        message = f"`{equation.key}` is no linear equation of {q.symbol.name} alone with constant coefficients"
+        message = f"`{equation.key}` is not a linear equation for only {q.symbol.name} with constant coefficients"
         raise Rejected(Complaint("not-linear", message))
     sign = -1 if (a if a != 0 else b).could_extract_minus_sign() else 1
     return Linear(sign * a, sign * b, sign * c, -sign * rest)
 
 
 def _left_of(equation: Quantity, q: Coordinate) -> Expr:
-    """What vanishes; of the acceleration or the rate as it was solved for, that less what it is."""
+    """Return the left side of the equation with zero on the right; for a solved rate, the rate minus its value."""
     if equation.symbol in (q.acceleration, q.rate) and is_number(equation):
         return equation.symbol - explicit(equation.value)
     return residual_of("solution", equation)
 
 
 def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
-    """Another coordinate is no constant, nor is its rate or its acceleration: they move as q does."""
+    """Reject other coordinates, rates and accelerations, which change with time as q does."""
     other = changes(left.xreplace({TIME: ONE}), [s for s in coordinates_of(equation) if s != q.symbol])
     if other is not None:
-        message = f"`{equation.key}` is no equation of {q.symbol.name} alone: it has {other.name}, which moves too"
-        help_line = f"put in what {other.name} is, from another equation"
+        message = f"`{equation.key}` is not an equation for only {q.symbol.name}: it has {other.name}, which moves too"
+        help_line = f"substitute the value of {other.name} from another equation"
         raise Rejected(Complaint("not-linear", message, help=help_line))
 
 
 def _sort(linear: Linear, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
-    """What kind of motion it is, and the condition under which it is so, where the letters leave it open."""
+    """Return the kind of motion, and its condition if the letters leave the kind open."""
     a, b, c = linear.a, linear.b, linear.c
     key = "the motion along a mode" if equation is None else f"`{equation.key}`"
     if case is not None and case not in CASES:
@@ -261,20 +262,20 @@ def _sort(linear: Linear, case: str | None, equation: Quantity | None) -> tuple[
     if b == 0:
         sign = sign_known(c / a)
         if sign is None:
-            raise Rejected(Complaint("open-case", f"{key}: the sign of {tidied(c / a)} is not known"))
+            raise Rejected(Complaint("open-case", f"{key}: the sign of {tidied(c / a)} is unknown"))
         return ("oscillates" if sign > 0 else "runs_away"), None
     sign = sign_known(linear.discriminant)
     known = next((name for name, wanted in CASES.items() if wanted == sign), None)
     if known is None and case is None:
-        message = f"{key}: the sign of {linear.discriminant} is not known"
+        message = f"{key}: the sign of {linear.discriminant} is unknown"
         raise Rejected(Complaint("open-case", message, help=f'give `case="..."`: {", ".join(CASES)}'))
     if known is not None and case not in (None, known):
         raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
     if known == "overdamped" and sign_known(c / a) == -1:
         return "runs_away", None
-    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # open, or so by the given numbers
-        message = f"{key} is critically damped only where {linear.discriminant} = 0"
-        raise Rejected(Complaint("open-case", message, help="put that case in first, with `put_in`"))
+    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # open, or zero by numbers
+        message = f"{key} is critically damped only if {linear.discriminant} = 0"
+        raise Rejected(Complaint("open-case", message, help="substitute that case first, with `put_in`"))
     if known is not None:
         return known, None
     mark = "<" if case == "underdamped" else ">"
@@ -282,7 +283,7 @@ def _sort(linear: Linear, case: str | None, equation: Quantity | None) -> tuple[
 
 
 def _compared(left: Expr, mark: str, right: Expr) -> Relation:
-    """gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, where both are squares of positive letters."""
+    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both are squares of positive letters."""
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)
@@ -295,7 +296,7 @@ def _compared(left: Expr, mark: str, right: Expr) -> Relation:
 
 
 def _basis(linear: Linear, sort: str) -> list[Expr]:
-    """The free motions: one for an equation of first order, else two."""
+    """Return the free motions: one for an equation of first order, else two."""
     a, b, c, t = linear.a, linear.b, linear.c, TIME
     if linear.order == 1:
         return [exp(tidied(-c / b) * t)]
@@ -316,16 +317,16 @@ def _basis(linear: Linear, sort: str) -> list[Expr]:
 
 
 def _root_over(inside: Expr, below: Expr) -> Expr:
-    """sqrt(k/m - b^2/(4 m^2)), or sqrt(D)/(2 a) where that is shorter."""
+    """Write sqrt(k/m - b^2/(4 m^2)), or sqrt(D)/(2 a) if that is shorter."""
     forms = [tidied(sqrt(inside) / below), sqrt(tidied(inside / below**2)), sqrt(expand(inside / below**2))]
     return shortest(forms)
 
 
-# --- what drives it ---
+# --- the driving force ---
 
 
 def _particular(linear: Linear, equation: Quantity) -> Expr:
-    """A motion under what drives it, a sum of those under each of its terms."""
+    """Return a particular motion under the driving force, a sum of those under each of its terms."""
     if linear.driven == 0:
         return ZERO
     terms = [_particular_of(linear, term, equation) for term in Add.make_args(_driving(linear.driven))]
@@ -333,7 +334,7 @@ def _particular(linear: Linear, equation: Quantity) -> Expr:
 
 
 def _driving(driven: Expr) -> Expr:
-    """Products of sines and cosines of the time as sums."""
+    """Write products of sines and cosines of the time as sums."""
     value = expand(driven)
     return TR8(value).expand() if len([f for f in value.atoms(sin, cos) if f.has(TIME)]) > 1 else value
 
@@ -357,13 +358,13 @@ def is_linear_in_time(angle: Expr) -> bool:
 
 
 def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
-    message = f"`solution`: what drives `{equation.key}` contains {term}"
-    help_line = "powers of t, exponentials, sines and cosines can drive it"
+    message = f"`solution`: the driving force in `{equation.key}` contains {term}"
+    help_line = "it may contain powers of t, exponentials, sines and cosines"
     return Rejected(Complaint("unknown-driving", message, help=help_line))
 
 
 def _of_power(linear: Linear, power: Expr) -> Expr:
-    """Undetermined coefficients: a polynomial, times t or t^2 where the free motion has constants or powers itself."""
+    """Return a polynomial by undetermined coefficients, times t or t^2 if the free motion has constants or powers."""
     degree = power.as_poly(TIME).degree() if power.has(TIME) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2
     unknown = [stand_in(f"u_{n}") for n in range(degree + 1)]
@@ -378,17 +379,17 @@ def _of_power(linear: Linear, power: Expr) -> Expr:
 
 
 def _under_exponential(linear: Linear, k: Expr) -> Expr:
-    """1/P(k), or t/P'(k) and t^2/P''(k) where k is a root of P = a s^2 + b s + c."""
+    """Return 1/P(k), or t/P'(k) and t^2/P''(k) if k is a root of P = a s^2 + b s + c."""
     for power, value in enumerate(
         (linear.a * k**2 + linear.b * k + linear.c, 2 * linear.a * k + linear.b, 2 * linear.a)
     ):
         if not is_zero(value):
             return TIME**power / value
-    raise Rejected(Complaint("unknown-driving", "an exponential that no equation answers"))
+    raise Rejected(Complaint("unknown-driving", "the equation has no response to this exponential"))
 
 
 def _under_swing(linear: Linear, swing: Expr) -> Expr:
-    """The forced oscillation; one that grows where it has the frequency of a free motion that is not damped."""
+    """Return the forced oscillation; it grows at resonance, the frequency of an undamped free motion."""
     (angle,) = swing.args
     w = diff(angle, TIME)
     stiff, loss = tidied(linear.c - linear.a * w**2), tidied(linear.b * w)
@@ -399,7 +400,7 @@ def _under_swing(linear: Linear, swing: Expr) -> Expr:
 
 
 def _excluded(linear: Linear) -> Relation | None:
-    """What must not vanish for the motion under what drives it: no free motion may have its frequency, or its rate."""
+    """Return the condition against resonance: no free motion has the frequency or the rate of the driving force."""
     found: dict[Relation, None] = {}
     for term in Add.make_args(_driving(linear.driven)):
         for f in term.atoms(sin, cos, exp):
@@ -418,7 +419,7 @@ def _excluded(linear: Linear) -> Relation | None:
 
 
 def _accumulated(inside: Expr, equation: Quantity) -> Expr:
-    """An antiderivative by the time: of a power of a + b t, an exponential, a sine or a cosine."""
+    """Return an antiderivative by the time: of a power of a + b t, an exponential, a sine or a cosine."""
     if inside == 1:
         return TIME
     base, power = inside.as_base_exp()
@@ -437,11 +438,11 @@ def _accumulated(inside: Expr, equation: Quantity) -> Expr:
     raise _unknown_driving(equation, inside)
 
 
-# --- its start ---
+# --- the initial values ---
 
 
 def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Expr | None) -> list[Expr]:
-    """The factors of the free motions for which value and rate are those of the start."""
+    """Return the factors of the free motions for which value and rate have the initial values."""
     rows = [[e.subs(TIME, 0) for e in basis]]
     right = [first - particular.subs(TIME, 0)]
     if initial is not None:
@@ -451,7 +452,7 @@ def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Ex
 
 
 def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: Linear, sort: str) -> Expr:
-    """e^(-b t/2a) (C cos + D sin): the exponential that both have in common in front."""
+    """Write e^(-b t/2a) (C cos + D sin), with the common exponential as a factor."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
     inside = Add(*(presented(C) * (e / common) for C, e in zip(values, basis, strict=True)))
     inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=length)
@@ -459,7 +460,7 @@ def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: Linear, sort: s
 
 
 def _joined(free: Expr, particular: Expr) -> Expr:
-    """v_t (1 - e^(-t/T)) where the free motion only takes off what the other one has at the start."""
+    """Write v_t (1 - e^(-t/T)) if the free motion is minus the particular motion at the start."""
     if not particular.has(TIME) and particular != 0 and not free.is_Add:
         outside, inside = free.as_independent(TIME, as_Add=False)
         if is_zero(outside + particular):

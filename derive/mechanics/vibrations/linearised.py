@@ -1,8 +1,7 @@
-"""Equations of motion to first order about a state of rest, in any number of coordinates.
-
-M eta_ddot + G eta_dot + K eta = f(t), with eta the displacements and f what drives them. The matrices are read off the
-equations of motion; the second route has them from the kinetic energy of mass points and from the virtual work of all
-forces, drag and given ones among them, to second order.
+"""Equations of motion to first order about an equilibrium, in any number of coordinates.
+M eta_ddot + G eta_dot + K eta = f(t), with the displacements eta and the driving forces f. The matrices are read off
+the equations of motion; the second route derives them from the kinetic energy of mass points and from the virtual work
+of all forces, including drag and given forces, to second order.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ from derive.witness.facts import Around, Rest
 __all__ = ["linearised"]
 
 ZERO = Integer(0)
-MOST_TOLD = 2  # terms of higher order that a sentence tells one by one
+MOST_TOLD = 2  # terms of higher order that a sentence can list
 
 
 def linearised(
@@ -45,17 +44,17 @@ def linearised(
     at: Quantity | Mapping[Any, Expr] | Expr | None = None,
     key: str = "linearised",
 ) -> Quantity | tuple[Quantity, ...]:
-    """Equations of motion to first order in the displacements from rest, M eta_ddot + G eta_dot + K eta = f(t).
+    """Equations of motion to first order in the displacements from equilibrium, M eta_ddot + G eta_dot + K eta = f(t).
 
-    motion   the equations, as `equations_of_motion` yields them; or one, of one coordinate
-    at       the state of rest: as `equilibria` yields it, or `{theta: 0, phi: pi}`; all coordinates 0 unless given
-    key      what the keys begin with: linearised_theta, one for each coordinate
-    Drag gives G; what depends on the time alone, f, drives the motion. Where a coordinate is not 0 at rest its
-    displacement is called eta; eta_1, eta_2, ... where there are several.
+    motion   the equations, as `equations_of_motion` yields them; or one, for one coordinate
+    at       the equilibrium: as `equilibria` yields it, or `{theta: 0, phi: pi}`; by default all coordinates 0
+    key      the beginning of the keys: linearised_theta, one for each coordinate
+    Drag gives G; terms that depend only on the time, f, drive the motion. If a coordinate is not 0 at equilibrium, its
+    displacement is called eta; eta_1, eta_2, ... if there are several.
     Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
-    Outcomes: generic, displaced (some coordinate is not 0 at rest), and with a drag or what drives them damped,
+    Outcomes: generic, displaced (some coordinate is not 0 at equilibrium), and with a drag or a driving force damped,
     displaced_damped, driven, displaced_driven.
-    Errors: a force is left at that place; a value, or the equation of a coordinate, is missing; the coefficients change
+    Errors: a force remains at that place; a value, or the equation of a coordinate, is missing; the coefficients change
     in time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
     """
@@ -67,7 +66,7 @@ def linearised(
 
 
 def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tuple[Quantity, ...]:
-    """The linear equations of all coordinates."""
+    """Return the linear equations of all coordinates."""
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
     _check_whole(equations, moving)
     place = _place_of(equations, moving, at)
@@ -113,7 +112,7 @@ def _one(
     rests: Sequence[Quantity],
     key: str,
 ) -> Quantity:
-    """The linear equation that belongs to one coordinate.
+    """Linear equation of one coordinate.
 
     Outcomes: generic, displaced, damped, displaced_damped, driven, displaced_driven.
     Source: that of `linearised`.
@@ -176,8 +175,8 @@ def _one(
 
 
 def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common: Expr) -> Expr | None:
-    """The left side with sin(u) = u and cos(u) = 1 of angles that vanish at rest; nothing where there are none, or
-    others."""
+    """Return the left side with sin(u) = u and cos(u) = 1 for angles that vanish at equilibrium; None if there are no
+    angles, or others."""
     left = explicit(equation.value).residual / common
     angles = left.atoms(sin, cos)
     letters = {q.symbol for q in moving}
@@ -188,7 +187,7 @@ def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common:
 
 
 def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
-    """The line in which the angles are small, before the higher orders are dropped."""
+    """Return the line with small angles, before the higher orders are dropped."""
     if small is None:
         return []
     letters = [letter for q in moving for letter in (q.symbol, q.rate, q.acceleration)]
@@ -196,13 +195,13 @@ def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
 
 
 def _functions_of(equation: Quantity, q: Coordinate, small: Expr | None) -> dict[str, Expr]:
-    """Which functions of the angle are put to first order."""
+    """Return the functions of the angle that are expanded to first order."""
     functions = {"sine": sin(q.symbol), "cosine": cos(q.symbol)} if small is not None else {}
     return {role: f for role, f in functions.items() if explicit(equation.value).residual.has(f)}
 
 
 def _dropped(q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
-    """Which terms are of higher order than the first."""
+    """Return the terms of higher order than the first."""
     if small is None:
         return {}
     told: dict[str, tuple[Expr, Expr]] = {}
@@ -215,7 +214,7 @@ def _dropped(q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
 
 
 def _letters_of(rests: Sequence[Quantity]) -> dict[Symbol, Expr]:
-    """What the page calls the coordinates at rest, r_0."""
+    """Return the symbols of the equilibrium values on the page, r_0."""
     found: dict[Symbol, Expr] = {}
     for rest in rests:
         names = [rest.symbol] if isinstance(rest.symbol, Symbol) else list(rest.symbol or ())
@@ -233,13 +232,13 @@ def _outcome(linear: Linear, own: int, displaced: bool) -> str:
 
 
 def _loss(linear: Linear) -> dict[str, Expr]:
-    """Twice the rate at which small motions lose their energy: what of G is symmetric."""
+    """Return twice the rate at which small motions lose energy, from the symmetric part of G."""
     rates = [s.rate for s in linear.displacements]
     return {"loss": Add(*(linear.turning[i, j] * u * v for i, u in enumerate(rates) for j, v in enumerate(rates)))}
 
 
 def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) -> None:
-    """No equation holds a coordinate of which the equation is missing."""
+    """Check that no equation contains a coordinate whose equation is missing."""
     known = {q.symbol for q in moving}
     for equation in equations:
         value = explicit(equation.value).residual
@@ -247,16 +246,16 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
         kept = next((q for q in others if any(q == c.force for c in constraints_of(equation))), None)
         if kept is not None:
             message = f"`linearised`: `{equation.key}` contains {kept.name}, the multiplier of a constraint"
-            help_line = "write the places by fewer coordinates, without this constraint"
+            help_line = "write the places with fewer coordinates, without this constraint"
             raise Rejected(Complaint("constrained", message, help=help_line))
         if others:
-            message = f"`linearised`: `{equation.key}` also has {others[0].name}, of which there is no equation"
+            message = f"`linearised`: `{equation.key}` also has {others[0].name}, for which there is no equation"
             help_line = "give all equations together, as `equations_of_motion` yields them"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: Any) -> dict[Symbol, Expr]:
-    """A value for each coordinate; one that no equation holds itself may have any, and is counted from there."""
+    """Return a value for each coordinate; 0 for one that only occurs by its rates, which may have any value."""
     known = dict.fromkeys((q.symbol for q in moving), ZERO) if at is None else place_given(at)
     strange = [s for s in known if s not in {q.symbol for q in moving}]
     if strange:
@@ -265,7 +264,7 @@ def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: A
     left = [explicit(equation.value).residual for equation in equations]
     for q in moving:
         if q.symbol not in known and any(value.has(q.symbol) for value in left):
-            message = f"`linearised`: nothing says what {q.symbol.name} is at rest"
+            message = f"`linearised`: the value of {q.symbol.name} at equilibrium is unknown"
             raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{q.symbol.name}: 0`"))
     return {q.symbol: known.get(q.symbol, ZERO) for q in moving}
 
@@ -276,44 +275,44 @@ def _at_rest(value: Expr, moving: Sequence[Coordinate], place: Mapping[Symbol, E
 
 
 def _check_exists(at: Any) -> None:
-    """Refuse a state of rest that the given numbers do not allow."""
+    """Reject an equilibrium that does not exist for the given numbers."""
     exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
     sign = sign_known(exists.residual) if exists is not None else None
     if exists is not None and sign is not None and sign != (1 if exists.mark == ">" else -1):
         message = (
-            f"`{at.key}` exists only for {exists.left} {exists.mark} {exists.right}, which is not so for the values"
+            f"`{at.key}` exists only for {exists.left} {exists.mark} {exists.right}, which the values do not fulfil"
         )
-        raise Rejected(Complaint("no-equilibrium", message, help="give other values, or another state of rest"))
+        raise Rejected(Complaint("no-equilibrium", message, help="give other values, or another equilibrium"))
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
-    """Without rates and accelerations nothing is left of the equations there but what drives them as time passes."""
+    """Check that at rest only the driving forces remain in the equations at this place."""
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:
         value = explicit(equation.value).residual
         letters = [s for q in moving for s in (q.symbol, q.rate, q.acceleration)] if value.has(TIME) else []
         slopes = [derivative(value, s) for s in letters]
         if any(_at_rest(slope, moving, place).has(TIME) for slope in slopes):
-            message = f"`{equation.key}` holds the time itself, so that it has no constant coefficients"
+            message = f"`{equation.key}` contains the time explicitly, so it has no constant coefficients"
             raise Rejected(Complaint("changes", message))
         left = lasting(_at_rest(value, moving, place))
         if left.has(nan, zoo):
             message = f"`{equation.key}` has no value at {where}, where a distance or a denominator is zero"
-            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the equilibria"))
         if not is_zero(left):
-            message = f"`{equation.key}` is not in equilibrium at {where}: {left} is left for 0"
-            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+            message = f"`{equation.key}` is not in equilibrium at {where}: {left} remains instead of 0"
+            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the equilibria"))
 
 
 def lasting(value: Expr) -> Expr:
-    """What of a sum does not depend on the time."""
+    """Return the terms of a sum that do not depend on the time."""
     return Add(*(term for term in Add.make_args(value.expand()) if not term.has(TIME))) if value.has(TIME) else value
 
 
 def _coefficients(
     equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr], order: int
 ) -> MatrixBase:
-    """What stands at rest before the accelerations, the rates, or the coordinates, of each equation."""
+    """Return the coefficients of the accelerations, the rates, or the coordinates at equilibrium, for each equation."""
 
     def entry(i: int, j: int) -> Expr:
         q = moving[int(j)].symbol
@@ -324,7 +323,7 @@ def _coefficients(
 
 
 def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> tuple[Coordinate, ...]:
-    """The coordinate itself where it is 0 at rest, else eta; eta_1, eta_2, ... where there are several."""
+    """Return the coordinate if it is 0 at equilibrium, else eta; eta_1, eta_2, ... if there are several."""
     away = [q for q in moving if place[q.symbol] != 0]
     names = {q: "eta" if len(away) == 1 else f"eta_{n + 1}" for n, q in enumerate(away)}
     return tuple(Coordinate(scalar(names[q]), q.kind) if q in names else q for q in moving)
@@ -337,9 +336,8 @@ def _of_second_order(
     place: Mapping[Symbol, Expr],
     eta: Sequence[Coordinate],
 ) -> Relation:
-    """The same from mass points and forces: momentum, and what pushes along the coordinate, differentiated at rest.
-
-    Not from a kinetic energy: where cyclic coordinates are put aside, that with the momenta put in tells no forces.
+    """Return the same equation from mass points and forces: momentum and generalised force, differentiated at rest.
+    A kinetic energy does not suffice: with cyclic coordinates eliminated by their momenta, it does not give the forces.
     """
     matter, q = equations[i].needed(Matter), moving[i]
     momentum = explicit(matter.momentum_along(q.symbol))
@@ -356,7 +354,7 @@ def _of_second_order(
 
 
 def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
-    """The left side of a linear equation with a motion eta(t) put in."""
+    """Return the left side of a linear equation with a motion eta(t) substituted."""
     put_in: dict[Any, Expr] = {}
     for s, eta in zip(together.displacements, motion, strict=True):
         put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
@@ -364,7 +362,7 @@ def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) ->
 
 
 def left_by_drift(linear: Sequence[Quantity], together: Linear, column: Sequence[Expr], time: Expr) -> list[Expr]:
-    """What the equations of motion, not linear, leave of a uniform motion away from rest along a column."""
+    """Return the residuals of the nonlinear equations for a uniform motion from equilibrium along a column."""
     equations = {e.needed(OfCoordinate).coordinate: e for each in linear for e in each.parents if e.fact(OfCoordinate)}
     moved: dict[Any, Expr] = {}
     for (q, at), share in zip(together.place, column, strict=True):
@@ -373,7 +371,7 @@ def left_by_drift(linear: Sequence[Quantity], together: Linear, column: Sequence
 
 
 def factors_of_amplitudes(linear: Sequence[Quantity], together: Linear, course: Expr) -> MatrixBase:
-    """What stands with each amplitude in each equation, once eta = a course(t) is put in and the course divided out."""
+    """Return the factor of each amplitude in each equation, with eta = a course(t), divided by the course."""
     amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
     left = [with_motion(each, together, [a * course for a in amplitudes]) / course for each in linear]
     return ImmutableDenseMatrix([[derivative(value.expand(), a) for a in amplitudes] for value in left])

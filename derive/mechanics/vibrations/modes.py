@@ -1,7 +1,7 @@
-"""Normal modes: motions in which all coordinates swing with one frequency, their frequencies and their shapes.
+"""Normal modes: motions in which all coordinates oscillate with one frequency; their frequencies and shapes.
 
 Linear equations M eta_ddot + K eta = 0 have solutions eta = a cos(omega t) where det(K - omega^2 M) = 0. A root that is
-zero belongs to a free motion, a negative one to a displacement that grows.
+zero belongs to a free motion, a negative root to a displacement that grows.
 """
 
 from __future__ import annotations
@@ -50,25 +50,25 @@ from derive.steps.step import Level, Quantity, is_zero, require_kind
 __all__ = ["beats", "normal_modes", "period"]
 
 ZERO = Integer(0)
-LETTERS = ("omega", "Omega")  # of a frequency: the second where the first is given
+LETTERS = ("omega", "Omega")  # of a frequency: the second if the first is given
 
 
 def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str = "") -> tuple[Quantity, ...]:
     """Normal modes of M eta_ddot + K eta = 0: eta = a cos(omega t), det(K - omega^2 M) = 0, (K - omega^2 M) a = 0.
 
     linear   the equations, as `linearised` yields them
-    key      what the keys begin with, where there are modes of something else on the page; then give a `symbol` too
-    Keys: characteristic_equation; frequency_1, frequency_2, ... from the least; mode_1, mode_2, ... the shapes, of
-    which only the ratios mean anything. Of one coordinate there is `frequency` alone, omega_0, by `frequency_squared`.
-    Where forces linear in the rates do no work, shapes are motions, cosines and sines; with drag there are rates of
-    decay, decay_1, ..., and of a factor of its own each frequency, if the determinant falls into such factors.
-    Second route: the motion put into the linear equations; the quotient of stiffness and mass in that shape (Rayleigh);
-    the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
+    key      the beginning of the keys, if the page has other modes; then give a `symbol` too
+    Keys: characteristic_equation; frequency_1, frequency_2, ... from the least; mode_1, mode_2, ... the shapes; only
+    their ratios have a meaning. For one coordinate there is only `frequency`, omega_0, by `frequency_squared`.
+    With forces linear in the rates that do no work, shapes are motions, cosines and sines; with drag there are decay
+    rates, decay_1, ..., and a frequency for each quadratic factor, if the determinant has such factors.
+    Second route: the motion substituted in the linear equations; the quotient of stiffness and mass in that shape
+    (Rayleigh); the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
-    the letters); where two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
-    conditional_repeated; ordered, ordered_part (no formula: a root by its place); of shapes: in_phase, opposite,
-    alone (the other is at rest), generic, uniform (free motion), departing (growing), any_of_several (repeated); of the
-    determinant: several, one (coordinate).
+    the letters); if two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
+    conditional_repeated; ordered, ordered_part (no formula: a root by its place); for shapes: in_phase, opposite,
+    alone (the other is at rest), generic, uniform (free motion), departing (growing), any_of_several (repeated); for
+    the determinant: several, one (coordinate).
     Errors: the roots have no closed form, and letters have no numbers; with drag the modes do not separate; too many
     letters.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
@@ -86,7 +86,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     free = next((name for name in LETTERS if name not in given), LETTERS[0])
     letter = scalar(symbol if symbol and len(linear) > 1 else free)
     if letter.name in given:
-        message = f"`normal_modes` would call the frequency {letter}, but {letter} stands for something that is given"
+        message = f"`normal_modes` would call the frequency {letter}, but {letter} denotes a given quantity"
         raise Rejected(
             Complaint(
                 "letter-clash", message, help=Spelled('give another letter, `symbol="Omega"`', "use another letter")
@@ -114,7 +114,7 @@ def _check_whole(linear: Sequence[Quantity], together: Linear) -> None:
         message = "`normal_modes` needs all the equations that `linearised` yields together"
         raise Rejected(Complaint("wrong-argument", message))
     if any(force != 0 for force in together.driven):
-        message = "`normal_modes` needs equations that nothing drives, but there is a force that depends on the time"
+        message = "`normal_modes` needs equations without a driving force, but a force depends on the time"
         raise Rejected(Complaint("wrong-argument", message))
     if together.stiffness != together.stiffness.T or together.mass != together.mass.T:
         raise Rejected(Complaint("wrong-argument", "`normal_modes` needs forces that have a potential energy"))
@@ -133,7 +133,7 @@ CHARACTERISTIC = Rule(
 def _characteristic(
     linear: Sequence[Quantity], together: Linear, pencil: Pencil, letter: Symbol, start: str
 ) -> Quantity:
-    """det(K - omega^2 M) = 0.
+    """Characteristic equation, det(K - omega^2 M) = 0.
 
     Source: that of `normal_modes`.
     """
@@ -141,7 +141,7 @@ def _characteristic(
     factored = pencil.factored(letter**2).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
-        """The factors that stand with each amplitude once eta = a cos(omega t) is in the equations."""
+        """Compare with the factors of the amplitudes after substituting eta = a cos(omega t) in the equations."""
         matrix = factors_of_amplitudes(linear, together, cos(letter * T))
         return found, Relation(expanded_by_rows(matrix), "=", 0)
 
@@ -162,8 +162,8 @@ _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
 
 
 def _drift(linear: Sequence[Quantity], together: Linear, root: RootOfPencil) -> dict[str, Any]:
-    """What the equations of motion leave of a uniform motion along a zero mode, if that is nothing at all:
-    then no force acts to any order."""
+    """Return the residuals of the equations of motion for a uniform motion along a zero mode, if all vanish: then no
+    force acts to any order."""
     if root.sign != 0:
         return {}
     time = stand_in("s")
@@ -195,7 +195,7 @@ def _frequency(
     symbol: str,
     start: str,
 ) -> Quantity:
-    """One frequency, or rate of growth.
+    """Frequency of one mode, or its growth rate.
 
     Outcomes: oscillating, growing, free, conditional, oscillating_repeated, growing_repeated, free_repeated,
     conditional_repeated.
@@ -222,7 +222,7 @@ def _frequency(
 
     outcome = _OF_SIGN[root.sign] + ("_repeated" if root.multiplicity > 1 else "")
     drift = _drift(linear, together, root)
-    named = {} if root.has_formula else {"root": scalar(f"{pencil.name}_1")}  # the sentence introduces the first
+    named = {} if root.has_formula else {"root": scalar(f"{pencil.name}_1")}  # the sentence introduces the first root
     return establish(
         MODE_FREQUENCY,
         scalar(name),
@@ -254,9 +254,9 @@ def _judged_by(together: Linear) -> dict[str, Any]:
     return {"stiffness": together.stiffness, "mass": together.mass, **exists}
 
 
-@lru_cache(maxsize=8)  # all frequencies of a system ask for it
+@lru_cache(maxsize=8)  # the same for all frequencies of a system
 def _trace(mass: MatrixBase, stiffness: MatrixBase) -> Expr:
-    """Of M^-1 K, as the sum of K_ij times the cofactor of M_ij, over det M."""
+    """Return the trace of M^-1 K, as the sum of K_ij times the cofactor of M_ij, over det M."""
     size = range(mass.shape[0])
     cofactors = (stiffness[i, j] * mass.cofactor(i, j) for i in size for j in size if stiffness[i, j] != 0)
     return tidied(Add(*cofactors) / mass.det())
@@ -288,7 +288,7 @@ def _shape(
     before: Sequence[Quantity],
     start: str,
 ) -> Quantity:
-    """The amplitudes of one mode.
+    """Amplitudes of one mode.
 
     Outcomes: in_phase, opposite, alone, generic, uniform, departing, any_of_several.
     Source: that of `normal_modes`.
@@ -299,7 +299,7 @@ def _shape(
     squared = root.value
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """The motion put into the linear equations, at any time."""
+        """Substitute the motion in the linear equations, at any time."""
         w = stand_in("w", positive=True)
         course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
         turned = -squared if root.sign == -1 else squared
@@ -368,8 +368,8 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
     """Period of an oscillation, tau = 2 pi/omega.
 
     of   its angular frequency, 1/s
-    Check: after that time, and not after half of it, cos(omega t) and its rate are what they were.
-    Errors: this is no angular frequency of an oscillation.
+    Check: after that time, and not after half of it, cos(omega t) and its rate have the same values again.
+    Errors: this is not an angular frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 5.2.
     """
     require_kind("period", "of", of, "angular speed")
@@ -378,7 +378,7 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
         raise Rejected(Complaint("no-oscillation", f"`{of.key}` is not the frequency of an oscillation"))
 
     def same_again(found: Expr) -> tuple[Expr, Expr]:
-        """Once round, counted by what a turn adds to the phase: cos and sin of it, and cos of its half."""
+        """Check that the phase increases by one full turn: its cos and sin, and the cos of its half."""
         turn = tidied(of.value * found)
         u, v = (stand_in(name) for name in ("u", "v"))
         return cos(turn) + u * sin(turn) + v * cos(turn / 2), 1 - v
@@ -409,7 +409,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
     slow, fast   the angular frequencies of two modes, 1/s
     cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2) cos((omega_1 + omega_2) t/2), whose size rises and
     falls with the difference.
-    Check: the two swings added are that product, at any time.
+    Check: the sum of the two oscillations is that product, at any time.
     Errors: the first is faster, or the two are the same; one is not the frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
     """
@@ -436,13 +436,13 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
 
 @in_results(
     "beats",
-    "how often the amplitude of one of two swings comes back, from two frequencies",
+    "the frequency of the beats, from two frequencies",
     frequencies="beats: two frequencies, the slower first",
     symbol="symbol",
 )
 def _in_results(frequencies: Sequence[Quantity], key: str, symbol: str = "omega_beat") -> Quantity:
     if len(frequencies) != 2:
-        message = f"`beats` is about two frequencies, but these are {len(frequencies)}"
+        message = f"`beats` needs two frequencies, but these are {len(frequencies)}"
         raise Rejected(Complaint("wrong-argument", message))
     slow, fast = frequencies
     return beats(slow, fast, symbol, key)

@@ -26,7 +26,7 @@ from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["frequency", "frequency_and_growth", "frequency_squared"]
 
-SHORT = 4  # a condition of more terms is not told
+SHORT = 4  # a condition with more terms is not stated
 
 
 FREQUENCY_SQUARED = Rule(
@@ -47,7 +47,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     """Square of the frequency of small oscillations, omega_0^2 = k/m, in 1/s^2.
 
     linear   the equation m q_ddot + k q = 0, as `linearised` yields it
-    Check: q = cos(omega_0 t) put back into the equation.
+    Check: q = cos(omega_0 t) substituted back into the equation.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
@@ -98,7 +98,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
 
 
 def _quotient(stiffness: Expr, mass: Expr) -> Expr:
-    """k/m over one line."""
+    """Write k/m with one fraction line."""
     above, below = stiffness.as_numer_denom()
     if below.free_symbols:
         return Ratio(above, below * mass)
@@ -106,13 +106,13 @@ def _quotient(stiffness: Expr, mass: Expr) -> Expr:
 
 
 def _squared_form(value: Expr) -> Expr:
-    """g/l - omega^2, not (g - l omega^2)/l, where that is shorter."""
+    """Write g/l - omega^2, not (g - l omega^2)/l, if that is shorter."""
     forms = [tidied(value), spread_or_by_terms(tidied(value))]
     return min(forms, key=length)
 
 
 def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:
-    """What is known of the sign of omega_0^2 = k/m, where there is that state of rest."""
+    """Return the outcome by the sign of omega_0^2 = k/m, where the equilibrium exists."""
     value = tidied(value)
     if value == 0:
         return "neutral"
@@ -123,7 +123,7 @@ def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -
 
 
 def _turned(value: Expr) -> Expr:
-    """Its negative, M g (a/2 - R) of M g (R - a/2): the sign goes into a sum, where one has a minus sign already."""
+    """Return the negative, M g (a/2 - R) of M g (R - a/2): the sign goes into a sum with a minus sign, if any."""
     factors = list(Mul.make_args(value))
     sums = [
         i for i, f in enumerate(factors) if isinstance(f, Add) and any(t.could_extract_minus_sign() for t in f.args)
@@ -135,7 +135,7 @@ def _turned(value: Expr) -> Expr:
 
 
 def told_where_positive(square: Expr) -> dict[str, tuple[Relation, Relation]]:
-    """Where the square of a frequency is positive, if that can be told in short."""
+    """Return the condition for a positive square of a frequency, if it is short."""
     has_roots = any(not power.exp.is_Integer for power in square.atoms(Pow))
     if has_roots or len(Add.make_args(square.expand())) > SHORT:
         return {}
@@ -149,13 +149,13 @@ def frequency(
     condition: bool = False,
     stands_for: Sequence[str] = (),
 ) -> Quantity:
-    """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); where that is negative, the rate of growth.
+    """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); if the square is negative, the growth rate.
 
     squared     as `frequency_squared` yields it, 1/s^2
-    condition   whether the sentence says for which letters there is an oscillation
-    stands_for  keys of what there would be beside it, were the sign of the square open
+    condition   whether the sentence states the condition for an oscillation
+    stands_for  keys of the steps that would also exist if the sign of the square were open
     Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
-    Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
+    Outcomes: stable, conditional, neutral (zero), unstable (the growth rate kappa).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
     return _rate(squared, squared.step.outcome, symbol, key, condition, stands_for)
@@ -164,13 +164,13 @@ def frequency(
 def frequency_and_growth(
     squared: Quantity, keys: Sequence[str] = ("frequency", "growth_rate"), condition: bool = False
 ) -> tuple[Quantity, Quantity]:
-    """Frequency of small oscillations, omega_0, where the square is positive; rate of growth, kappa, where negative.
+    """Frequency of small oscillations, omega_0, if the square is positive; growth rate, kappa, if it is negative.
 
     squared     as `frequency_squared` yields it, 1/s^2
-    keys        of the two; where the sign of the square is known one step stands for both
+    keys        of the two; if the sign of the square is known, one step replaces both
     condition   as for `frequency`
     Check: as for `frequency`.
-    Outcomes: those of `frequency`; beside a conditional one that of the rate of growth, growing.
+    Outcomes: those of `frequency`; next to a conditional one, growing for the growth rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
     first, second = keys
@@ -201,10 +201,9 @@ def _rate(
     condition: bool = False,
     stands_for: Sequence[str] = (),
 ) -> Quantity:
-    """One of the two rates: that of the oscillation, or kappa where the motion grows.
-
-    Second route: the motion put back; its sign.
-    Outcomes: stable, conditional, neutral, unstable, growing (unstable where the square is negative, which is open).
+    """Frequency of the oscillation, or growth rate kappa.
+    Second route: the motion substituted back; its sign.
+    Outcomes: stable, conditional, neutral, unstable, growing (unstable if the square is negative, which is open).
     Source: that of `frequency`.
     """
     known = squared.needed(SquareOf)
@@ -221,7 +220,7 @@ def _rate(
         return left.expand().subs(trial**2, found**2), Integer(0)
 
     def positive_root(found: Expr) -> tuple[Expr, Expr]:
-        """Neither motion knows the sign of its rate. It cannot change unless the root vanishes: one place tells."""
+        """Check the sign of the rate at one point: the motion leaves it open; it changes only where the root is 0."""
         letters = sorted(squared.value.free_symbols, key=str)
         drawn = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
         there = fulfilling(drawn)

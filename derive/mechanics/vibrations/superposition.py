@@ -1,7 +1,6 @@
-"""The motion of coupled coordinates from its start: a sum of normal modes, each as large as the start makes it.
-
-Shapes are orthogonal with M between them, so that along the shape a there is one oscillator with the mass a.M a, the
-stiffness a.K a and, where drag does not mix the modes, the drag a.C a; it starts from a.M eta(0)/(a.M a).
+"""The motion of coupled coordinates from its initial values: a sum of normal modes, with amplitudes from these values.
+Shapes are orthogonal with respect to M, so the motion along the shape a is that of one oscillator with the mass a.M a,
+the stiffness a.K a and, if drag does not mix the modes, the drag a.C a; its initial value is a.M eta(0)/(a.M a).
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class Swing:
-    """One mode in a motion: its shape, what its own oscillator starts from, and its frequency where that is a step."""
+    """One mode in a motion: its shape, the initial values of its oscillator, and its frequency if that is a step."""
 
     column: MatrixBase
     first: Expr
@@ -52,7 +51,7 @@ class Swing:
         return bool(self.first != 0 or self.initial != 0)
 
     def course(self, w: Expr) -> Expr:
-        """Cosine and sine, or what stands in their place for a mode that is free or grows."""
+        """Return cosine and sine, or the corresponding functions for a mode that is free or grows."""
         if self.frequency is None:
             return self.damped
         if self.sign == 0:
@@ -68,16 +67,16 @@ def motions_by_modes(
     case: str | None = None,
     key: str = "",
 ) -> tuple[Quantity, ...]:
-    """The motion of all coordinates from a given start, eta(t) = sum of a_n (A_n cos(omega_n t) + B_n sin(omega_n t)).
+    """Motion of all coordinates from their start, eta(t) = sum of a_n (A_n cos(omega_n t) + B_n sin(omega_n t)).
 
     modes        as `normal_modes` yields them
-    start        the value of each coordinate at t = 0; without one, that which it has at rest
-    start_rate   its rate there; 0 without one
-    case         `underdamped`, `critically_damped` or `overdamped` where the letters leave that open
-    Keys: of_t and the name of the coordinate; or what `key` says.
-    Check: put back into all linear equations together; the values and the rates at t = 0.
-    Outcomes: generic, zero (this coordinate stays where it is).
-    Errors: drag mixes the modes; forces linear in the rates turn them; a start that is not constant.
+    start        the value of each coordinate at t = 0; by default its equilibrium value
+    start_rate   its rate at t = 0; 0 by default
+    case         `underdamped`, `critically_damped` or `overdamped`, if the letters leave the case open
+    Keys: of_t and the name of the coordinate; or `key` in place of of_t.
+    Check: substituted back into all linear equations; the values and the rates at t = 0.
+    Outcomes: generic, zero (this coordinate does not move).
+    Errors: drag mixes the modes; gyroscopic forces act; an initial value that is not constant.
     Source: Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*,
     section 6.3.
     """
@@ -102,7 +101,7 @@ def _check_displaced(given: Mapping[Coordinate, Expr], together: Linear) -> None
     for q in given:
         if all(s.symbol != q.symbol for s in together.displacements):
             names = ", ".join(s.symbol.name for s in together.displacements)
-            message = f"`motions_by_modes` needs the start of the displacements, {names}, but {q.symbol.name} is none"
+            message = f"`motions_by_modes` needs the start of displacements, {names}, but {q.symbol.name} is not one"
             raise Rejected(Complaint("wrong-argument", message))
 
 
@@ -124,8 +123,8 @@ def _swings(
     if len(columns) == 1:
         frequencies = {columns[0]: (modes[0], roots[0].sign)}
     if not is_zero(C) and (is_zero(C + C.T) or not _separates(C, columns)):
-        message = "with forces of the rates that mix the modes, their shapes are not those without these forces"
-        help_line = "drag that goes with the masses or with the springs does not mix them"
+        message = "forces that depend on the rates mix the modes, so the shapes without these forces do not apply"
+        help_line = "drag that is proportional to the masses or to the springs does not mix them"
         raise Rejected(Complaint("no-closed-form", message, help=help_line))
     found = []
     for column in columns:
@@ -148,7 +147,7 @@ def _separates(drag: MatrixBase, columns: Sequence[MatrixBase]) -> bool:
 
 
 def _damped(together: Linear, column: MatrixBase, own: Sequence[Expr], case: str | None) -> Expr:
-    """The motion of the one oscillator along a shape."""
+    """Return the motion of the oscillator along a shape."""
     a, b, c = (tidied((column.T * each * column)[0]) for each in (together.mass, together.turning, together.stiffness))
     return linear_motion.free_motion(linear_motion.Linear(a, b, c, ZERO), own[0], own[1], case)
 
@@ -184,7 +183,7 @@ def _motion(
     started: tuple[Sequence[Expr], Sequence[Expr]],
     key: str,
 ) -> Quantity:
-    """One coordinate as a function of the time.
+    """Coordinate as a function of the time.
 
     Outcomes: generic, zero.
     Source: that of `motions_by_modes`.
@@ -236,20 +235,20 @@ def _motion(
 
 
 def _told(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> dict[str, tuple[Any, Any]]:
-    """All that is not zero at the start."""
+    """Return the initial values that are not zero."""
     pairs = [(s, value) for s, value in _starts(together, started) if value != 0]
     return {f"start_{n}": (Relation(s, "=", value), Relation(value, "=", s)) for n, (s, value) in enumerate(pairs, 1)}
 
 
 def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> list[tuple[Expr, Expr]]:
-    """Each displacement and each rate with its value at the start."""
+    """Return each displacement and each rate with its initial value."""
     letters = [*(s.symbol for s in together.displacements), *(s.rate for s in together.displacements)]
     return list(zip(letters, [*started[0], *started[1]], strict=True))
 
 
 def _as_product(swings: Sequence[Swing], i: int) -> Expr | None:
     """A cos(w_1 t) + A cos(w_2 t) = 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), by the letters of the frequencies:
-    how they beat."""
+    the form that shows the beats."""
     plain = [s for s in swings if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
     if len(swings) != 2 or len(plain) != 2:
         return None
@@ -266,7 +265,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 
 @in_results(
     "solution",
-    "the motion, from a linear equation; from `normal_modes` the motion of all coordinates, of which `both_x_1` is "
+    "the motion, from a linear equation; from `normal_modes` the motion of all coordinates, where `both_x_1` is "
     "one if the result is called `both`",
     one_of=("start", "values"),
     excludes=(("values", "for"), ("values", "start"), ("values", "start_rate")),
@@ -287,7 +286,7 @@ def _in_results(
     values: Values = NONE,
     case: str | None = None,
 ) -> Quantity | tuple[Quantity, ...]:
-    """Of one coordinate from its start; of all of them by their modes, from their values."""
+    """Return the motion of one coordinate from its start, or of all coordinates by their modes, from their values."""
     if start is None and len(motions) > 1:
         return motions_by_modes(motions, *_start_by_name(values, coordinates), case, key)
     for argument, name, value in (("q", "for", q), ("start", "start", start)):
@@ -295,7 +294,7 @@ def _in_results(
             message = f"`solution` of one equation needs `{name}`"
             raise Rejected(Complaint("missing-key", message, argument=argument))
     if len(motions) != 1:
-        message = f"`solution` is about one answer, but these are {len(motions)}"
+        message = f"`solution` needs one answer, but these are {len(motions)}"
         raise Rejected(Complaint("wrong-argument", message))
     assert q is not None
     return linear_motion.solution(motions[0], q, start, start_rate, case, key)
@@ -304,7 +303,7 @@ def _in_results(
 def _start_by_name(
     values: Mapping[str, Expr], coordinates: Mapping[str, Coordinate]
 ) -> tuple[dict[Coordinate, Expr], dict[Coordinate, Expr]]:
-    """The places and the rates at the start."""
+    """Return the initial values of the coordinates and of the rates."""
     places = {coordinates[name]: value for name, value in values.items() if name in coordinates}
     rates = {q: value for name, value in values.items() for q in coordinates.values() if q.rate.name == name}
     known = {*(q.symbol.name for q in places), *(q.rate.name for q in rates)}

@@ -90,7 +90,7 @@ def test_what_only_a_limit_rests_on_is_told_before_it(tmp_path: Path) -> None:
         ("is: sqrt(2*g/l)", "is: sqrt(g/l)", (16, 40), "in this case"),
         ("of: frequency, letter: M,", "of: frequence_2, letter: M,", None, "frequence_2"),
         ("is: sqrt(g/l), ", "known: kinetic_energy, ", (14, 53), "`frequency_limit` is"),
-        ("is: sqrt(g/l), ", "known: frequency, ", (14, 53), "would say nothing"),
+        ("is: sqrt(g/l), ", "known: frequency, ", (14, 53), "would prove nothing"),
         ("letter: M,", "letter: Q,", (14, 29), "Q"),
         ("where: {m: M}", "where: {q: M}", (16, 29), "`q` is not a symbol of this problem"),
     ],
