@@ -137,7 +137,7 @@ def test_a_square_of_a_rate_and_a_cosine_are_unknowns() -> None:
         (lambda x, y: solved_for((equation(x.symbol + y.symbol, h, "a"),) * 2, x, y), "do not determine x, y"),
         (lambda x, y: solved_for(given(h), x), "needs an equation"),
         (lambda x, y: solved_for(equation(x.symbol + x.rate**3, h), x.rate**2), "contains x_dot otherwise"),
-        (lambda x, y: solved_for(equation(x.symbol, h), x.symbol * y.symbol), "needs another letter"),
+        (lambda x, y: solved_for(equation(x.symbol, h), x.symbol * y.symbol), "needs a letter"),
         (lambda x, y: solved_for(equation(x.symbol, h), x, keys=["a", "b"]), "as many keys"),
         (lambda x, y: unknown("S", "farce"), "no kind `farce`"),
         (lambda x, y: let("e", lambda: Eq(h, h)), "always equal"),
@@ -371,7 +371,7 @@ def test_limiting_cases_have_their_order() -> None:
     [
         (lambda: limiting_case(given(R), h), "does not contain h"),
         (lambda: limiting_case(given(log(h)), h), "no expansion"),
-        (lambda: limiting_case(given(1 / h), oo, 1), "needs another letter"),
+        (lambda: limiting_case(given(1 / h), oo, 1), "needs a letter"),
         (lambda: limiting_case(given(h**2), h, 0, 1), "no expansion"),
     ],
 )
@@ -560,7 +560,7 @@ def test_a_driven_oscillator_resonates_below_its_own_frequency() -> None:
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        (lambda x: solution(damped_oscillator(x), x, x0), "sign of .* is not known"),
+        (lambda x: solution(damped_oscillator(x), x, x0), "sign of .* is unknown"),
         (lambda x: solution(damped_oscillator(x), x, x0, case="weak"), "no case `weak`"),
         (lambda x: solution(damped_oscillator(x), x, x0, case="critically_damped"), "only if"),
         (lambda x: solution(damped_oscillator(x, ga), x, x0, case="overdamped"), "is critically damped"),
@@ -568,7 +568,7 @@ def test_a_driven_oscillator_resonates_below_its_own_frequency() -> None:
         (lambda x: solution(equation(x.rate + t * x.symbol, h), x, x0), "not a linear equation"),
         (lambda x: solution(equation(x.rate + x.symbol, h), x, x0, v0), "of first order"),
         (lambda x: solution(equation(x.acceleration + x.symbol, log(t)), x, x0), "the driving force"),
-        (lambda x: solution(equation(x.acceleration + c * x.symbol), x, x0), "sign of c is not known"),
+        (lambda x: solution(equation(x.acceleration + c * x.symbol), x, x0), "sign of c is unknown"),
         (lambda x: steady_amplitude(equation(x.acceleration + x.symbol, h), x), "is not driven by one"),
     ],
 )

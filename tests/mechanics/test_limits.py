@@ -127,7 +127,7 @@ def test_letters_that_are_put_equal_are_put_in() -> None:
         (lambda: limiting_case(given(log(a)), a, oo), "no expansion"),
         (lambda: limiting_case(given(M * g), S, oo), "does not contain S"),
         (lambda: limiting_case(given(M * g * TIME), TIME), "changes in the motion"),
-        (lambda: limiting_case(given(M * a), Symbol("M") + Symbol("a")), "needs another letter"),
+        (lambda: limiting_case(given(M * a), Symbol("M") + Symbol("a")), "needs a letter"),
     ],
 )
 def test_what_has_no_limit_is_refused(wrong: Callable[[], Any], said: str) -> None:

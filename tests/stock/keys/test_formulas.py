@@ -92,7 +92,7 @@ def test_a_formula_may_hold_letters_and_powers_and_another_formula(made: str, va
     [
         ("turning + r_0", "they cannot be added"),
         ("turnig/about", "there is no answer `turnig`"),
-        ("orbit/2", "`orbit` is no number"),
+        ("orbit/2", "`orbit` is not a number"),
         ("made/2", "`made` is made of itself"),
         ("equations_of_motion/2", "`equations_of_motion` stands for 2 answers"),
         ("turning^2", "`^` is not part of an expression"),
