@@ -560,7 +560,7 @@ def test_a_driven_oscillator_resonates_below_its_own_frequency() -> None:
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        (lambda x: solution(damped_oscillator(x), x, x0), "sign of .* is not known"),
+        (lambda x: solution(damped_oscillator(x), x, x0), "sign of .* is unknown"),
         (lambda x: solution(damped_oscillator(x), x, x0, case="weak"), "no case `weak`"),
         (lambda x: solution(damped_oscillator(x), x, x0, case="critically_damped"), "only if"),
         (lambda x: solution(damped_oscillator(x, ga), x, x0, case="overdamped"), "is critically damped"),
@@ -568,7 +568,7 @@ def test_a_driven_oscillator_resonates_below_its_own_frequency() -> None:
         (lambda x: solution(equation(x.rate + t * x.symbol, h), x, x0), "not a linear equation"),
         (lambda x: solution(equation(x.rate + x.symbol, h), x, x0, v0), "of first order"),
         (lambda x: solution(equation(x.acceleration + x.symbol, log(t)), x, x0), "the driving force"),
-        (lambda x: solution(equation(x.acceleration + c * x.symbol), x, x0), "sign of c is not known"),
+        (lambda x: solution(equation(x.acceleration + c * x.symbol), x, x0), "sign of c is unknown"),
         (lambda x: steady_amplitude(equation(x.acceleration + x.symbol, h), x), "is not driven by one"),
     ],
 )

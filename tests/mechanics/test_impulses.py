@@ -203,7 +203,7 @@ def test_too_few_conditions_determine_nothing() -> None:
     hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
     blow = Blow(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})
     T = kinetic_energy_of(system)
-    with pytest.raises(Rejected, match="needs 3 equations, not 2"):
+    with pytest.raises(Rejected, match="need 3 equations, not 2"):
         rates_after(blow, [momentum_jump(blow, T, q) for q in (x, theta)], [])
 
 

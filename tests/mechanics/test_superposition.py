@@ -113,7 +113,7 @@ def test_a_drag_that_mixes_the_modes_is_refused() -> None:
 
 def test_a_start_that_is_none_is_refused() -> None:
     x, _, modes = carts(three_springs())
-    with pytest.raises(Rejected, match="is none"):
+    with pytest.raises(Rejected, match="is not one"):
         motions_by_modes(modes, {coordinate("z", "length"): A})
     with pytest.raises(Rejected, match="start of x"):
         motions_by_modes(modes, {x: A * t})

@@ -86,7 +86,7 @@ def test_a_place_that_the_motion_does_not_reach_is_refused(tmp_path: Path) -> No
     too_high = edited(STONE, ("u**2/(4*g)", "u**2/g"))
     code, line, said = refused(tmp_path, too_high)
     assert (code, line) == ("not-reached", 10)
-    assert "does not get to y = u**2/g, since y_dot**2 would be negative" in said
+    assert "does not reach y = u**2/g, since y_dot**2 would be negative" in said
 
 
 HILL = """\
@@ -129,7 +129,7 @@ def test_a_motion_that_never_gets_far_away_is_refused(tmp_path: Path) -> None:
     slow = edited(ESCAPES, ("start_rate: v", "start_rate: sqrt(k/(m*r_0))"))
     code, line, said = refused(tmp_path, slow)
     assert (code, line) == ("not-reached", 10)
-    assert "does not get to r = oo" in said
+    assert "does not reach r = oo" in said
 
 
 def test_the_speed_after_a_long_time_is_a_limit(tmp_path: Path) -> None:
@@ -161,7 +161,7 @@ def test_the_amplitude_at_resonance_by_the_given_numbers_is_refused(tmp_path: Pa
 def test_critical_damping_by_the_given_numbers_is_refused(tmp_path: Path) -> None:
     code, line, said = refused(tmp_path, edited(SWINGS, (FORCED, DAMPED), ("start: 0", "start: A")))
     assert (code, line) == ("open-case", 11)
-    assert "critically damped only where c**2 - 4*k*m = 0" in said
+    assert "critically damped only if c**2 - 4*k*m = 0" in said
 
 
 def test_above_the_natural_frequency_by_the_given_numbers_it_is_in_antiphase(tmp_path: Path) -> None:
