@@ -446,7 +446,7 @@ def derived(system: Drawn, folder: Path) -> tuple[dict[str, Expr], list[Expr]]:
     problem = load_problem(folder, "trial/one")
     steps = with_ancestors(returned_quantities(run_solve(problem, run)))
     found = {q: _residual_of(steps[f"motion_{q}"].value) for q in system.kinds}
-    return found, [_residual_of(each) for each in run.assumed if each.mark == ">"]
+    return found, [_residual_of(each) for each in run.assumed if each.operator == ">"]
 
 
 def _residual_of(relation: Any) -> Expr:

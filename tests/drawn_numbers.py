@@ -147,7 +147,9 @@ def _may_hold(condition: Relation, known: Mapping[Symbol, Any]) -> bool:
     if difference.free_symbols:
         return True
     value = difference.evalf(20)
-    return bool({">": value > 0, "<": value < 0, ">=": value >= 0, "<=": value <= 0}.get(condition.mark, value != 0))
+    return bool(
+        {">": value > 0, "<": value < 0, ">=": value >= 0, "<=": value <= 0}.get(condition.operator, value != 0)
+    )
 
 
 def with_values(text: str, values: Mapping[str, str]) -> str:

@@ -176,7 +176,7 @@ def _perturbed(result: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _of_relation(relation: Relation) -> Iterator[tuple[str, Any]]:
-    left, mark, right = relation.left, relation.mark, relation.right
+    left, mark, right = relation.left, relation.operator, relation.right
     for other in MARKS:
         yield "mark", Relation(left, other, right)
     yield "left", Relation(left + _share(left), mark, right)

@@ -18,7 +18,8 @@ from tests.courses import ROOT
 
 # what to write -> the pattern of what it replaces
 INSTEAD = {
-    "is not a, is not one": r"(?<!there )\b(?:is|are|was|were|be) no (?!longer|more|matter|doubt)(?=[a-z])|\b(?:is|are) none\b",
+    "is not a, is not one": r"(?<!there )\b(?:is|are|was|were|be) no (?!longer|more|matter|doubt)(?=[a-z])"
+    r"|\b(?:is|are) none\b",
     "says, shows, reports, specifies, states": r"\b(?:is|are|was|be) told\b|\btells?\b|\b(?:is|are) said\b",
     "is, appears, is allowed": r"\bstands? (?:in|at|under|on|for itself|alone|beside|there|behind|before|first)\b"
     r"|\bmay stand\b|\bstanding\b",

@@ -455,4 +455,4 @@ parts:
 def test_a_frequency_is_compared_with_a_letter_that_stands_alone() -> None:
     """sqrt(g/l) > S is S < sqrt(g/l), though the quotient of the two differences holds roots."""
     found = where(given(sqrt(g / l), "w", symbol="w"), ">", S, S)
-    assert found.value.mark == "<" and found.value.left == S and equal(found.value.right, sqrt(g / l))
+    assert found.value.operator == "<" and found.value.left == S and equal(found.value.right, sqrt(g / l))

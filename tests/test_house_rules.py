@@ -470,7 +470,7 @@ CARRIED = {  # facts that say where a value comes from; what does not fit togeth
         "Matter",
         "ReducedMatter",
         "Varied",
-        "Kept",
+        "Constrained",
         "Rolling",
         "FromLagrangian",
         "Energies",

@@ -43,7 +43,7 @@ from sympy.simplify.fu import TR5
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.normal_form import is_identity, vanishes
-from derive.algebra.ranges import has_meaning, never_vanishes_within, settled, strict_sign_within
+from derive.algebra.ranges import has_meaning, never_vanishes_within, strict_sign_within, without_abs
 from derive.algebra.samples import (
     DIGITS,
     NoNumber,
@@ -121,7 +121,7 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is not an expression")
     try:
-        left, right = settled(explicit(left)), settled(explicit(right))
+        left, right = without_abs(explicit(left)), without_abs(explicit(right))
     except (TypeError, ValueError, AttributeError, NotImplementedError) as error:  # an integral that SymPy cannot do
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: {error}")
     try:
@@ -279,19 +279,19 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     if any(isinstance(side, MatrixBase) for side in (*left.sides, *right.sides)):
         return _equivalent_by_entries(left, right)
     if left.residual == 0 or right.residual == 0:
-        if left.mark != right.mark:
-            return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}")
+        if left.operator != right.operator:
+            return Verdict(Grade.REFUTED, f"{left.operator} against {right.operator}")
         return _equal_scalars(left.residual, right.residual)
     whole = _seen_ratio(left, right)
-    if whole is not None and _is_borne(left.mark, right.mark, _without_factors(whole, nonzero)):
-        if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 never hold
-            return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}, both sides being the same")
+    if whole is not None and _is_borne(left.operator, right.operator, _without_factors(whole, nonzero)):
+        if left.operator != right.operator and vanishes(left.residual):  # 0 > 0 and 0 < 0 never hold
+            return Verdict(Grade.REFUTED, f"{left.operator} against {right.operator}, both sides being the same")
         return Verdict(
             Grade.PROVED, f"multiples of each other by {whole}" if whole**2 != 1 else "polynomial normal form"
         )
-    if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
+    if _same_mark(left.operator, right.operator, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
-    if left.mark == right.mark == "=" and not nonzero:  # a point is found faster than a common factor
+    if left.operator == right.operator == "=" and not nonzero:  # a point is found faster than a common factor
         apart = _counterexample(left.residual, right.residual)
         if apart is not None:  # a refutation is false as a truth value
             return apart
@@ -300,10 +300,10 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     known_sign = _known_sign(factor)
     if known_sign is None and (cleared := _cleared(left, right)) is not None:
         return _equivalent(*cleared, nonzero)
-    if not _same_mark(left.mark, right.mark, known_sign or 0):
+    if not _same_mark(left.operator, right.operator, known_sign or 0):
         return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}")
     if known_sign is None and not _never_vanishes(factor):
-        apart = _counterexample(left.residual, right.residual) if left.mark == "=" else None
+        apart = _counterexample(left.residual, right.residual) if left.operator == "=" else None
         if apart is not None:  # a refutation is false as a truth value
             return apart
         return Verdict(Grade.REFUTED, f"their sides differ by {_short(factor)}, which may be zero")
@@ -315,7 +315,7 @@ def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
     """The factor between the two residuals, if it is a number times powers of symbols."""
     found = monomial_ratio(left.residual, right.residual)
     if found is None:
-        signs = (Integer(sign) for sign in (1, -1) if _same_mark(left.mark, right.mark, sign))
+        signs = (Integer(sign) for sign in (1, -1) if _same_mark(left.operator, right.operator, sign))
         found = next((sign for sign in signs if vanishes(left.residual - sign * right.residual)), None)
     return found
 
@@ -329,7 +329,7 @@ def _is_borne(left: str, right: str, factor: Expr) -> bool:
 def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
     """Compare equations between matrices, directly or with the sides of one exchanged."""
     shapes = {getattr(side, "shape", None) for side in (*left.sides, *right.sides)}
-    if left.mark != right.mark or left.mark != "=" or len(shapes) > 1:
+    if left.operator != right.operator or left.operator != "=" or len(shapes) > 1:
         return Verdict(Grade.REFUTED, f"`{left}` against `{right}`")
     verdicts = [_equal_matrices(left.left - left.right, sign * (right.left - right.right)) for sign in (1, -1)]
     return next((verdict for verdict in verdicts if verdict), verdicts[0])
@@ -337,11 +337,11 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
     """Strict inequalities n/d > 0 as n d > 0, which is equivalent: neither holds where d vanishes."""
-    strict = {left.mark, right.mark} <= {"<", ">"}
+    strict = {left.operator, right.operator} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):
         return None
-    one, other = (Relation(n * d, each.mark, 0) for each, (n, d) in zip((left, right), quotients, strict=True))
+    one, other = (Relation(n * d, each.operator, 0) for each, (n, d) in zip((left, right), quotients, strict=True))
     return one, other
 
 

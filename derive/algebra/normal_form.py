@@ -37,7 +37,7 @@ from sympy.polys.polyerrors import PolynomialError
 from derive.algebra import trig_polynomials
 from derive.algebra.expressions import explicit
 from derive.algebra.function_ring import HIGHEST, FunctionRing
-from derive.algebra.ranges import settled, with_positive_factors_out
+from derive.algebra.ranges import with_positive_factors_out, without_abs
 from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.sparse_polynomials import Outside
 from derive.algebra.trig_polynomials import asked
@@ -47,7 +47,7 @@ LARGEST = 4000  # number of operations of an expression that is rewritten in sma
 
 def vanishes(expr: Expr) -> bool:
     """Whether the expression is zero, decided exactly; False means "not shown", never "not zero"."""
-    expr = settled(explicit(expr))
+    expr = without_abs(explicit(expr))
     if expr == 0:
         return True
     if not isinstance(expr, Expr) or expr.has(nan, zoo, oo, -oo):

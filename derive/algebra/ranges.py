@@ -130,7 +130,7 @@ def _fits(letter: Any, number: Expr) -> bool:
     return known.holds(number) if known is not None else not (letter.is_positive and not number.is_positive)
 
 
-def settled(value: Any) -> Any:
+def without_abs(value: Any) -> Any:
     """The value without those absolute values whose argument has a definite sign in the ranges of its symbols."""
     known = _KNOWN.get()
     if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):

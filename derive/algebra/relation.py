@@ -16,18 +16,18 @@ _IN_SYMPY = {"=": "Eq", "!=": "Ne", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge"
 
 
 class Relation(Node):
-    """An equation or an inequality. Arguments: the left side, the mark as text, the right side."""
+    """An equation or an inequality. Arguments: the left side, the operator as text, the right side."""
 
-    def __new__(cls, left: Any, mark: str | Str, right: Any) -> Relation:
-        mark = Str(mark) if isinstance(mark, str) else mark
-        return super().__new__(cls, sympify_number(left), mark, sympify_number(right))  # type: ignore[no-any-return]
+    def __new__(cls, left: Any, operator: str | Str, right: Any) -> Relation:
+        operator = Str(operator) if isinstance(operator, str) else operator
+        return super().__new__(cls, sympify_number(left), operator, sympify_number(right))  # type: ignore[no-any-return]
 
     @property
     def left(self) -> Any:
         return self.args[0]
 
     @property
-    def mark(self) -> str:
+    def operator(self) -> str:
         return str(self.args[1].name)
 
     @property
@@ -41,7 +41,7 @@ class Relation(Node):
     @property
     def word(self) -> str:
         """The name of the mark in the tree of a page."""
-        return MARKS[self.mark]
+        return MARKS[self.operator]
 
     @property
     def residual(self) -> Expr:
@@ -53,13 +53,13 @@ class Relation(Node):
 
     def lowered(self, text: TextOf) -> str:
         left, right = (text(side) for side in self.sides)
-        return f"{_IN_SYMPY[self.mark]}({left}, {right}, evaluate=False)"
+        return f"{_IN_SYMPY[self.operator]}({left}, {right}, evaluate=False)"
 
     def doit(self, **hints: Any) -> Relation:
         return Relation(explicit(self.left), self.args[1], explicit(self.right))
 
     def __str__(self) -> str:
-        return f"{self.left} {self.mark} {self.right}"
+        return f"{self.left} {self.operator} {self.right}"
 
 
 def sympify_number(value: Any) -> Any:

@@ -39,21 +39,21 @@ from derive.algebra.factors_in_front import fraction_of, in_front, product_of
 from derive.algebra.length import shortest
 from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, shared_factor, squares_turned
 from derive.algebra.normal_form import vanishes
-from derive.algebra.ranges import settled
+from derive.algebra.ranges import without_abs
 from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.squares import differences_of_squares
 
 
 def tidied(value: Any) -> Any:
     """The explicit value in its tidy form, entry by entry for a matrix."""
-    value = settled(_signs_squared(explicit(value)))
+    value = without_abs(_signs_squared(explicit(value)))
     if isinstance(value, Relation):
-        return Relation(tidied(value.left), value.mark, tidied(value.right))
+        return Relation(tidied(value.left), value.operator, tidied(value.right))
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(tidied))
     tidy = _tidied_scalar(value)
-    known = settled(tidy)
-    return tidy if known == tidy else settled(_tidied_scalar(known))  # |sin a|/sin^2 a is 1/sin a where sin a > 0
+    known = without_abs(tidy)
+    return tidy if known == tidy else without_abs(_tidied_scalar(known))  # |sin a|/sin^2 a is 1/sin a where sin a > 0
 
 
 def _signs_squared(value: Any) -> Any:

@@ -15,7 +15,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
+from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Constrained, digest, engine_digest, file_digest, not_kept
 from derive.building.files import folder, write, writing
 from derive.building.loaded import load
 from derive.building.lock import alone
@@ -359,7 +359,7 @@ class _Build:
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
         for paper, file in self._wanted():
-            numbers = Kept(self.cache, digest("numbers", paper, self.engine.identity))  # then one run is enough
+            numbers = Constrained(self.cache, digest("numbers", paper, self.engine.identity))  # then one run is enough
             document = partial(the_document(paper), self.root, self.heading, parts)
             of_set = partial(paper_page, self.root, self.heading, parts, paper)
             page = self._page(file, of_set) if paper in ON_A_PAGE else {}
@@ -382,7 +382,7 @@ class _Build:
         texts: dict[str, str],
         files: Files,
         rank: float,
-        numbers: Kept | None = None,
+        numbers: Constrained | None = None,
     ) -> None:
         pdf = f"{name}.pdf"
         try:

@@ -341,7 +341,7 @@ def _value(
     form = part.form_of(asked)
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
         # An inequality may be solved for a letter once other values are given: only then is its unit used.
-        never = answer.value.mark == "=" and answer.coordinates
+        never = answer.value.operator == "=" and answer.coordinates
         if form.units and never and (asked in part.forms or len(part.answers) == 1):
             message = f"`{answer.key}` is an equation between quantities that vary, so it has no number with a unit"
             raise Rejected(Complaint("wrong-unit", message, form.units[0].place, help="leave its `unit` out"))

@@ -85,8 +85,8 @@ def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict
 
 def _bound(relation: Relation) -> tuple[Symbol, Expr, bool, bool] | None:
     """Return a letter, the number that bounds it, whether from above, and whether the letter may equal it."""
-    (left, right), less = relation.sides, relation.mark[0] == "<"
-    closed = relation.mark.endswith("=")
+    (left, right), less = relation.sides, relation.operator[0] == "<"
+    closed = relation.operator.endswith("=")
     if isinstance(left, Symbol) and right.is_number:
         return left, right, less, closed
     return (right, left, not less, closed) if isinstance(right, Symbol) and left.is_number else None
@@ -109,10 +109,10 @@ def order_of(
     with within(ranges):
         for each in assumed:
             relation = each.relation
-            difference = relation.residual if relation.mark[0] == ">" else -relation.residual
+            difference = relation.residual if relation.operator[0] == ">" else -relation.residual
             try:
                 with in_order(order):
-                    order = order.with_relation(difference, not relation.mark.endswith("="), sign_within)
+                    order = order.with_relation(difference, not relation.operator.endswith("="), sign_within)
             except Contradiction:
                 wrong(each)
     return order
@@ -139,7 +139,7 @@ def check_assumed(
     for each in assumed:
         relation = each.relation
         apart = relation.residual.xreplace(dict(numbers))
-        if apart.is_number and not _is_so(relation.mark, apart):
+        if apart.is_number and not _is_so(relation.operator, apart):
             message = f"`{each.written}` is not true for the given numbers"
             faults.error("contradiction", message, each.place, help="change the numbers or the relation")
 

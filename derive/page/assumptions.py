@@ -15,16 +15,18 @@ MIRRORED = {">": "<", ">=": "<="}
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
     """Join two bounds of a symbol in one line; omit that a sine or cosine is not zero where the bounds imply it."""
     conditions = list(assumed)
-    below = {r.left: r for r in conditions if r.mark in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number}
-    above = {r.left: r for r in conditions if r.mark in MIRRORED.values() and r.left in below and r.right.is_number}
+    below = {
+        r.left: r for r in conditions if r.operator in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number
+    }
+    above = {r.left: r for r in conditions if r.operator in MIRRORED.values() and r.left in below and r.right.is_number}
     found: list[Any] = []
     for condition in conditions:
         letter = condition.left
         if above.get(letter) == condition or _follows(condition, below, above):
             continue
         if below.get(letter) == condition and letter in above:
-            lower = Relation(condition.right, MIRRORED[condition.mark], letter)
-            found.append(Relation(lower, above[letter].mark, above[letter].right))
+            lower = Relation(condition.right, MIRRORED[condition.operator], letter)
+            found.append(Relation(lower, above[letter].operator, above[letter].right))
         else:
             found.append(condition)
     return found
@@ -33,11 +35,11 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
 def _follows(condition: Relation, below: dict[Expr, Relation], above: dict[Expr, Relation]) -> bool:
     """Return whether the condition follows from the bounds, as sin(alpha) != 0 from 0 < alpha < pi/2."""
     function = condition.left
-    if condition.mark != "!=" or condition.right != Integer(0) or not isinstance(function, sin | cos):
+    if condition.operator != "!=" or condition.right != Integer(0) or not isinstance(function, sin | cos):
         return False
     (angle,) = function.args
     if angle not in above:
         return False
     lower, upper = (0, pi) if isinstance(function, sin) else (-pi / 2, pi / 2)
-    open_ends = below[angle].mark == ">" and above[angle].mark == "<"
+    open_ends = below[angle].operator == ">" and above[angle].operator == "<"
     return bool(open_ends and below[angle].right >= lower and above[angle].right <= upper)

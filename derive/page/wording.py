@@ -321,7 +321,9 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
     values = [told for role, told in roles if role.startswith(VALUE) and isinstance(told, Relation)]
     joined_at: dict[Any, Any] = {}
     for each in values:
-        at = each.right if each.mark == "=" and isinstance(each.right, Symbol) else each  # equal numbers are not joined
+        at = (
+            each.right if each.operator == "=" and isinstance(each.right, Symbol) else each
+        )  # equal numbers are not joined
         joined_at[at] = Relation(Relation(joined_at[at].left, "=", each.left), "=", at) if at in joined_at else each
     others = [(role, told) for role, told in roles if not (role.startswith(VALUE) and isinstance(told, Relation))]
     return [*others, *((f"{VALUE}{i}", told) for i, told in enumerate(joined_at.values(), 1))]

@@ -45,7 +45,7 @@ def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | 
     letters = letters_of(value).union(*(letters_of(each.residual) for each in condition))
     for point in islice(points(letters, seed_of(value)), DRAWN if letters else 1):
         try:
-            if any(bool(value_at(each.residual, point) > 0) != (each.mark == ">") for each in condition):
+            if any(bool(value_at(each.residual, point) > 0) != (each.operator == ">") for each in condition):
                 continue
             seen.add(_is_inside(value_at(value, point), known))
         except (Undefined, NoNumber, TypeError):

@@ -29,7 +29,7 @@ def highest_rates(equations: Sequence[Quantity], moving: Sequence[Symbol]) -> di
 
 def _equation(quantity: Quantity) -> Relation:
     value = quantity.value
-    if not (isinstance(value, Relation) and value.mark == "="):
+    if not (isinstance(value, Relation) and value.operator == "="):
         raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` is not an equation"))
     return explicit(value)  # type: ignore[no-any-return]
 

@@ -32,7 +32,7 @@ def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Rela
 def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
     """The conditions that the sentence states."""
     return {
-        role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
+        role: (each, Relation(tidied(each.left), each.operator, tidied(each.right)))
         for role, each in conditions.items()
         if each is not None
     }

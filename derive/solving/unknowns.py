@@ -123,7 +123,7 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
     value = equation.value
     if or_value and is_number(equation):
         return explicit(value)
-    if not isinstance(value, Relation) or value.mark != "=":
+    if not isinstance(value, Relation) or value.operator != "=":
         message = f"`{verb}` needs an equation, but `{equation.key}` is not one"
         raise Rejected(
             Complaint(

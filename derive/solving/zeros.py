@@ -36,7 +36,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
-from derive.algebra.ranges import never_vanishes_within, settled, strict_sign_within
+from derive.algebra.ranges import never_vanishes_within, strict_sign_within, without_abs
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.solving.isolation import isolated
@@ -71,7 +71,7 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):
-            found.setdefault(tidied(zero.value), Zero(settled(zero.value), zero.exists))
+            found.setdefault(tidied(zero.value), Zero(without_abs(zero.value), zero.exists))
     return sorted(found.values(), key=_order)
 
 
@@ -372,7 +372,7 @@ def sign_where(value: Expr, exists: Relation | None) -> int | None:
     if border is None or exists is None:
         return own
     beyond = Symbol("u_beyond", positive=True)
-    more = exists.mark == ">"
+    more = exists.operator == ">"
     size = border.right * (sqrt(1 + beyond) if exists.left.is_Pow else 1 + beyond) ** (1 if more else -1)
     return sign_by_factors(tidied(value.subs(border.left, size)))
 

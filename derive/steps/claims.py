@@ -41,7 +41,7 @@ def numbers_fulfil(wanted: bool) -> Predicate:
     def is_so(facts: Judged) -> bool:
         residual = explicit(facts.result.left) - explicit(facts.result.right)
         value = Integer(0) if is_zero(residual) else residual.evalf(30)
-        return bool(truths[facts.inputs["condition"].mark](value)) == wanted
+        return bool(truths[facts.inputs["condition"].operator](value)) == wanted
 
     return is_so
 
@@ -85,10 +85,10 @@ MARK_OF = {  # name of a comparison -> its sign
 def holds_at(condition: Relation, point: Any) -> bool:
     """Whether a condition is true for these numbers."""
     apart = value_at(explicit(condition.residual), point)
-    if condition.mark in {"=", "!="}:
-        return bool(apart == 0) == (condition.mark == "=")
-    ahead = apart if condition.mark[0] == ">" else -apart
-    return bool(ahead > 0 or ahead == 0 and condition.mark.endswith("="))
+    if condition.operator in {"=", "!="}:
+        return bool(apart == 0) == (condition.operator == "=")
+    ahead = apart if condition.operator[0] == ">" else -apart
+    return bool(ahead > 0 or ahead == 0 and condition.operator.endswith("="))
 
 
 def points_as_assumed(letters: set[Any], seed: int) -> Iterator[Any]:
@@ -171,7 +171,9 @@ def sign_where_it_exists(wanted: int, of: Callable[[Judged], Expr] = lambda fact
 
 def _signs_where(value: Expr, exists: Relation | None) -> set[int]:
     value = with_numbers(value)
-    condition = with_numbers(exists.residual) * (1 if exists.mark == ">" else -1) if exists is not None else Integer(1)
+    condition = (
+        with_numbers(exists.residual) * (1 if exists.operator == ">" else -1) if exists is not None else Integer(1)
+    )
     letters = sorted(value.free_symbols | condition.free_symbols, key=str)
     found = set()
     for shift in range(24):
@@ -232,9 +234,9 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
         return "seen" not in facts.words
     told = facts.inputs["given"]
     apart = float(explicit(condition.left) - explicit(facts.result.right))
-    is_so = {">": apart > 0, ">=": apart >= 0, "<": apart < 0, "<=": apart <= 0}[condition.mark]
+    is_so = {">": apart > 0, ">=": apart >= 0, "<": apart < 0, "<=": apart <= 0}[condition.operator]
     near = abs(float(explicit(told.right)) / float(explicit(condition.left)) - 1) < 0.05
-    named = (told.left, told.mark) == (facts.result.left, "=")
+    named = (told.left, told.operator) == (facts.result.left, "=")
     return near and named and is_so == (facts.words["seen"] == "fulfilled")
 
 

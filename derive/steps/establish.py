@@ -363,7 +363,7 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
 
 def check_can_hold(key: str, result: Any) -> None:
     """Reject a relation that nothing can fulfil: a value is not less than itself, greater, or different."""
-    if isinstance(result, Relation) and result.mark in {"<", ">", "!="} and result.left == result.right:
+    if isinstance(result, Relation) and result.operator in {"<", ">", "!="} and result.left == result.right:
         raise Unverified(Complaint("unverified", f"`{key}` can never hold: {short(result)}"))
 
 

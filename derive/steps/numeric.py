@@ -274,7 +274,11 @@ def _given_beside(
 ) -> PhraseData:
     """Return the number of the letter of a condition, and whether it fulfils it: S > 23.55 rad/s, and S = 900 rpm."""
     relation = condition.value
-    if not isinstance(relation, Relation) or relation.mark not in {*FULFILLED} - {"="} or relation.left not in amounts:
+    if (
+        not isinstance(relation, Relation)
+        or relation.operator not in {*FULFILLED} - {"="}
+        or relation.left not in amounts
+    ):
         return PhraseData()
     at = {letter: explicit(amount) for letter, amount in amounts.items()}
     difference = explicit(relation.residual).subs(at)
@@ -286,9 +290,9 @@ def _given_beside(
     )
     told = Relation(relation.left, "=", written)
     return PhraseData(
-        words={"seen": "fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled"},
+        words={"seen": "fulfilled" if mark in FULFILLED[relation.operator] else "not_fulfilled"},
         named={"given": told},
-        outcome_data={"condition": Relation(at[relation.left], relation.mark, explicit(relation.right).subs(at))},
+        outcome_data={"condition": Relation(at[relation.left], relation.operator, explicit(relation.right).subs(at))},
     )
 
 
@@ -326,7 +330,7 @@ def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
     if not isinstance(value, Relation):
         return value, _as_it_is
     if isinstance(value.left, Symbol) and not value.right.has(value.left):
-        return value.right, lambda number: Relation(value.left, value.mark, number)
+        return value.right, lambda number: Relation(value.left, value.operator, number)
     return Integer(0), _as_it_is
 
 
@@ -365,7 +369,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
     Source: as `value_of`.
     """
     relation = condition.value
-    if not isinstance(relation, Relation) or relation.mark not in FULFILLED:
+    if not isinstance(relation, Relation) or relation.operator not in FULFILLED:
         return None
     letters = _free(relation)
     if not letters or not letters <= set(amounts):
@@ -377,7 +381,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
     def anew(found: Relation) -> tuple[Any, Any]:
         at = {letter: explicit(number) for letter, number in numbers.items()}
-        marked = {">": 1, "=": 0, "<": -1}.get(found.mark, 2)
+        marked = {">": 1, "=": 0, "<": -1}.get(found.operator, 2)
         shown = [rounded_form(value_at(explicit(side), {}), DIGITS) for side in found.sides]
         taken = [rounded_form(value_at(side, at), DIGITS) for side in relation.sides]
         apart = sign(value_at(relation.residual, at))
@@ -389,7 +393,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
         lambda _: Relation(left, mark, right),
         {"condition": relation},
         routes={"floats": anew},
-        outcome="fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled",
+        outcome="fulfilled" if mark in FULFILLED[relation.operator] else "not_fulfilled",
         key=key or f"{condition.key}_value",
         lines=Lines(put_in=None, result=False, arranged=explicit),
         parents=[condition],

@@ -32,6 +32,8 @@ from derive.mechanics import (
     magnitude,
     momentary_angular_velocity,
     period,
+    perturbation_rate,
+    perturbation_rate_squared,
     precession_rate,
     rate_in_body,
     rate_in_space,
@@ -41,8 +43,6 @@ from derive.mechanics import (
     tangent_between,
     torque,
     vector_component,
-    wobble_rate,
-    wobble_squared,
 )
 from derive.mechanics.bodies.body import Body, axis_vector
 from derive.steps.step import Quantity
@@ -358,13 +358,13 @@ class Answers:
 
     def stability(self, axis: str) -> Quantity:
         if axis not in self._squared:
-            self._squared[axis] = wobble_squared(self.linear(axis), f"Omega_{axis}", f"stability_{axis}")
+            self._squared[axis] = perturbation_rate_squared(self.linear(axis), f"Omega_{axis}", f"stability_{axis}")
         return self._squared[axis]
 
     def wobble(self, axis: str) -> Quantity:
         if axis not in self._wobbles:
             grows = self.stability(axis).step.outcome == "unstable"
-            self._wobbles[axis] = wobble_rate(
+            self._wobbles[axis] = perturbation_rate(
                 self.stability(axis), f"kappa_{axis}" if grows else None, key=f"wobble_{axis}"
             )
         return self._wobbles[axis]

@@ -65,7 +65,7 @@ class Claim:
     def residuals(self) -> list[Expr]:
         """Differences that vanish if the step is right: of the sides of an equation, or of a symbol and its value."""
         if isinstance(self.value, Relation):
-            return [self.value.residual] if self.value.mark == "=" else []
+            return [self.value.residual] if self.value.operator == "=" else []
         if isinstance(self.symbol, Symbol) and self.symbol not in self.moving and self.symbol not in self.momenta:
             return []  # a separate symbol
         return [explicit(self.symbol) - self.value] if isinstance(self.symbol, Expr) else []
@@ -154,7 +154,7 @@ def substituted(step: Quantity) -> list[Given]:
         if parent.symbol is not None and parent.symbol == original or parent.step.key == str(original):
             continue
         value = explicit(parent.value)
-        if isinstance(value, Relation) and value.mark == "=" and parent.symbol is None:
+        if isinstance(value, Relation) and value.operator == "=" and parent.symbol is None:
             found.append(Given(value.left, value.right))
         elif isinstance(parent.symbol, Expr) and isinstance(value, Expr):
             found.append(Given(parent.symbol, value))

@@ -117,7 +117,7 @@ def leaves(claim: Claim) -> Verdict | None:
         return None
     if claim.outcome == TURNS_THERE:  # the simulated motion only comes close to the place
         return None
-    conditions = [each for each in inputs.values() if isinstance(each, Relation) and each.mark not in ("=", "!=")]
+    conditions = [each for each in inputs.values() if isinstance(each, Relation) and each.operator not in ("=", "!=")]
     place = inputs["place"].right if claim.outcome == TURNS_BACK else claim.value.right
     count = 0
     for trial in claim.trials(MANY, also=conditions):

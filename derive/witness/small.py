@@ -209,7 +209,7 @@ def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdi
 
 def _opposite(relation: Relation) -> Relation:
     turned = {">": "<", "<": ">", ">=": "<", "<=": ">"}
-    return Relation(relation.left, turned.get(relation.mark, relation.mark), relation.right)
+    return Relation(relation.left, turned.get(relation.operator, relation.operator), relation.right)
 
 
 def _around(claim: Claim) -> Around | None:

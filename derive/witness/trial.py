@@ -127,7 +127,7 @@ class Trial:
                 assert isinstance(each.target, Symbol)
                 numbers.fixed[each.target] = self.value(each.value, numbers)
             residuals = np.real(tape.bound(numbers)(np.empty((0, 1), dtype=complex))[:, 0])
-            if all(HOLDS[each.mark](x) for each, x in zip(constant, residuals, strict=True)):
+            if all(HOLDS[each.operator](x) for each, x in zip(constant, residuals, strict=True)):
                 return numbers
         raise NotComputable("no numbers satisfy the assumptions")
 
@@ -268,7 +268,7 @@ class Trial:
         """Whether the assumptions of the page about places and rates hold in this state."""
         point = np.concatenate([state.q, state.v, [state.t]])[self._sorted].astype(complex)[:, None]
         found = np.real(self._staying(point)[:, 0])
-        return all(HOLDS[each.mark](x) for each, x in zip(self._stays, found, strict=True))
+        return all(HOLDS[each.operator](x) for each, x in zip(self._stays, found, strict=True))
 
     def _allowed(self, q: Reals) -> bool:
         """Whether each coordinate has an allowed value."""

@@ -18,7 +18,7 @@ def solve(
     require(disc_at <= rod_length, "disc_at", "must not lie beyond the end of the rod")
     phi, theta, psi = euler_angles()
     disc, rod = Disc(radius, disc_mass).at(0, 0, disc_at), Rod(rod_length, rod_mass).at(0, 0, rod_length / 2)
-    top = in_letters(Composite(disc, rod, points={"pivot": (0, 0, 0)}), about="pivot")  # M, l, I_x, I_z
+    top = symbolic_body(Composite(disc, rod, points={"pivot": (0, 0, 0)}), about="pivot")  # M, l, I_x, I_z
 
     axes = space.turned(Z, phi).turned(X, theta).turned(Z, psi)
     spinning = System(top.held(axes, at="pivot"), weight(gravity))

@@ -348,7 +348,7 @@ def _same_relations(left: Relation, right: Relation) -> bool | None:
         if None in sides or any(abs(mpmath.im(side)) > 1e-20 for side in sides):
             continue
         seen += 1
-        holds = [_holds(each.mark, mpmath.re(side)) for each, side in zip((left, right), sides, strict=True)]
+        holds = [_holds(each.operator, mpmath.re(side)) for each, side in zip((left, right), sides, strict=True)]
         if holds[0] != holds[1]:
             return False
         for first, other in ((left, right), (right, left)):

@@ -67,7 +67,7 @@ def written(expr: Any, letters: Letters) -> str:
     if isinstance(expr, MatrixBase):
         return f"(Matrix {expr.rows} {expr.cols} {' '.join(written(entry, letters) for entry in expr)})"
     if isinstance(expr, Relation):
-        return f"(Relation {expr.mark} {' '.join(written(side, letters) for side in expr.sides)})"
+        return f"(Relation {expr.operator} {' '.join(written(side, letters) for side in expr.sides)})"
     for word, constant in _CONSTANTS.items():
         if expr == constant:
             return word

@@ -112,7 +112,7 @@ def truth(relation: Relation) -> list[bool]:
     for point in every:
         own = tuple(value for letter, value in zip(letters, point, strict=True) if letter in used)
         if own not in values:
-            values[own] = bool(HOLDS[relation.mark](residual.xreplace(dict(zip(used, own, strict=True)))))
+            values[own] = bool(HOLDS[relation.operator](residual.xreplace(dict(zip(used, own, strict=True)))))
         found.append(values[own])
     return found
 
@@ -150,12 +150,12 @@ SAYS_NOTHING = [says(x, mark, x) for mark in MARKS]
 
 @pytest.mark.parametrize("nothing", SAYS_NOTHING, ids=str)
 def test_what_has_the_same_on_both_sides_is_no_other_relation(nothing: Relation) -> None:
-    hidden = says(sin(x) ** 2 + cos(x) ** 2, nothing.mark, Integer(1))
+    hidden = says(sin(x) ** 2 + cos(x) ** 2, nothing.operator, Integer(1))
     for mark in MARKS:
         assert not equal(nothing, says(x, mark, y))
         assert not equal(hidden, says(x, mark, y))
-        assert bool(equal(hidden, says(y, mark, y))) is (mark == nothing.mark)
-        assert bool(equal(hidden, says(0, mark, sin(y) ** 2 + cos(y) ** 2 - 1))) is (mark == nothing.mark)
+        assert bool(equal(hidden, says(y, mark, y))) is (mark == nothing.operator)
+        assert bool(equal(hidden, says(0, mark, sin(y) ** 2 + cos(y) ** 2 - 1))) is (mark == nothing.operator)
 
 
 def test_a_factor_that_may_be_undefined_is_none_that_may_be_divided_out() -> None:
@@ -196,7 +196,7 @@ def test_its_sides_are_exact_numbers_and_are_carried_out() -> None:
     assert relation.right == Integer(3)
     assert relation.doit() == says(x * y, "<", 3) != relation
     assert relation.doit().residual == x * y - 3
-    assert relation.mark == relation.doit().mark == "<"
+    assert relation.operator == relation.doit().operator == "<"
 
 
 def test_both_sides_have_one_dimension() -> None:

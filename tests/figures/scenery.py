@@ -24,10 +24,10 @@ from derive.mechanics import (
     X,
     Z,
     coordinate,
-    in_letters,
     no_slip,
     point,
     space,
+    symbolic_body,
     weight,
 )
 from derive.render.drawing.camera import Numbers
@@ -65,7 +65,7 @@ def leaning(tilt: Any = theta, **names: Any) -> Drawing:
 def _leaning(whole: Any, tilt: Any, **names: Any) -> Drawing:
     phi, psi = coordinate("phi"), coordinate("psi")
     axes = space.turned(Z, phi).turned(X, tilt).turned(Z, psi)
-    return sketch("top", System(in_letters(whole).held(axes, at="pivot"), weight(g)), **names)
+    return sketch("top", System(symbolic_body(whole).held(axes, at="pivot"), weight(g)), **names)
 
 
 def slab(inertia: Any = None) -> Drawing:

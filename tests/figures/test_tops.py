@@ -24,8 +24,8 @@ from derive.mechanics import (
     Y,
     Z,
     coordinate,
-    in_letters,
     space,
+    symbolic_body,
     weight,
 )
 from derive.steps.record import recorded
@@ -104,7 +104,7 @@ def test_what_is_inclined_the_other_way_has_no_line_of_nodes_in_front() -> None:
 def test_what_turns_clears_the_ground_under_the_pivot(tilt: float, radius: Any) -> None:
     whole = Composite(Disc(radius, M).at(0, 0, a), Rod(2 * a, M).at(0, 0, a), points={"pivot": (0, 0, 0)})
     with recorded():
-        body = in_letters(whole)
+        body = symbolic_body(whole)
         phi, psi = coordinate("phi"), coordinate("psi")
         found = sketch(
             "top", System(body.held(space.turned(Z, phi).turned(X, theta).turned(Z, psi), at="pivot"), weight(g))

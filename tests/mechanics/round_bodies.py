@@ -27,7 +27,7 @@ def cone_derivation(verbs: SimpleNamespace, radius: Any = R, height: Any = h) ->
 def top_derivation(verbs: SimpleNamespace) -> dict[str, Quantity]:
     """A disc of mass m and radius a in the middle of a rod of mass m/2 and length a, about the end of the rod."""
     disc, rod = verbs.Disc(a, m).at(0, 0, a / 2), verbs.Rod(a, m / 2).at(0, 0, a / 2)
-    top = verbs.in_letters(verbs.Composite(disc, rod, points={"pivot": (0, 0, 0)}))
+    top = verbs.symbolic_body(verbs.Composite(disc, rod, points={"pivot": (0, 0, 0)}))
     return with_what_they_rest_on(list(top.values))
 
 

@@ -18,7 +18,7 @@ def motion_of(verbs: Verbs, spin: Any = S) -> SimpleNamespace:
     """A disc in the middle of a rod of half its mass and of the length of its radius."""
     with recorded(Run()):
         disc, rod = verbs.Disc(a, m).at(0, 0, a / 2), verbs.Rod(a, m / 2).at(0, 0, a / 2)
-        top = verbs.in_letters(verbs.Composite(disc, rod, points={"pivot": (0, 0, 0)}))
+        top = verbs.symbolic_body(verbs.Composite(disc, rod, points={"pivot": (0, 0, 0)}))
         phi, theta, psi = (verbs.coordinate(name) for name in ("phi", "theta", "psi"))
         axes = verbs.space.turned(verbs.Z, phi).turned(verbs.X, theta).turned(verbs.Z, psi)
         L = verbs.lagrangian(verbs.System(top.held(axes, at="pivot"), verbs.weight(g)))

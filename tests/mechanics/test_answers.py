@@ -161,7 +161,7 @@ def test_the_turning_points_of_a_kepler_orbit() -> None:
     half = G * M * m / (2 * E)
     for found, sign in ((near, -1), (far, 1)):
         assert equal(found.value, half + sign * half * sqrt(1 - 2 * E * ell**2 / (G**2 * M**2 * m**3)))
-    assert dict(near.step.roles)["condition"].mark == ">="
+    assert dict(near.step.roles)["condition"].operator == ">="
     assert near.step.kind == "length"
 
 
@@ -178,7 +178,7 @@ def test_of_two_opposite_roots_a_positive_letter_has_one_under_a_condition() -> 
     (found,) = roots(equation(m * r.symbol**2 - c * k), r)
     assert (found.step.outcome, found.value) == ("only", sqrt(c * k / m))
     condition = dict(found.step.roles)["condition"]
-    assert condition.mark == ">" and equal(condition.residual, c)
+    assert condition.operator == ">" and equal(condition.residual, c)
 
 
 @pytest.mark.parametrize("mark", ["<", "<="])
@@ -212,14 +212,14 @@ def test_double_single_and_missing_roots_are_called_so(
     (found,) = roots(equation(left(x.symbol)), x)
     assert found.step.outcome == outcome
     assert expected is None or equal(found.value, expected)
-    assert expected is not None or found.value.mark == "<"
+    assert expected is not None or found.value.operator == "<"
 
 
 def test_where_no_root_is_positive_it_is_said() -> None:
     r = coordinate("r", "length", positive=True)
     (absent,) = roots(equation((r.symbol + R) * (r.symbol + h)), r)
     assert absent.step.outcome == "none_positive"
-    assert str(absent.value.mark) == "<"
+    assert str(absent.value.operator) == "<"
 
 
 def test_the_cosine_of_a_conical_pendulum_is_that_of_an_angle_where_it_turns_fast_enough() -> None:
@@ -230,7 +230,7 @@ def test_the_cosine_of_a_conical_pendulum_is_that_of_an_angle_where_it_turns_fas
     assert equal(found.value, g / (l * rate**2))
     assert equal(dict(found.step.roles)["existing"], Relation(l * rate**2, ">", g))
     (level,) = roots(equation(g - l * rate**2 * cos(angle), key="not_divided"), cos(angle), keys=["level"])
-    assert dict(level.step.roles)["existing"].mark == ">="
+    assert dict(level.step.roles)["existing"].operator == ">="
 
 
 @pytest.mark.parametrize(("bound", "mark"), [(2, ">"), (-2, "<")])
@@ -238,7 +238,7 @@ def test_no_angle_has_a_cosine_beyond_one(bound: int, mark: str) -> None:
     theta = coordinate("theta")
     (absent,) = roots(equation(cos(theta.symbol) - bound), cos(theta.symbol))
     assert absent.step.outcome == "none_reached"
-    assert absent.value.mark == mark
+    assert absent.value.operator == mark
 
 
 # --- results put in ---
@@ -322,7 +322,7 @@ def test_conditions_are_solved_also_with_negative_bounds(
     value: Expr, mark: str, letter: Expr, expected: Relation
 ) -> None:
     found = where(given(value), mark, 0, letter)
-    assert found.value.mark == expected.mark
+    assert found.value.operator == expected.operator
     assert found.value.left == expected.left
     assert equal(found.value.right, expected.right)
 

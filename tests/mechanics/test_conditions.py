@@ -76,7 +76,7 @@ def test_of_several_letters_one_that_will_do_is_solved_for() -> None:
 def test_a_sign_that_no_letter_decides_is_told(value: Expr, outcome: str, mark: str) -> None:
     found = where(quantity(value), ">", 0, R)
     assert found.step.outcome == outcome
-    assert found.value.mark == mark
+    assert found.value.operator == mark
 
 
 @pytest.mark.parametrize(
@@ -113,7 +113,7 @@ def test_the_condition_holds_exactly_where_the_quantity_is_positive(n: int, d: i
     value = (n * R - d * a) * (-1 if falls else 1)
     found = condition(value)
     numbers = {R: Rational(place, 4), a: 1}
-    difference = found.residual.subs(numbers) * (1 if found.mark == ">" else -1)
+    difference = found.residual.subs(numbers) * (1 if found.operator == ">" else -1)
     assert (difference > 0) == (value.subs(numbers) > 0)
 
 
@@ -134,7 +134,7 @@ def compared(radius: int, thickness: int, mark: str = ">") -> Quantity | None:
 def test_with_numbers_a_condition_is_fulfilled_or_not(radius: int, thickness: int, outcome: str, mark: str) -> None:
     found = compared(radius, thickness)
     assert found is not None
-    assert (found.step.outcome, found.value.mark) == (outcome, mark)
+    assert (found.step.outcome, found.value.operator) == (outcome, mark)
 
 
 def test_on_the_border_a_condition_that_allows_zero_is_fulfilled() -> None:

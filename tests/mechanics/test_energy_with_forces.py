@@ -109,7 +109,7 @@ def test_what_keeps_a_condition_works_only_where_the_condition_moves() -> None:
     )
     assert energy_function(resting).step.outcome == "energy"
     assert rate_of_energy(resting).step.outcome == "conserved"
-    N = next(c.force for c in lifted.needed(energy.Kept).constraints)
+    N = next(c.force for c in lifted.needed(energy.Constrained).constraints)
     assert equal(explicit(rate_of_energy(lifted).value.right), N * a * t)
 
 

@@ -312,7 +312,7 @@ def test_a_quotient_has_the_sign_of_its_denominator_too() -> None:
     """A carriage on a turning beam, held by a spring: Goldstein, problem 2.21. It has a place where k > m omega^2."""
     found = positive(k * a / (k - m * w**2))
     assert found == Relation(w**2, "<", k / m)
-    assert positive((a - R) / (k - m * w**2), letter=None).mark == ">"
+    assert positive((a - R) / (k - m * w**2), letter=None).operator == ">"
     assert sign_where((a - R) / (k - m * w**2), None) is None
     assert different_from_zero((a - R) / (k - m * w**2)) == Relation(a, "!=", R)
 
@@ -380,7 +380,7 @@ def test_a_distance_at_rest_exists_where_it_is_positive() -> None:
     assert equal(rest.value, k * a / (k - m * w**2))
     assert rest.step.outcome == "where"
     condition = roles(rest)["exists"]
-    assert condition.mark == "<" and equal(condition.residual, w**2 - k / m)
+    assert condition.operator == "<" and equal(condition.residual, w**2 - k / m)
     assert stability(on_turning_rod(), rest).step.outcome == "stable"
 
 

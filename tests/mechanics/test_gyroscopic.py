@@ -125,7 +125,7 @@ def test_a_field_holds_a_charge_on_a_hill_if_it_is_strong_enough() -> None:
     linear = in_field(-k)
     found = linear_stability(linear)
     assert isinstance(found, Quantity) and found.step.outcome == "depends"
-    assert found.value.mark == ">" and equal(found.value.left - found.value.right, q**2 * B**2 - 4 * k * m)
+    assert found.value.operator == ">" and equal(found.value.left - found.value.right, q**2 * B**2 - 4 * k * m)
     assert outcomes(normal_modes(linear), "frequency") == ["conditional", "conditional"]
 
 
@@ -144,7 +144,7 @@ def test_a_table_turns_a_puck_off_between_its_two_frequencies() -> None:
     """(k - m W^2)(c - m W^2) > 0; the squares are real at all rates: (k - c)^2 + 8 (k + c) m W^2 > 0."""
     found = linear_stability(on_table(lambda x, y: (k * x**2 + c * y**2) / 2))
     assert isinstance(found, Quantity) and found.step.outcome == "depends"
-    assert found.value.mark == ">" and equal(found.value.residual, (k - m * W**2) * (c - m * W**2))
+    assert found.value.operator == ">" and equal(found.value.residual, (k - m * W**2) * (c - m * W**2))
 
 
 def test_a_letter_of_which_only_the_sign_is_known_may_stand_in_a_field() -> None:
@@ -157,8 +157,8 @@ def test_the_triangle_points_are_stable_for_unequal_masses() -> None:
     found = linear_stability(triangle_point())
     assert isinstance(found, tuple) and [each.step.outcome for each in found] == ["first", "last"]
     routh, share = (explicit(each.value) for each in found)
-    assert routh.mark == ">" and equal(routh.left - routh.right, 1 - 27 * mu * (1 - mu))
-    assert share.mark == ">" and equal(share.left - share.right, 1 - mu)
+    assert routh.operator == ">" and equal(routh.left - routh.right, 1 - 27 * mu * (1 - mu))
+    assert share.operator == ">" and equal(share.left - share.right, 1 - mu)
 
 
 def test_an_isotropic_oscillator_seen_from_a_table_that_turns_is_always_stable() -> None:
@@ -173,7 +173,7 @@ def test_a_saddle_that_turns_holds_a_particle() -> None:
     """k/m < Omega^2 for the saddle k (x^2 - y^2)/2 on a table that turns, as in Paul's trap seen from the table."""
     found = linear_stability(on_table(lambda x, y: k * (x**2 - y**2) / 2))
     assert isinstance(found, Quantity)
-    residual = explicit(found.value.left - found.value.right) * (1 if found.value.mark == ">" else -1)
+    residual = explicit(found.value.left - found.value.right) * (1 if found.value.operator == ">" else -1)
     assert bool(residual.subs({m: 1, k: 1, W: 2}) > 0)
     assert bool(residual.subs({m: 1, k: 4, W: 1}) < 0)
 

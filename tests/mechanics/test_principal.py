@@ -93,7 +93,7 @@ def test_moments_that_are_equal_as_they_are_say_so() -> None:
 def test_a_flat_body_never_has_equal_moments() -> None:
     case = isotropic_where(moments_of(Disc(R, M)), R)
     assert case.step.outcome == "never"
-    assert explicit(case.value).mark == "<"
+    assert explicit(case.value).operator == "<"
 
 
 def test_three_different_moments_are_refused() -> None:

@@ -22,12 +22,12 @@ from derive.mechanics import (
     Rod,
     agreement,
     centre_of_mass,
-    in_letters,
     inertia_tensor,
     minus,
     moment_of_inertia,
     moved_from_centre,
     moved_to,
+    symbolic_body,
 )
 from derive.mechanics.bodies.body import Body
 from derive.steps.step import Quantity, is_zero
@@ -218,7 +218,7 @@ def test_two_halves_of_a_cylinder_are_the_cylinder() -> None:
         points={"pivot": (0, 0, 0)},
     )
     whole = inertia_tensor(Cylinder(R, h, M), about="base").value
-    mass, distance, across, along = in_letters(halves).values
+    mass, distance, across, along = symbolic_body(halves).values
     assert (along.value - whole[2, 2]).expand() == 0
     assert (across.value - whole[0, 0]).expand() == 0
     assert mass.symbol.name == "M_0"  # M is given

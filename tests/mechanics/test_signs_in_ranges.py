@@ -82,7 +82,7 @@ def test_the_wedge_must_be_pushed_with_the_weight_times_the_tangent() -> None:
     F = symbols("F", real=True)
     along = given((-F * cos(alpha) + (M + m) * g * sin(alpha)) / (M + m * sin(alpha) ** 2))
     assert equal(where(along, "=", 0, F).value.right, (M + m) * g * tan(alpha))
-    assert where(along, "<", 0, F).value.mark == ">"
+    assert where(along, "<", 0, F).value.operator == ">"
 
 
 def test_the_spool_stays_at_rest_at_the_angle_of_its_radii_if_it_is_pulled() -> None:

@@ -16,7 +16,6 @@ from derive.mechanics import (
     Cuboid,
     Disc,
     Rod,
-    in_letters,
     let,
     moment_of_inertia,
     put_in,
@@ -24,6 +23,7 @@ from derive.mechanics import (
     roots,
     stability,
     stable_where,
+    symbolic_body,
 )
 from derive.mechanics.answers import quadratics
 from derive.mechanics.lagrange import kept_momentum
@@ -59,9 +59,9 @@ def test_the_disc_on_the_rod_has_the_moments_of_the_book(top: SimpleNamespace) -
 
 def test_a_body_by_its_letters_needs_principal_axes_through_the_point() -> None:
     with recorded(Run()), pytest.raises(Rejected, match="are not principal"):
-        in_letters(Cuboid((a, a, 2 * a), m), about="corner")
+        symbolic_body(Cuboid((a, a, 2 * a), m), about="corner")
     with recorded(Run()):
-        rod = in_letters(Rod(a, m), about="end")
+        rod = symbolic_body(Rod(a, m), about="end")
     assert [q.value for q in rod.values] == [a / 2, m * a**2 / 3] and rod.mass == m and rod.moments[2] == 0
 
 
@@ -100,7 +100,7 @@ def test_at_45_degrees_there_are_two_rates_and_their_numbers_are_these(top: Simp
 @pytest.mark.parametrize("numbers", [None, DISC_ON_ROD])
 def test_the_condition_for_two_rates_is_solved_for_the_spin(top: SimpleNamespace, numbers: Any) -> None:
     condition = at(top, pi / 4, numbers).condition
-    assert condition.value.left == S and condition.value.mark == ">="
+    assert condition.value.left == S and condition.value.operator == ">="
     assert (condition.value.right**2 - 4 * sqrt(2) * g / a).expand() == 0
 
 
@@ -109,7 +109,7 @@ def test_a_spin_below_the_threshold_has_no_steady_precession(top: SimpleNamespac
     assert found.together.step.outcome == "none"
     assert found.slow is found.fast
     assert found.slow.step.stands_for == ("slow_precession", "fast_precession")
-    assert isinstance(found.slow.value, Relation) and found.slow.value.mark == "<"
+    assert isinstance(found.slow.value, Relation) and found.slow.value.operator == "<"
 
 
 def test_at_the_threshold_the_two_rates_coincide(top: SimpleNamespace) -> None:
@@ -203,7 +203,7 @@ def test_the_tilt_sees_this_potential_energy(upright: SimpleNamespace) -> None:
 
 def test_the_top_sleeps_at_the_border_too(upright: SimpleNamespace) -> None:
     M, l, I_x, I_z = (Symbol(name, positive=True) for name in ("M", "l", "I_x", "I_z"))
-    assert upright.condition.step.outcome == "with_border" and upright.condition.value.mark == ">="
+    assert upright.condition.step.outcome == "with_border" and upright.condition.value.operator == ">="
     assert equal(upright.condition.value.right, 2 * sqrt(I_x * M * g * l) / I_z)
     assert upright.here.value.right.subs(DISC_ON_ROD) == 28
 
@@ -314,6 +314,6 @@ def test_two_rates_that_differ_need_more_than_that_they_are_real(top: SimpleName
     slow = at(top, pi / 4).slow
     with recorded(Run()):
         real, different = (real_where(slow, S, f"condition_{apart}", distinct=apart) for apart in (False, True))
-    assert (real.value.mark, different.value.mark) == (">=", ">")
+    assert (real.value.operator, different.value.operator) == (">=", ">")
     assert real.value.sides == different.value.sides
     assert dict(different.step.words)["seen"] == "radicand"

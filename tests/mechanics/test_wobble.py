@@ -23,10 +23,10 @@ from derive.mechanics import (
     kinetic_energy,
     linearised_rotation,
     period,
+    perturbation_rate,
+    perturbation_rate_squared,
     rate_in_space,
     torque,
-    wobble_rate,
-    wobble_squared,
 )
 from derive.steps.step import Quantity
 
@@ -42,7 +42,7 @@ def equations(moments: tuple[Expr, Expr, Expr], torque: Any = NOTHING) -> tuple[
 
 
 def squared(moments: tuple[Expr, Expr, Expr], axis: str) -> Quantity:
-    return wobble_squared(linearised_rotation(equations(moments), axis, omega))
+    return perturbation_rate_squared(linearised_rotation(equations(moments), axis, omega))
 
 
 def test_euler_equations_to_first_order() -> None:
@@ -71,7 +71,7 @@ def test_about_the_intermediate_axis_it_grows(axis: str, square: Expr, outcome: 
     found = squared((A, 2 * A, 3 * A / 2), axis)
     assert equal(found.value, square * omega**2)
     assert found.step.outcome == outcome
-    root = wobble_rate(found)
+    root = perturbation_rate(found)
     assert root.symbol.name == letter
     assert equal(root.value, rate * omega)
 
@@ -80,20 +80,20 @@ def test_a_symmetric_body_wobbles_about_its_axis() -> None:
     found = squared((A, A, C), "z")
     assert found.step.outcome == "symmetric"
     assert equal(found.value, ((C - A) / A * omega) ** 2)
-    assert equal(explicit(wobble_rate(squared((A, A, 2 * A), "z")).value), omega)
+    assert equal(explicit(perturbation_rate(squared((A, A, 2 * A), "z")).value), omega)
 
 
 def test_across_the_axis_of_a_symmetric_body_it_grows_as_the_time() -> None:
     found = squared((A, A, C), "x")
     assert (found.value, found.step.outcome) == (0, "marginal")
     with pytest.raises(Rejected, match="grows linearly in time"):
-        wobble_rate(found)
+        perturbation_rate(found)
 
 
 def test_of_a_block_too() -> None:
     velocity = changing_angular_velocity("centre")
     L = angular_momentum(inertia_tensor(Cuboid((a, 2 * a, 3 * a), M)), velocity)
-    found = wobble_squared(linearised_rotation(euler_equations(rate_in_space(L, velocity)), "y", omega))
+    found = perturbation_rate_squared(linearised_rotation(euler_equations(rate_in_space(L, velocity)), "y", omega))
     assert equal(found.value, -Rational(3, 13) * omega**2)
 
 
@@ -114,7 +114,7 @@ def test_the_body_cone(moments: tuple[Expr, Expr, Expr], rate: Expr, outcome: st
 
 def test_chandlers_period_for_a_rigid_earth() -> None:
     """(C - A)/A = 1/305: some 305 days, which are turns of the Earth."""
-    found = period(wobble_rate(squared((A, A, A * Rational(306, 305)), "z")))
+    found = period(perturbation_rate(squared((A, A, A * Rational(306, 305)), "z")))
     assert equal(found.value, 305 * 2 * pi / omega)
 
 

@@ -125,7 +125,7 @@ def _of_time(expr: Any) -> Symbol:
 _METHODS: tuple[tuple[Any, Any], ...] = (
     (MatrixSymbol, lambda e: letters_of(e.name, e.shape)),
     (Identity, lambda e: ImmutableDenseMatrix(eye(3))),
-    (ex.Relation, lambda e: (meaning(e.left), e.mark, meaning(e.right))),
+    (ex.Relation, lambda e: (meaning(e.left), e.operator, meaning(e.right))),
     (ex.TimeRate, lambda e: differentiated(meaning(e.args[0]), "t")),
     (ex.CarriedRate, lambda e: differentiated(meaning(e.args[0]), "t")),
     (ex.BodyRate, lambda e: differentiated(meaning(e.args[0]), "t in the body")),

@@ -70,7 +70,9 @@ def equated(document: Document) -> set[object]:
                 for letter in letters_of(node.expr)
             }
             said = [node.expr for node in nodes if isinstance(node, Math) and isinstance(node.expr, Relation)]
-            found |= {letter for each in said if each.mark == "=" for letter in letters_in([each.left])}  # I_1 = I_xx
+            found |= {
+                letter for each in said if each.operator == "=" for letter in letters_in([each.left])
+            }  # I_1 = I_xx
     return found
 
 

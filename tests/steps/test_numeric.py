@@ -159,7 +159,7 @@ def test_an_inequality_is_told_by_numbers_however_near(width: Expr) -> None:
     )
     found = comparison_of(condition, {a: Amount(Integer(20), "cm", CENTI), c: Amount(width, "cm", CENTI)})
     assert found is not None
-    assert found.value.mark == (">" if width > 40 else "<" if width < 40 else "=")
+    assert found.value.operator == (">" if width > 40 else "<" if width < 40 else "=")
     assert found.step.outcome == ("fulfilled" if width > 40 else "not_fulfilled")
 
 

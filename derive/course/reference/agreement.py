@@ -131,7 +131,7 @@ def _of_relation(
         return _bound_to_figures(stated, ours, entry)
     if entry.times is None:
         return equal(stated, ours)
-    if stated.mark != ours.mark or ours.mark not in {"=", "!="}:
+    if stated.operator != ours.operator or ours.operator not in {"=", "!="}:
         return Verdict(Grade.REFUTED, NOT_MULTIPLIED)
     factor = explicit(entry.times.sides[0].entries[0][0].xreplace(meanings).xreplace(numbers))
     if vanishes(factor) or is_zero_everywhere(factor) is not False:
@@ -152,7 +152,7 @@ def _in_its_unit(expr: Expr, dimension: Dimension, entry: Entry) -> tuple[Expr, 
 
 def _bound_to_figures(stated: Relation, ours: Relation, entry: Entry) -> Verdict:
     """Return whether the decimal of `S > 28` agrees with the derived one, if all else is the same."""
-    if stated.left != ours.left or stated.mark != ours.mark or stated.right.free_symbols:
+    if stated.left != ours.left or stated.operator != ours.operator or stated.right.free_symbols:
         return Verdict(Grade.REFUTED, f"`{stated}` against `{ours}`")
     factor = entry.unit.factor if entry.unit else Integer(1)
     return _to_figures(stated.right / factor, ours.right / factor, entry.figures[0])

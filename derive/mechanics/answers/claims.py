@@ -120,7 +120,7 @@ def where_the_coefficients_last(predicate: Predicate) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         known = [facts.inputs[role] for role in ("excluded", "condition") if role in facts.inputs]
-        told = [each.left for each in known if each.mark in ("!=", ">")]
+        told = [each.left for each in known if each.operator in ("!=", ">")]
         factors = {f for each in told for f, _ in factor_list(each)[1]}
         common = factor_list(gcd_list(_polynomial(facts).coeffs()))[1]
         open_ = [f for f, _ in common if sign_known(f) is None and not f.is_nonzero]
@@ -130,7 +130,7 @@ def where_the_coefficients_last(predicate: Predicate) -> Predicate:
 
 
 def absent(facts: Judged) -> bool:
-    return isinstance(facts.result, Relation) and sign_known(facts.result.left) in _CAN_BE[facts.result.mark]
+    return isinstance(facts.result, Relation) and sign_known(facts.result.left) in _CAN_BE[facts.result.operator]
 
 
 def beyond_one(facts: Judged) -> bool:
@@ -138,19 +138,21 @@ def beyond_one(facts: Judged) -> bool:
     value = with_numbers(facts.result.left)
     letters = {letter: Rational(7, 5) for letter in value.free_symbols}
     there = value.xreplace(letters).evalf(20)
-    return bool(there > 1 if facts.result.mark == ">" else there < -1)
+    return bool(there > 1 if facts.result.operator == ">" else there < -1)
 
 
 def put_in(only_values: bool) -> Predicate:
     def is_so(facts: Judged) -> bool:
-        identity = isinstance(facts.result, Relation) and facts.result.mark == "=" and is_zero(facts.result.residual)
+        identity = (
+            isinstance(facts.result, Relation) and facts.result.operator == "=" and is_zero(facts.result.residual)
+        )
         return not identity and only_values == (not any(role.startswith("other_") for role in facts.inputs))
 
     return is_so
 
 
 def identity(facts: Judged) -> bool:
-    return isinstance(facts.result, Relation) and facts.result.mark == "=" and is_zero(facts.result.residual)
+    return isinstance(facts.result, Relation) and facts.result.operator == "=" and is_zero(facts.result.residual)
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
@@ -160,7 +162,7 @@ def _is_divided_as_told(facts: Judged) -> bool:
         return True
     left, right = explicit(facts.result).sides
     quotient = tidied(facts.inputs["difference"] / excluded.residual)
-    return excluded.mark == "!=" and quotient.has(*left.free_symbols) and is_zero(quotient.subs(left, right))
+    return excluded.operator == "!=" and quotient.has(*left.free_symbols) and is_zero(quotient.subs(left, right))
 
 
 def compared(squared: bool) -> Predicate:
@@ -183,7 +185,7 @@ def always(wanted: bool) -> Predicate:
         letters = sorted(difference.free_symbols, key=str)
         there = difference.subs({letter: Integer(3 + 2 * i) / 4 for i, letter in enumerate(letters)}).evalf(20)
         sign = 0 if is_zero(facts.inputs["difference"]) else (1 if there > 0 else -1)
-        return held == wanted and bool(sign == facts.inputs["sign"] or sign in _CAN_BE[facts.result.mark])
+        return held == wanted and bool(sign == facts.inputs["sign"] or sign in _CAN_BE[facts.result.operator])
 
     return is_so
 
@@ -373,7 +375,7 @@ def names_put_in(facts: Judged, value: Any) -> bool:
     without these letters."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
-    if value.mark != "=" or value.left.could_extract_minus_sign():
+    if value.operator != "=" or value.left.could_extract_minus_sign():
         return False
     plain = all(isinstance(letter, Symbol) for letter in told)
     if others or not plain or any(explicit(at).has(*told) for at in told.values()):
@@ -420,7 +422,7 @@ def goes_to(facts: Judged, place: Any) -> bool:
 
 def right_of_a_bound(facts: Judged, bound: Any) -> bool:
     of = facts.quantities["quantity"].value
-    return isinstance(of, Relation) and of.mark != "=" and is_zero(explicit(of.right) - bound)
+    return isinstance(of, Relation) and of.operator != "=" and is_zero(explicit(of.right) - bound)
 
 
 def for_a_vector(facts: Judged, outcome: str) -> bool:
@@ -435,7 +437,7 @@ def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
 
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
     """Whether the condition for no root is strict: at the bound there still is a root."""
-    return outcome != "none" or (facts.result.mark == "<" and is_zero(facts.result.right))
+    return outcome != "none" or (facts.result.operator == "<" and is_zero(facts.result.right))
 
 
 def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:

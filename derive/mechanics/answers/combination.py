@@ -77,7 +77,7 @@ def _number(quantity: Quantity) -> Quantity | Expr:
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
         return quantity if isinstance(quantity.symbol, Symbol) else explicit(value)
-    if isinstance(value, Relation) and value.mark == "=" and isinstance(value.left, Symbol):
+    if isinstance(value, Relation) and value.operator == "=" and isinstance(value.left, Symbol):
         right = explicit(value.right)
         if not left_over(right, unknown_of("combination", value.left)):
             return right

@@ -152,7 +152,9 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
         lambda v, b: Relation(v, fact, b),
         {"quantity": of, "bound": bound},
         lines=Lines(put_in=Level.STANDARD if sign else None, result=False, arranged=explicit),
-        routes={"points": lambda found: _same_truth(Relation(Integer(1), "=", 1), found.residual, found.mark, None)},
+        routes={
+            "points": lambda found: _same_truth(Relation(Integer(1), "=", 1), found.residual, found.operator, None)
+        },
         outcome="always" if holds else "never" if sign else "equal",
         phrase_data=PhraseData(
             words={"comparison": WORDS[mark]},
@@ -183,7 +185,7 @@ def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
 
 def _excluded(difference: Expr, result: Relation) -> Relation | None:
     """Return the condition that the factor by which both sides of an equation are divided does not vanish."""
-    if result.mark not in ("=", "!="):
+    if result.operator not in ("=", "!="):
         return None
     factor = tidied(difference / result.residual)
     return None if sign_known(factor) else may_vanish(factor.as_numer_denom()[0])
@@ -195,7 +197,7 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
     divided = divided_out(difference, alone, solved)
     if excluded is not None:
         return [Form(result, "solved", nonzero=(*divided, *Mul.make_args(excluded.left)))]
-    squares = Relation(alone**2, result.mark, tidied(solved**2))
+    squares = Relation(alone**2, result.operator, tidied(solved**2))
     if divided or not (alone.is_positive and solved.is_positive):
         return [Form(result, "solved", nonzero=divided)]
     return [Form(squares, "solved", nonzero=divided_out(difference, *squares.sides)), Form(result, "solved")]
@@ -213,7 +215,7 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     sign = sign_known(above)
     if sign is None:
         return at_place, Integer(0)
-    says = [Integer(_truth(found.mark, side)) for side in (1, 0, -1)]
+    says = [Integer(_truth(found.operator, side)) for side in (1, 0, -1)]
     is_so = [Integer(_truth(mark, side * sign)) for side in (1, 0, -1)]  # it changes its sign at the bound
     there, expected = [at_place, above, *says], [Integer(0), sign * Abs(above), *is_so]
     return ImmutableDenseMatrix(there), ImmutableDenseMatrix(expected)
@@ -239,7 +241,7 @@ def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | No
         except (Undefined, NoNumber, TypeError):
             continue
         seen += 1
-        solved = there in SIGNS_OF[found.mark] if unknown is not None else True
+        solved = there in SIGNS_OF[found.operator] if unknown is not None else True
         if (here in SIGNS_OF[mark]) != solved:
             where_apart = tuple((str(name), str(value)) for name, value in point.items())
             return Verdict(Grade.REFUTED, "one of the relations holds and the other does not", where_apart)

@@ -311,7 +311,9 @@ def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:
 
 def _holds(condition: Relation, point: Any) -> bool:
     size = value_at(with_numbers(condition.residual), point)
-    return bool(size != 0 if condition.mark == "!=" else size < 0 if condition.mark in {"<", "<="} else size > 0)
+    return bool(
+        size != 0 if condition.operator == "!=" else size < 0 if condition.operator in {"<", "<="} else size > 0
+    )
 
 
 def _not_exceeded(

@@ -142,7 +142,7 @@ def limiting_case(
         phrase_data=PhraseData(
             named={
                 **({"place": aim} if aim not in (oo, -oo) else {}),
-                **({"bound": value} if solved is not None and of.value.mark != "=" else {}),
+                **({"bound": value} if solved is not None and of.value.operator != "=" else {}),
             },
             outcome_data={"to": place, "value": value, "x": x},
         ),
@@ -169,12 +169,12 @@ def _whole(of: Quantity, name: Any, approach: Approach) -> Any:
 
 def _solved_for(of: Quantity) -> Symbol | None:
     """Return the letter for which an equation is solved, x of x = f, if f does not contain it; x_min of x >= f."""
-    if not isinstance(of.value, Relation) or of.value.mark not in BORDERS:
+    if not isinstance(of.value, Relation) or of.value.operator not in BORDERS:
         return None
     left, right = of.value.sides
     if not isinstance(left, Symbol) or left in explicit(right).free_symbols:
         return None
-    border = BORDERS[of.value.mark]
+    border = BORDERS[of.value.operator]
     return Symbol(f"{left.name}_{border}", real=True) if border else left
 
 
@@ -210,7 +210,7 @@ def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
 def _check_assumed(x: Symbol, aim: Expr) -> None:
     """Check that near the limit some values of the other letters fulfil all assumptions of the page."""
     signs = {">": 1, "<": -1}
-    kept = [with_numbers(each.residual * signs[each.mark[0]]) for each in assumed() if each.mark[0] in signs]
+    kept = [with_numbers(each.residual * signs[each.operator[0]]) for each in assumed() if each.operator[0] in signs]
     conditions = [each for each in kept if x in each.free_symbols]
     letters = set().union(letters_of(aim) if aim not in (oo, -oo) else (), *map(letters_of, conditions)) - {x}
     for point in islice(points(letters, 0), MANY) if conditions else ():

@@ -165,7 +165,7 @@ def _step(
     elsewhere = Mul(*factors_elsewhere(residual_of("roots", equation, or_value=True), unknown))
     condition = _condition(root, unknown)
     told = {
-        role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
+        role: (each, Relation(tidied(each.left), each.operator, tidied(each.right)))
         for role, each in (
             ("condition", condition),
             ("excluded", _excluded(_common_factor(polynomial, every) * root.coefficients[0], condition)),
@@ -220,7 +220,7 @@ def _name(unknown: Expr, letter: str, number: int) -> Expr:
 def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
     """Return the factors that must not vanish, except those that the condition excludes already: cos(theta_0) > 0."""
     excluded = may_vanish(divisor)
-    if excluded is None or condition is None or condition.mark != ">" or not is_zero(condition.right):
+    if excluded is None or condition is None or condition.operator != ">" or not is_zero(condition.right):
         return excluded
     left = [f for f in Mul.make_args(excluded.left) if f not in Mul.make_args(condition.left)]
     return Relation(Mul(*left), "!=", ZERO) if left else None
@@ -306,7 +306,7 @@ def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | Non
     exists, _ = within_one(root.value)
     if exists is None or residual_of("roots", equation, or_value=True).has(cos if isinstance(unknown, sin) else sin):
         return exists
-    return Relation(exists.left, f"{exists.mark}=", exists.right)
+    return Relation(exists.left, f"{exists.operator}=", exists.right)
 
 
 def _by_resultant(root: RootOf) -> Expr:

@@ -178,7 +178,7 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
         return [*_of_rates(target, value, coordinates_of(of, quantity)), (target, value), (kept.momentum, kept.value)]
     if isinstance(quantity.value, Relation):
         target, value = quantity.value.sides
-        if quantity.value.mark != "=" or is_zero(quantity.value.residual):
+        if quantity.value.operator != "=" or is_zero(quantity.value.residual):
             raise Rejected(Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is not an equation for a letter"))
     else:
         target, value = _letter_replaced(quantity, of), quantity.value
@@ -283,7 +283,7 @@ def _replaced(target: Expr, at: Expr, part: Expr) -> Expr:
 
 def _mapped(value: Any, target: Expr, at: Expr) -> Any:
     if isinstance(value, Relation):
-        return Relation(with_unknown(value.left, target, at), value.mark, with_unknown(value.right, target, at))
+        return Relation(with_unknown(value.left, target, at), value.operator, with_unknown(value.right, target, at))
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(lambda entry: with_unknown(entry, target, at)))
     return with_unknown(value, target, at)
@@ -301,7 +301,7 @@ def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
     """Return the original with each letter replaced by its final value."""
     final = _final(told)
     if isinstance(value, Relation):
-        return Relation(bound(value.left, final), value.mark, bound(value.right, final))
+        return Relation(bound(value.left, final), value.operator, bound(value.right, final))
     return bound(value, final)
 
 
@@ -314,17 +314,17 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
         return _energy_by_terms(value) or presented(value)
     fast = {rate(q, 2) for q in moving}
     if not is_zero(value.right) and all(side.free_symbols & fast for side in value.sides):
-        return Relation(by_accelerations(value.residual, moving), value.mark, Integer(0))
+        return Relation(by_accelerations(value.residual, moving), value.operator, Integer(0))
     if not is_zero(value.right):
-        return Relation(presented(value.left), value.mark, presented(value.right))
+        return Relation(presented(value.left), value.operator, presented(value.right))
     if value.free_symbols & fast:
-        return Relation(by_accelerations(value.left, moving), value.mark, Integer(0))
+        return Relation(by_accelerations(value.left, moving), value.operator, Integer(0))
     left = presented(value.left)
     kept = [f for f in Mul.make_args(left) if strict_sign_within(f) != 1]
     core = Mul(*kept) if kept else left
-    if value.mark == "=" and all(term.could_extract_minus_sign() for term in Add.make_args(core)):
+    if value.operator == "=" and all(term.could_extract_minus_sign() for term in Add.make_args(core)):
         core = -core  # x = 0, not -x = 0
-    return Relation(presented(core), value.mark, Integer(0))
+    return Relation(presented(core), value.operator, Integer(0))
 
 
 def _energy_by_terms(value: Expr) -> Expr | None:
@@ -342,7 +342,7 @@ def _energy_by_terms(value: Expr) -> Expr | None:
 
 
 def _is_identity(result: Any) -> bool:
-    return isinstance(result, Relation) and result.mark == "=" and is_zero(result.residual)
+    return isinstance(result, Relation) and result.operator == "=" and is_zero(result.residual)
 
 
 def _check_reached(of: Quantity, rests: Sequence[Quantity], told: Sequence[Replacement]) -> None:
@@ -366,7 +366,7 @@ def _is_place_of(target: Expr, place: Expr, speed: Quantity, moving: Mapping[Sym
 
 def _check_holds(of: Quantity, result: Any) -> None:
     """Reject an equation between two different numbers, which never holds."""
-    if isinstance(result, Relation) and result.mark == "=" and not is_zero(result.residual):
+    if isinstance(result, Relation) and result.operator == "=" and not is_zero(result.residual):
         if explicit(result.residual).is_nonzero:
             message = f"`{of.key}` cannot hold with these values: it would be {result}"
             raise Rejected(Complaint("cannot-hold", message))

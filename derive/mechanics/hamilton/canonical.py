@@ -23,7 +23,7 @@ from derive.mechanics.lagrange.energy_function import outcome_of_energy, told_of
 from derive.mechanics.lagrange.facts import energies_of
 from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.lagrange.momenta import kind_of_momentum, letter_of_momentum, momenta
-from derive.mechanics.model.constraint import Kept
+from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter
@@ -134,7 +134,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 
 def _with_mark(found: Relation, values: Sequence[Expr]) -> ImmutableDenseMatrix:
     """The values that a route compares for an equation, and a check that it is an equation."""
-    return ImmutableDenseMatrix([*values, int(found.mark == "=")])
+    return ImmutableDenseMatrix([*values, int(found.operator == "=")])
 
 
 HAMILTON_EQUATION = Rule(
@@ -163,7 +163,7 @@ def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
         None,
         lambda H: Relation(q.rate, "=", Partial(H, p)),
         {"hamiltonian": of},
-        lines=Lines(put_in=None, arranged=lambda found: Relation(found.left, found.mark, solved.value)),
+        lines=Lines(put_in=None, arranged=lambda found: Relation(found.left, found.operator, solved.value)),
         routes={"momenta": by_momenta},
         outcome="rate",
         phrase_data=PhraseData(outcome_data={"coordinate": q.symbol, "momentum": p}),
@@ -184,7 +184,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
         return _with_mark(found, [found.left, lost]), ImmutableDenseMatrix([rate(p), work, 1])
 
     cyclic = not explicit(of.value).has(q.symbol)
-    acted, kept = space.lagrangian.fact(ActedOn), space.lagrangian.fact(Kept)
+    acted, kept = space.lagrangian.fact(ActedOn), space.lagrangian.fact(Constrained)
     applied = applied_force(space.lagrangian, q) if acted is not None else None
     pushes = []
     if applied is not None and not is_zero(applied.value):
@@ -217,7 +217,7 @@ def _by_terms(found: Relation, letters: Sequence[Symbol]) -> Relation:
     right = explicit(found.right)
     terms = Add.make_args(right)
     moving, rest = ([term for term in terms if term.has(*letters) == held] for held in (True, False))
-    return Relation(found.left, found.mark, Add(by_terms(Add(*moving)), tidied(Add(*rest))))
+    return Relation(found.left, found.operator, Add(by_terms(Add(*moving)), tidied(Add(*rest))))
 
 
 IN_MOMENTA = Rule(

@@ -20,7 +20,7 @@ def does_not_occur(facts: Judged, fact: Constant) -> bool:
 
 
 def is_equation_of(facts: Judged, letter: Symbol) -> bool:
-    return facts.result.mark == "=" and bool(facts.result.left == rate(letter))
+    return facts.result.operator == "=" and bool(facts.result.left == rate(letter))
 
 
 def pushed(facts: Judged, beside: bool) -> bool:

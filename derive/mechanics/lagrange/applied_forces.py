@@ -14,7 +14,7 @@ from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.lagrange import claims
-from derive.mechanics.model.constraint import Constraint, Kept
+from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.mechanics.model.forces import Damper, GivenForce
 from derive.mechanics.theorems import MULTIPLIERS, MULTIPLIERS_OF_RATES
@@ -65,7 +65,7 @@ class WithForces(Protocol):
 
 def acting_on(system: WithForces) -> tuple[Fact, ...]:
     """The facts that the Lagrangian of a system must pass to its equations of motion."""
-    found: list[Fact] = [Kept(system.constraints)] if system.constraints else []
+    found: list[Fact] = [Constrained(system.constraints)] if system.constraints else []
     if system.given_forces or system.dampers:
         dissipated = dissipation_function(system) if system.dampers else None
         found.append(ActedOn(system, system.given_forces, system.dampers, dissipated))
@@ -74,7 +74,7 @@ def acting_on(system: WithForces) -> tuple[Fact, ...]:
 
 def acting(*energies: Quantity) -> list[Fact]:
     """The facts of the energies that the Lagrangian keeps, apart from the matter."""
-    return [fact for energy in energies for fact in energy.facts if isinstance(fact, ActedOn | Kept)]
+    return [fact for energy in energies for fact in energy.facts if isinstance(fact, ActedOn | Constrained)]
 
 
 DISSIPATION_FUNCTION = Rule(
@@ -162,7 +162,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
     loads = [f.load(moving) for f in acted.forces]
     works = [term for load in loads for term in _works(load, q)]
 
-    kept = of.fact(Kept)
+    kept = of.fact(Constrained)
     here = {s for f in acted.forces for c in f.components for s in c.free_symbols}
     held = {c.force: c.kind_of_force or "" for c in (kept.constraints if kept else ()) if c.force in here}
 
@@ -242,7 +242,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.5 and 2.4.
     """
     matter, moving = of.needed(Matter), list(of.coordinates)
-    acted, kept = of.fact(ActedOn), of.fact(Kept)
+    acted, kept = of.fact(ActedOn), of.fact(Constrained)
     constraints = [c for c in (kept.constraints if kept else ()) if c.along(q.symbol) != 0]
     applied = applied_force(of, q) if acted is not None else None
     acts = applied is not None and applied.value != 0

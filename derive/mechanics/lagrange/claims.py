@@ -24,7 +24,7 @@ from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.taylor import slope
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.mechanics.lagrange.facts import Energies, ForceOf, KeptMomentum, WithMomenta, energies_of
-from derive.mechanics.model.constraint import Kept
+from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.claims import lasts, letters_in, parallel, value_of_role
 from derive.steps.record import assumed, assumed_in_words, coordinates_in
@@ -65,7 +65,7 @@ def _is_conserved(facts: Judged) -> bool:
     A constraint force does no work for velocities that the constraint allows.
     """
     L = facts.quantities["lagrangian"]
-    matter, kept = L.needed(Matter), L.fact(Kept)
+    matter, kept = L.needed(Matter), L.fact(Constrained)
     along = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in matter.coordinates]
     along += [c.force * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())]
     return bool(equal(by_functions_of_time(_in_rates(facts), matter.coordinates), Add(*along)))
@@ -81,7 +81,7 @@ def _is_energy(facts: Judged) -> bool:
 def _is_worked_on(facts: Judged) -> bool:
     """Its rate along the motion is not only -dL/dt."""
     L = facts.quantities["lagrangian"]
-    matter, kept = L.needed(Matter), L.fact(Kept)
+    matter, kept = L.needed(Matter), L.fact(Constrained)
     power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
     power -= Add(*(c.force * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())))
     return not is_zero(power)
@@ -119,7 +119,7 @@ def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> 
     """An equation; whether its right side contains -dL/dt, and other power, and whether it is never positive."""
 
     def is_so(facts: Judged) -> bool:
-        if facts.result.mark != "=" or is_zero(facts.result.right) != (in_time is None):
+        if facts.result.operator != "=" or is_zero(facts.result.right) != (in_time is None):
             return False
         found, by_time = explicit(facts.result.right), -diff(explicit(facts.inputs["lagrangian"]), TIME)
         if in_time is None:
@@ -232,7 +232,7 @@ def of_its_coordinate(facts: Judged, outcome: str) -> bool:
     moving = rate(facts.inputs["coordinate"]) in letters_in(facts.result)
     return (
         moving
-        and facts.result.mark == "="
+        and facts.result.operator == "="
         and is_zero(
             (facts.result.left - facts.result.right)
             * diff(explicit(facts.inputs["momentum"]), rate(facts.inputs["coordinate"]))
@@ -273,11 +273,11 @@ def both(one: Statement, other: Statement) -> Statement:
 
 
 def change_under_shift_none(facts: Judged) -> bool:
-    return bool(facts.result.mark == "=" and is_zero(facts.result.right))
+    return bool(facts.result.operator == "=" and is_zero(facts.result.right))
 
 
 def change_under_shift_gain(facts: Judged) -> bool:
-    return bool(facts.result.mark == "=" and not is_zero(facts.result.right))
+    return bool(facts.result.operator == "=" and not is_zero(facts.result.right))
 
 
 def noether_symmetry(facts: Judged) -> bool:

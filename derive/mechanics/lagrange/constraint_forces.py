@@ -22,7 +22,7 @@ from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by
 from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
-from derive.mechanics.model.constraint import Constraint, Kept
+from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Matter, Reaction
 from derive.mechanics.model.gradients import gradient_length
 from derive.mechanics.model.rigid import by_squares
@@ -68,7 +68,7 @@ class _Problem:
 
     @property
     def constraints(self) -> tuple[Constraint, ...]:
-        kept = self.lagrangian.fact(Kept)
+        kept = self.lagrangian.fact(Constrained)
         return kept.constraints if kept else ()
 
     @property
@@ -187,7 +187,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
     Check: the coordinates as functions of t, differentiated by SymPy.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
-    constraints = of.needed(Kept).constraints
+    constraints = of.needed(Constrained).constraints
     if number not in range(len(constraints)):
         message = f"`constraint_rate` needs the index of a constraint, 0 to {len(constraints) - 1}"
         raise Rejected(Complaint("wrong-argument", message))

@@ -22,7 +22,7 @@ from derive.mechanics.lagrange.energy_forms import beside_potential, kinetic_fir
 from derive.mechanics.lagrange.facts import Energies, FromLagrangian, Varied, energies_of
 from derive.mechanics.lagrange.given_lagrangian import energy_of, rate_of_energy
 from derive.mechanics.lagrange.lagrangian import coordinates_of
-from derive.mechanics.model.constraint import Kept
+from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter
@@ -61,7 +61,7 @@ def _power_beside(of: Quantity) -> Expr:
 
 def _powers_of_conditions(of: Quantity) -> list[Expr]:
     """-lambda df/dt for each moving constraint: the force of a fixed constraint does no work."""
-    kept, moving = of.fact(Kept), list(of.coordinates)
+    kept, moving = of.fact(Constrained), list(of.coordinates)
     still = {rate(q): Integer(0) for q in moving}
     moved = [(c.force, c.velocity(moving).xreplace(still)) for c in (kept.constraints if kept else ())]
     return [-force * v for force, v in moved if v != 0]
@@ -167,7 +167,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4, 2.5 and 2.7.
     """
     L = of.needed(FromLagrangian).lagrangian
-    matter, kept = L.needed(Matter), L.fact(Kept)
+    matter, kept = L.needed(Matter), L.fact(Constrained)
     every = coordinates_of(L)
     moving = [q.symbol for q in every]
     forces = [(q, applied_force(L, q)) for q in every] if L.fact(ActedOn) is not None else []
@@ -186,7 +186,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
         work = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in moving]
         work += [c.force * c.velocity(moving) for c in (kept.constraints if kept else ())]  # these vanish
         by_time = by_functions_of_time(of.value, moving)
-        both = [found.left, found.right, int(found.mark == "=")]
+        both = [found.left, found.right, int(found.operator == "=")]
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])
 
     return establish(

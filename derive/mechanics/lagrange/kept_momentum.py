@@ -55,7 +55,7 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
     def along_the_motion(here: Relation) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
         left, right = (common * side for side in here.sides)
         at_work = matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
-        marked = {"=": Integer(0)}.get(here.mark, Integer(1))
+        marked = {"=": Integer(0)}.get(here.operator, Integer(1))
         changing = by_functions_of_time(left - right, moving)
         ours = [left - right, changing, marked]
         return ImmutableDenseMatrix(ours), ImmutableDenseMatrix([matter.momentum_along(q.symbol) - value, at_work, 0])

@@ -21,7 +21,7 @@ from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ActedOn, acting, forced_equation
 from derive.mechanics.lagrange.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
 from derive.mechanics.lagrange.facts import Energies, FromLagrangian, Varied
-from derive.mechanics.model.constraint import Kept
+from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.system import System
 from derive.mechanics.theorems import LAGRANGE
@@ -145,7 +145,7 @@ def equation_of_motion(
     if derivatives:
         momentum = generalized_momentum(of, q)
         found = [generalized_force(of, q), momentum, momentum_rate(momentum, q)]
-    if of.fact(ActedOn) or of.fact(Kept):
+    if of.fact(ActedOn) or of.fact(Constrained):
         return forced_equation(of, q, found, key)
 
     def by_virtual_work() -> Relation:

@@ -70,7 +70,7 @@ class Constraint:
 
 
 @dataclass(frozen=True)
-class Kept(Fact):
+class Constrained(Fact):
     """The constraints of a motion that forces keep."""
 
     missing = "has no constraints kept by forces"

@@ -56,7 +56,7 @@ def _letter_at(unknown: Expr, start: Expr) -> tuple[Expr, Expr]:
 
 
 def _vanishing_force(facts: Judged) -> bool:
-    return facts.result.mark == "=" and bool(facts.result.left == facts.inputs["unknown"])
+    return facts.result.operator == "=" and bool(facts.result.left == facts.inputs["unknown"])
 
 
 def lost(later: bool) -> Predicate:
@@ -97,7 +97,7 @@ def _gets_there_as_told(facts: Judged) -> bool:
 def turned_back(facts: Judged) -> bool:
     """Whether, numerically, the force vanishes at the place and the squared rate is negative there, or zero, while
     at the start the force is positive and the squared rate is not negative."""
-    just_there = facts.result.mark == ">="
+    just_there = facts.result.operator == ">="
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
     values = [with_numbers(explicit(each).subs(*end)) for end in ends for each in (force, squared)]
@@ -135,7 +135,7 @@ def steady(facts: Judged, fact: Steady) -> bool:
 def energy_there(facts: Judged, place: Any) -> bool:
     """Whether the energy at this place, with the rate at the start, has the conserved value."""
     start = {place.left: explicit(place.right), rate(place.left): explicit(facts.inputs["initial"])}
-    return place.mark == "=" and is_zero(
+    return place.operator == "=" and is_zero(
         value_of_role(facts, "energy").subs(start, simultaneous=True) - explicit(facts.result).right
     )
 
@@ -146,7 +146,7 @@ def turns_back_there(facts: Judged, amplitude: Any) -> bool:
 
 def pushes_there(facts: Judged, place: Any) -> bool:
     """Whether the two touch at the start: the force is not negative."""
-    alone = bool(facts.result.left == place.left) and place.mark == "="
+    alone = bool(facts.result.left == place.left) and place.operator == "="
     if not isinstance(place.left, Symbol):
         return alone
     return alone and sign_known(value_of_role(facts, "force").subs(place.left, explicit(place.right))) != -1
@@ -154,13 +154,15 @@ def pushes_there(facts: Judged, place: Any) -> bool:
 
 def force_vanishes_there(facts: Judged, place: Any) -> bool:
     """Whether the force would be zero at a place that the motion does not reach."""
-    return place.mark == "=" and is_zero(value_of_role(facts, "force").xreplace({place.left: explicit(place.right)}))
+    return place.operator == "=" and is_zero(
+        value_of_role(facts, "force").xreplace({place.left: explicit(place.right)})
+    )
 
 
 def stays_and_turns(facts: Judged, relation: Any) -> bool:
     """Whether, with the constant coordinates and rates of the sentence, the slope of L vanishes with the result."""
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
-    if relation.mark != "=" or relation.left == relation.right:
+    if relation.operator != "=" or relation.left == relation.right:
         return False
     if "lagrangian" not in facts.quantities:  # from an equation of motion, which contains the rates
         q = facts.inputs["coordinate"]

@@ -148,7 +148,7 @@ def _divided(found: Relation, factor: Expr, written: Relation, motion: Mapping[S
         sides = [explicit(side) for side in relation.sides]
         return [x / divisor for side in sides for x in (*(diff(side, a) for a in motion), bound(side, at_rest))]
 
-    mark = {"=": Integer(1)}.get(found.mark, Integer(0))
+    mark = {"=": Integer(1)}.get(found.operator, Integer(0))
     return ImmutableDenseMatrix([*parts(found, factor), mark]), ImmutableDenseMatrix([*parts(written, Integer(1)), 1])
 
 
@@ -157,7 +157,7 @@ def _one_by_one(found: Relation, products: Sequence[Quantity]) -> tuple[Any, Any
     left = [explicit(side) for side in found.sides]
     for product in products:
         left = [side - explicit(other) for side, other in zip(left, product.value.sides, strict=True)]
-    mark = {"=": Integer(0)}.get(found.mark, Integer(1))
+    mark = {"=": Integer(0)}.get(found.operator, Integer(1))
     return ImmutableDenseMatrix([*left, mark]), ImmutableDenseMatrix([0, 0, 0])
 
 
@@ -252,4 +252,4 @@ def _sides(value: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
 def _by_sides(value: Relation, moving: Sequence[Symbol]) -> Relation:
     """Multiply out and collect both sides, the terms with rates first."""
     left, right = (by_products(explicit(side), moving) for side in value.sides)
-    return Relation(left, value.mark, right)
+    return Relation(left, value.operator, right)

@@ -133,7 +133,7 @@ def _energy_kept(
         """Check that the equation holds at the start, and that its rate vanishes along the motion."""
         there = found.residual.xreplace({letter: first, speed: initial})
         changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
-        is_equation = int(found.mark == "=")
+        is_equation = int(found.operator == "=")
         return ImmutableDenseMatrix([there, changing, found.left, is_equation]), ImmutableDenseMatrix([0, 0, value, 1])
 
     return establish(

@@ -88,7 +88,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
             lambda v: Relation(v, ">", 0),
             {"force": force},
             lines=Lines(put_in=Level.STANDARD, result=False, arranged=explicit),
-            routes={"size": lambda found: (found.residual, of_the_size(value, found.mark))},
+            routes={"size": lambda found: (found.residual, of_the_size(value, found.operator))},
             outcome="never",
             key=key,
         )
@@ -120,7 +120,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
         u = part_of_the_way()
         on_the_way = tidied(with_unknown(pushing, unknown, place + u * (begin - place)))
         at_place = tidied(with_unknown(pushing, unknown, place))
-        return Relation(found.left, found.mark, on_the_way + 7 * at_place), Relation(unknown, "=", u * at_start)
+        return Relation(found.left, found.operator, on_the_way + 7 * at_place), Relation(unknown, "=", u * at_start)
 
     return establish(
         LEAVES_CONTACT,
@@ -154,7 +154,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
 
 def _as_positive(condition: Relation) -> Relation:
     """Write an inequality without its positive factors: v^2 < 5 g l."""
-    return positive(condition.residual if condition.mark in (">", ">=") else -condition.residual)
+    return positive(condition.residual if condition.operator in (">", ">=") else -condition.residual)
 
 
 def _speed_behind(force: Quantity, unknown: Expr) -> Quantity | None:
@@ -189,7 +189,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
         """Check that the force is positive from the start to the place, where it would vanish."""
         u = part_of_the_way()
         between = tidied(with_unknown(value, unknown, place + u * (begin - place)))
-        sure = int(sign_known(between) == 1 and found.mark == mark)
+        sure = int(sign_known(between) == 1 and found.operator == mark)
         return found.residual * 0 + sure, Integer(1)
 
     return establish(

@@ -90,7 +90,9 @@ def _is_barred(speed: Quantity, unknown: Expr, place: Expr, there: Expr) -> bool
     squared, start, there = map(with_numbers, (explicit(speed.value), known.start, there))
     is_far = place in (oo, -oo)
     finite = Integer(0) if is_far else with_numbers(meaning(unknown, place)[q])
-    conditions = [with_numbers(each.residual) * SIGNS[each.mark[0]] for each in assumed() if each.mark[0] in SIGNS]
+    conditions = [
+        with_numbers(each.residual) * SIGNS[each.operator[0]] for each in assumed() if each.operator[0] in SIGNS
+    ]
     letters = set().union(*map(letters_of, (squared, start, there, finite, *conditions))) - {q}
     for point in islice(points(letters, seed_of(squared)), TRIED):
         try:

@@ -88,7 +88,7 @@ def _is_real(value: Any, point: dict[Any, Expr]) -> bool:
 
 def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
     difference = explicit(condition.left - condition.right).xreplace(point).evalf(30)
-    return bool(difference > 0) == (condition.mark == ">")
+    return bool(difference > 0) == (condition.operator == ">")
 
 
 def _letters(facts: Judged) -> set[Any]:
@@ -318,9 +318,9 @@ def bordered(border: str | None) -> Predicate:
     def is_so(facts: Judged) -> bool:
         where = facts.inputs.get("at_border")
         if where is None or border is None:
-            return where is None and border is None and facts.result.mark in (">", "<")
+            return where is None and border is None and facts.result.operator in (">", "<")
         there = facts.inputs["potential_here"].subs(where.left, where.right)
-        return kind_of_order(there, facts) == border and facts.result.mark.endswith("=") == (border == "stable")
+        return kind_of_order(there, facts) == border and facts.result.operator.endswith("=") == (border == "stable")
 
     return is_so
 
@@ -344,7 +344,9 @@ def higher_lasts(facts: Judged) -> bool:
 
 def sides_as_told(facts: Judged) -> bool:
     """Whether the sentence mentions a side exactly if one is assumed, and springs if a step assumes it in words."""
-    sides = [each for each in assumed() if each.mark == ">" and explicit(each.residual).has(*facts.inputs["sought"])]
+    sides = [
+        each for each in assumed() if each.operator == ">" and explicit(each.residual).has(*facts.inputs["sought"])
+    ]
     in_words = set(assumed_in_words()).issuperset(sides)
     return facts.words["seen"] == ("any" if not sides else "stretched" if in_words else "one_side")
 
@@ -363,7 +365,7 @@ def level_as_told(facts: Judged) -> bool:
     open_ = Mul(*(f for f, _ in factor_list(common)[1] if sign_known(f) is None and not f.is_nonzero))
     if not open_.free_symbols:
         return told is None
-    return told is not None and told.mark == "!=" and same_equation(told.residual, open_)
+    return told is not None and told.operator == "!=" and same_equation(told.residual, open_)
 
 
 def residual(facts: Judged) -> Judged:
@@ -517,7 +519,7 @@ def level_there(role: str) -> Naming:
 
     def is_so(facts: Judged, place: Any) -> bool:
         slope = diff(value_of_role(facts, role), place.left).subs(place.left, explicit(place.right))
-        return place.mark == "=" and (_vanishes_as_assumed(slope) if slope.has(sign) else is_zero(slope))
+        return place.operator == "=" and (_vanishes_as_assumed(slope) if slope.has(sign) else is_zero(slope))
 
     return is_so
 
@@ -538,7 +540,7 @@ def flat_in_that_case(facts: Judged, case: Any) -> bool:
     """Whether the curvature vanishes on the boundary too, and the left side shows that boundary."""
     q, place = facts.inputs["coordinate"], facts.inputs["place"]
     curvature = explicit(At(value_of_role(facts, "potential"), case.left, case.right)).diff(q, 2).subs(q, place)
-    return case.mark == "=" and is_zero(curvature) and facts.symbol.args[1:] == (case.left, case.right)
+    return case.operator == "=" and is_zero(curvature) and facts.symbol.args[1:] == (case.left, case.right)
 
 
 def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
@@ -579,7 +581,7 @@ def falls_along(facts: Judged, _: Any) -> bool:
 def at_its_place(facts: Judged, state: Any) -> bool:
     """Whether each coordinate has the value at which the energy is judged, or the symbol of the equilibrium."""
     moving, place = facts.inputs["coordinates"], facts.inputs["place"]
-    if state.mark != "=":
+    if state.operator != "=":
         return False
     if len(moving) > 1:
         pairs = zip(state.right.args, place, strict=True)

@@ -21,7 +21,7 @@ from derive.algebra.expressions import TIME, Relation, explicit, scalar
 from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.model.constraint import Constraint, Kept
+from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.system import System
 from derive.mechanics.rest import claims
 from derive.solving.signs import sign_by_factors
@@ -36,7 +36,7 @@ MOST = 3  # directions that a sentence can list
 
 def constraints_of(of: Quantity) -> tuple[Constraint, ...]:
     """Return the constraints that forces keep in the system of an energy or an equation of motion."""
-    kept, body = of.fact(Kept), of.subject.body
+    kept, body = of.fact(Constrained), of.subject.body
     return kept.constraints if kept is not None else body.constraints if isinstance(body, System) else ()
 
 

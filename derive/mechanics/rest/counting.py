@@ -58,7 +58,7 @@ def signs_counted(
 
 
 def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:
-    return exists is None or bool((exists.residual.xreplace(dict(point)) > 0) == (exists.mark == ">"))
+    return exists is None or bool((exists.residual.xreplace(dict(point)) > 0) == (exists.operator == ">"))
 
 
 def _is_place(value: Expr, q: Symbol) -> bool:

@@ -383,7 +383,7 @@ def _level_where(force: Expr, q: Symbol) -> Relation | None:
     if left is None or not left.left.is_Add:
         return left
     away = [-term for term in left.left.args if term.could_extract_minus_sign()]
-    return Relation(left.left + Add(*away), left.mark, Add(*away))
+    return Relation(left.left + Add(*away), left.operator, Add(*away))
 
 
 def _by_terms_if_shorter(value: Expr) -> Expr:
@@ -431,7 +431,7 @@ def _rest(
     symbol: Any = names[held[0]][n] if single else ImmutableDenseMatrix([names[q][n] for q in held])
     told = {}
     if state.exists is not None:
-        told["exists"] = (state.exists, Relation(-state.exists.right, state.exists.mark, -state.exists.left))
+        told["exists"] = (state.exists, Relation(-state.exists.right, state.exists.operator, -state.exists.left))
     if len(sought) == 1 and (excluded := _level_where(conditions[0].value.left, sought[0])) is not None:
         told["excluded"] = (excluded, Relation(excluded.right, "!=", excluded.left))
 

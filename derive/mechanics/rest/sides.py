@@ -72,7 +72,7 @@ def how_sides_are_taken(coordinates: Sequence[Symbol]) -> str:
 
 
 def _sides_taken(coordinates: Sequence[Symbol]) -> list[Relation]:
-    return [each for each in assumed() if each.mark == ">" and each.residual.has(*coordinates)]
+    return [each for each in assumed() if each.operator == ">" and each.residual.has(*coordinates)]
 
 
 def on_known_sides(value: Expr, exists: Relation | None) -> Expr:

@@ -199,7 +199,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     if condition is not None:
         told["condition"] = (condition, Relation(value, ">", 0))
     if place.exists is not None:
-        told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
+        told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.operator, -place.exists.left))
     if border is not None and condition is not None:
         told["border"] = (
             Relation(condition.left, "=", condition.right),
@@ -341,7 +341,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         named |= {"moving": Amplitudes(*place.coordinates), "direction": Amplitudes(*way)}
     _check_nothing_else_holds_it(place, outcome)
     if place.exists is not None:
-        told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
+        told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.operator, -place.exists.left))
 
     def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """Compare with the minors of the second order of the energy for a displacement in an arbitrary direction."""

@@ -51,7 +51,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         message = f"`stable_where`: `{of.key}` has no condition for one coordinate"
         raise Rejected(Complaint("no-condition", message, help="`stability` states whether the equilibrium is stable"))
     left, right = known.condition.sides
-    mark = known.condition.mark + ("=" if known.stable_there else "")
+    mark = known.condition.operator + ("=" if known.stable_there else "")
     squared = Relation(left, mark, right)
     alone = left.base if left.is_Pow and left.exp == 2 and left.base.is_positive and right.is_positive else left
     result = Relation(alone, mark, tidied(sqrt(right))) if alone != left else squared
@@ -64,7 +64,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         for side in (1, -1) if border is not None else ():
             there = found.right * (1 + u) ** side
             sign = sign_by_factors(tidied(explicit(of.value).subs(found.left, there)))
-            says.append(Integer(int(side in SIGNS_OF[found.mark])))
+            says.append(Integer(int(side in SIGNS_OF[found.operator])))
             is_so.append(Integer(int(sign == 1)) if sign is not None else Integer(7))
         return ImmutableDenseMatrix(says), ImmutableDenseMatrix(is_so)
 
@@ -101,7 +101,7 @@ def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -
                 bound = value_at(found.right, point)
                 cases = [{**point, found.left: bound * f} for f in (Rational(5, 4), Rational(4, 5))]
             for case in cases:
-                holds = _sign(value_at(found.residual, case)) in SIGNS_OF[found.mark]
+                holds = _sign(value_at(found.residual, case)) in SIGNS_OF[found.operator]
                 if holds != bool(known.lifted(case) > 0):
                     where = tuple((str(s), str(x)) for s, x in case.items())
                     return Verdict(Grade.REFUTED, "the energy near the place contradicts it", where)

@@ -80,7 +80,9 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
         routes={
             "sign": lambda found: (
                 ImmutableDenseMatrix([found.residual] * 2),
-                ImmutableDenseMatrix([moments.value[one] - moments.value[other], of_the_size(difference, found.mark)]),
+                ImmutableDenseMatrix(
+                    [moments.value[one] - moments.value[other], of_the_size(difference, found.operator)]
+                ),
             )
         },
         outcome="always" if mark == "=" else "never",
@@ -135,7 +137,7 @@ def _letters_only(factor: Expr) -> Expr:
 
 def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, Any]:
     """The tensor with the value substituted, and a moment times the unit tensor; nan unless there is an equation."""
-    if found.mark != "=":
+    if found.operator != "=":
         return nan, nan
     letter, bound = found.sides
     there = ImmutableDenseMatrix(moments.needed(PrincipalOf).tensor.value.subs(letter, bound))

@@ -21,7 +21,7 @@ from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Quantity, is_zero
 
-__all__ = ["body_cone_rate", "linearised_rotation", "wobble_rate", "wobble_squared"]
+__all__ = ["body_cone_rate", "linearised_rotation", "perturbation_rate", "perturbation_rate_squared"]
 
 ZERO = Integer(0)
 
@@ -150,7 +150,9 @@ PERTURBATION_RATE_SQUARED = Rule(
 )
 
 
-def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str = "wobble_squared") -> Quantity:
+def perturbation_rate_squared(
+    linear: Sequence[Quantity], symbol: str = "Omega", key: str = "perturbation_rate_squared"
+) -> Quantity:
     """Square of the rate at which a disturbed axis wobbles, Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y) about z.
 
     linear   the two linear equations from `linearised_rotation`
@@ -266,10 +268,10 @@ PERTURBATION_RATE = Rule(
 )
 
 
-def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble_rate") -> Quantity:
+def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "perturbation_rate") -> Quantity:
     """Rate Omega at which a disturbed axis oscillates, the root of its square; if that is negative, the rate of growth.
 
-    squared   the result of `wobble_squared`, 1/s^2
+    squared   the result of `perturbation_rate_squared`, 1/s^2
     Check: components proportional to e^(i Omega t), or e^(kappa t), make the determinant of the two linear equations
     zero; and the rate is not negative.
     Outcomes: stable, symmetric, conditional, unstable (the rate kappa of growth).

@@ -24,7 +24,7 @@ from derive.steps.rule import ROUTE, Rule, Shown
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import Subject
 
-__all__ = ["in_letters"]
+__all__ = ["symbolic_body"]
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class LetteredBody(RigidBody):
     shape: tuple[Any, str] | None = None
 
 
-def in_letters(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredBody:
+def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredBody:
     """A body by symbols: M, the distance l of its centre of mass from a point of its z axis, and its principal moments
     about that point, I_x and I_z for a round body; steps derive their values.
 
@@ -55,7 +55,7 @@ def in_letters(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredB
     beside = [sum((m * r[k] for m, r in seen), Integer(0)) for k in (0, 1)]
     products = [sum((m * r[i] * r[j] for m, r in seen), Integer(0)) for i, j in ((0, 1), (0, 2), (1, 2))]
     if not all(map(is_zero, (*beside, *products))):
-        message = f"`in_letters`: the axes of {body.name} through its {about} are not principal, or miss its centre"
+        message = f"`symbolic_body`: the axes of {body.name} through its {about} are not principal, or miss its centre"
         raise Rejected(Complaint("wrong-axis", message))
     squares = [sum((m * r[k] ** 2 for m, r in seen), Integer(0)) for k in (0, 1)]
     is_symmetric = is_zero(squares[0] - squares[1])
@@ -68,7 +68,7 @@ def in_letters(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredB
     values = {quantity.symbol: explicit(quantity.value) for quantity in found}
     for k, letter in enumerate(principal):
         if not is_zero(letter.xreplace(values) - sum((m * (r.dot(r) - r[k] ** 2) for m, r in seen), Integer(0))):
-            message = f"`in_letters`: {letter} is not the moment of {body.name} about its {AXES[k]} axis"
+            message = f"`symbolic_body`: {letter} is not the moment of {body.name} about its {AXES[k]} axis"
             raise Unverified(Complaint("unverified", message))
     return LetteredBody(
         _letter(mass) if mass is not None else body.mass,

@@ -78,7 +78,7 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
     """Whether the boundary of the condition is where the discriminant vanishes, and, numerically, the condition holds
     on the side where the discriminant has this sign."""
     condition = explicit(facts.inputs["condition"])
-    if not same_equation(condition.residual, discriminant) or (condition.mark == "=") != (wanted == 0):
+    if not same_equation(condition.residual, discriminant) or (condition.operator == "=") != (wanted == 0):
         return False
     if wanted == 0:
         return True
@@ -86,7 +86,7 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
     for point in points_as_assumed(letters_of(condition.residual) | letters_of(discriminant), 0):
         with suppress(Undefined, NoNumber):
             seen.add(holds_at(condition, point) == (value_at(discriminant, point) * wanted > 0))
-    return condition.mark in (">", "<") and seen == {True}
+    return condition.operator in (">", "<") and seen == {True}
 
 
 def _unless_it_grows(word: str, rate: Expr) -> str:
@@ -169,7 +169,7 @@ def _numbers(facts: Judged) -> Iterator[dict[Any, Expr]]:
 
 def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
     difference = explicit(condition.left - condition.right).xreplace(point).evalf(30)
-    return bool(difference > 0) == (condition.mark == ">")
+    return bool(difference > 0) == (condition.operator == ">")
 
 
 def _roots(facts: Judged, point: dict[Any, Expr]) -> list[complex]:
@@ -358,7 +358,7 @@ def _exists(facts: Judged, numbers: dict[Expr, Expr]) -> bool:
     if condition is None:
         return True
     difference = condition.residual.xreplace(numbers)
-    return bool(difference > 0 if condition.mark == ">" else difference < 0)
+    return bool(difference > 0 if condition.operator == ">" else difference < 0)
 
 
 def _polynomial(facts: Judged, numbers: dict[Expr, Expr]) -> Poly:
@@ -534,7 +534,7 @@ def momentum_there(facts: Judged, relation: Any) -> bool:
     """Whether the relation gives the momentum of its letter in the steady motion, or a letter of its value."""
     steady = next((f for f in facts.quantities["where"].facts if hasattr(f, "conditions")), None)
     behind = list(facts.quantities["potential"].ancestors())
-    if steady is None or relation.mark != "=":
+    if steady is None or relation.operator != "=":
         return False
     kept = [dict(e.step.roles) for e in behind if e.step.rule == "lagrange.value_kept"]
     values = {roles["momentum"]: explicit(roles["value"]) for roles in kept}
@@ -558,7 +558,7 @@ def there_where_it_exists(facts: Judged, exists: Any) -> bool:
 
 def taken_out(facts: Judged, relation: Any) -> bool:
     """Whether the letter is in the condition, and no longer in the result."""
-    if relation.mark != "=":
+    if relation.operator != "=":
         return False
     held = explicit(facts.quantities["where"].value).free_symbols
     return relation.left in held and relation.left not in explicit(facts.result).free_symbols
@@ -623,7 +623,7 @@ def starts_as_told(facts: Judged, outcome: str) -> bool:
         return False
     told, q = [facts.inputs[role] for role in ("start", "start_rate") if role in facts.inputs], facts.inputs["q"]
     at = [diff(facts.result, TIME, n).subs(TIME, 0) for n in range(len(told))]
-    named = [(q, "="), (rate(q), "=")][: len(told)] == [(each.left, each.mark) for each in told]
+    named = [(q, "="), (rate(q), "=")][: len(told)] == [(each.left, each.operator) for each in told]
     return named and all(is_zero(value - each.right) for value, each in zip(at, told, strict=True))
 
 

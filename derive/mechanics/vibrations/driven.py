@@ -139,7 +139,7 @@ def steady_amplitude(
 
 
 def _written_out(condition: Relation) -> Relation:
-    return Relation(tidied(condition.left), condition.mark, tidied(condition.right))
+    return Relation(tidied(condition.left), condition.operator, tidied(condition.right))
 
 
 def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:

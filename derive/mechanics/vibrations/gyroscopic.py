@@ -146,7 +146,7 @@ def in_quadrature(
 ) -> tuple[Relation, Relation]:
     """Substitute cosines and sines with real amplitudes: the determinant of twice as many equations is the square."""
     whole = of_cosines_and_sines(linear, together, letter)
-    return Relation(explicit(found).residual ** 2, found.mark, 0), Relation(whole, "=", 0)
+    return Relation(explicit(found).residual ** 2, found.operator, 0), Relation(whole, "=", 0)
 
 
 def _tidy_entry(entry: Expr) -> Expr:

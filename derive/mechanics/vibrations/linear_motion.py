@@ -196,7 +196,7 @@ def _told(linear: Linear, condition: Relation | None) -> dict[str, tuple[Any, An
     if excluded is not None:
         told["excluded"] = (excluded, Relation(tidied(excluded.left), "!=", tidied(excluded.right)))
     if condition is not None:
-        told["condition"] = (condition, Relation(tidied(condition.left), condition.mark, tidied(condition.right)))
+        told["condition"] = (condition, Relation(tidied(condition.left), condition.operator, tidied(condition.right)))
     return told
 
 

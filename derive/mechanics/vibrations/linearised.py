@@ -278,9 +278,9 @@ def _check_exists(at: Any) -> None:
     """Reject an equilibrium that does not exist for the given numbers."""
     exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
     sign = sign_known(exists.residual) if exists is not None else None
-    if exists is not None and sign is not None and sign != (1 if exists.mark == ">" else -1):
+    if exists is not None and sign is not None and sign != (1 if exists.operator == ">" else -1):
         message = (
-            f"`{at.key}` exists only for {exists.left} {exists.mark} {exists.right}, which the values do not fulfil"
+            f"`{at.key}` exists only for {exists.left} {exists.operator} {exists.right}, which the values do not fulfil"
         )
         raise Rejected(Complaint("no-equilibrium", message, help="give other values, or another equilibrium"))
 

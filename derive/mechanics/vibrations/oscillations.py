@@ -9,7 +9,7 @@ from sympy import Abs, Add, Expr, I, Integer, Mul, Pow, Rational, cos, diff, exp
 from derive.algebra.collect import spread, spread_or_by_terms
 from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.length import length
-from derive.algebra.ranges import fulfilling, rational_in_range, settled, strict_sign_within
+from derive.algebra.ranges import fulfilling, rational_in_range, strict_sign_within, without_abs
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import OfCoordinate, T
@@ -211,7 +211,7 @@ def _rate(
     name = symbol or ("kappa" if grows else known.letter)
     size = _turned(squared.value) if grows else squared.value
     plain = explicit(Root(size))
-    shown = settled(plain) if settled(plain) != plain else Root(size) if size.has(Add) else root_of(size)
+    shown = without_abs(plain) if without_abs(plain) != plain else Root(size) if size.has(Add) else root_of(size)
     trial = stand_in("w", positive=True)
 
     def satisfies(found: Expr) -> tuple[Expr, Expr]:
@@ -238,7 +238,7 @@ def _rate(
             put_in=None,
             after=[Form(shown, "result")],
             result=False,
-            arranged=lambda value: settled(explicit(value)),
+            arranged=lambda value: without_abs(explicit(value)),
         ),
         routes={"motion": satisfies, "positive": positive_root},
         outcome=outcome,

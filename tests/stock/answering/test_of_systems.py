@@ -149,7 +149,7 @@ parts:
 def test_what_turning_may_hold_is_judged_by_the_small_motions(described: str, difference: str, tmp_path: Path) -> None:
     """Goldstein, section 5.7 for the top."""
     found = solved(tmp_path, described)["stability"]
-    assert found.step.outcome == "depends" and found.value.mark == ">"
+    assert found.step.outcome == "depends" and found.value.operator == ">"
     assert str((found.value.left - found.value.right).expand()) == difference
 
 
