@@ -17,7 +17,7 @@ from derive.mechanics import (
 )
 
 
-def solve(sides: Lengths, mass: Mass, axis: Direction, rate: AngularSpeed, symbolic_body: Lengths):
+def solve(sides: Lengths, mass: Mass, axis: Direction, rate: AngularSpeed, in_letters: Lengths):
     block = Cuboid(sides, mass)
     drawing("axes", outline(block, about="centre"), axis_of_rotation(block.direction(axis), rate=rate))
 
@@ -33,7 +33,7 @@ def solve(sides: Lengths, mass: Mass, axis: Direction, rate: AngularSpeed, symbo
     J = inertia_tensor(block, about="corner", key="corner_tensor")
     again = moved_to(J, block.centre, symbol="I'", key="tensor_from_corner")  # parallel axes
 
-    general = Cuboid(symbolic_body, mass).named("general block")  # the same with any edges, for its limiting cases
+    general = Cuboid(in_letters, mass).named("general block")  # the same with any edges, for its limiting cases
     I_general = inertia_tensor(general)
     omega_general = spin(rate, along=general.direction(axis))
     tau_general = torque(omega_general, angular_momentum(I_general, omega_general))

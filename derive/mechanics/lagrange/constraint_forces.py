@@ -144,7 +144,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     equations   of motion, one for each coordinate of one Lagrangian
     keeping     coordinates whose accelerations remain in the forces: their equations are left for the motion
     Keys: the symbols of the forces.
-    Second route: the same as in `accelerations`.
+    Second route: as `accelerations`.
     Outcomes: generic (the constraint force itself), multiplier (the length of the condition's gradient by the place
     of the particle is not 1; it is stated), zero.
     Errors: no constraint is kept by a force; otherwise the same as in `accelerations`.

@@ -249,7 +249,7 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
     of            the Lagrangian, J
     derivatives   whether steps derive dL/dq, dL/dq_dot and its rate
     Keys: motion_ and the name of the coordinate.
-    Second route: the same as in `equation_of_motion`.
+    Second route: as `equation_of_motion`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     return tuple(equation_of_motion(of, q, f"motion_{q.symbol.name}", derivatives) for q in coordinates_of(of))

@@ -100,7 +100,7 @@ def momenta(of: Quantity) -> tuple[Quantity, ...]:
 
     of   the Lagrangian, J
     Keys: p_ and the name of the coordinate.
-    Second route: the same as in `conjugate_momentum`.
+    Second route: as `conjugate_momentum`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     return tuple(conjugate_momentum(of, q) for q in coordinates_of(of))

@@ -67,8 +67,8 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
     the letters); if two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
     conditional_repeated; ordered, ordered_part (no formula: a root by its place); of shapes: in_phase, opposite,
-    alone (the other is at rest), generic, uniform (free motion), departing (growing), any_of_several (repeated);
-    of the determinant: several, one (coordinate).
+    alone (the other is at rest), generic, uniform (free motion), departing (growing), any_of_several (repeated); of the
+    determinant: several, one (coordinate).
     Errors: the roots have no closed form, and letters have no numbers; with drag the modes do not separate; too many
     letters.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
