@@ -420,7 +420,7 @@ def test_a_rod_points_upwards_where_it_is_not_turned_and_the_manual_says_so(tmp_
     found = answers(tmp_path, "f17_rod_points_up", ("turned: theta - pi/2", "turned: theta"))
     assert agree(found, {"potential_energy": "m*g*(q*sin(alpha) + l/2*cos(theta))"}) == {}
     manual = " ".join((ROOT / "docs" / "yaml-alone.md").read_text(encoding="utf-8").split())
-    assert "a `rod` points upwards from its `end` where `turned` is zero" in manual
+    assert "A `rod` therefore points upwards from its `end` if `turned` is zero" in manual
 
 
 def test_every_problem_of_the_folder_is_tried() -> None:

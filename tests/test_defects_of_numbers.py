@@ -190,7 +190,7 @@ def test_masses_and_sizes_are_positive_in_scripts_too() -> None:
         Disc(-R, M)
     with pytest.raises(Rejected, match="positive mass"):
         Particle(-M, point(R, R))
-    with pytest.raises(Rejected, match="more than the other two"):
+    with pytest.raises(Rejected, match="greater than the sum of the other two"):
         RigidBody(M, (M * R**2, M * R**2, 3 * M * R**2))
 
 

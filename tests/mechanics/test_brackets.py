@@ -140,7 +140,7 @@ def test_a_planet_conserves_the_vector_of_runge_and_lenz() -> None:
     ("wrong", "said"),
     [
         (lambda x: poisson_bracket(x, conjugate(x)), "needs the coordinates"),
-        (lambda x: poisson_bracket(x.rate, x, x), "holds x_dot"),
+        (lambda x: poisson_bracket(x.rate, x, x), "contains x_dot"),
         (lambda x: poisson_bracket("x", x, x), "needs two steps or formulas"),
     ],
 )

@@ -251,7 +251,7 @@ def test_a_chain_that_is_coupled_too_far_is_refused_at_once() -> None:
     ("wrong", "said"),
     [
         (lambda: hamilton_equations(pendulum()), "not a function of coordinates and their momenta"),
-        (lambda: energy_function(kinetic_energy_of(System(Particle(m, point(coordinate("x"), 0))))), "not the Lagr"),
+        (lambda: energy_function(kinetic_energy_of(System(Particle(m, point(coordinate("x"), 0))))), "not a Lagr"),
         (lambda: conjugate_momentum(pendulum(), coordinate("phi")), "does not depend on the coordinate"),
         (lambda: energy_function_rate(pendulum()), "does not come from a Lagrangian"),
         (lambda: in_momenta(hamiltonian(pendulum()), hamiltonian(pendulum())), "contains no rate"),

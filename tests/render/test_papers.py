@@ -76,7 +76,7 @@ def test_a_set_names_its_papers_and_their_files(tmp_path: Path, said: str, paper
         ("{solutions: a/b}", "cannot be the name of a file"),
         ("{solutions: block}", "name of another file"),
         ("{solutions: x, key: x}", "name of another file"),
-        ("solutions", "a list of papers"),
+        ("solutions", "a list of documents"),
         ("[]", "empty"),
     ],
 )

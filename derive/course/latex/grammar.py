@@ -272,7 +272,7 @@ class Formula(Brackets):
         if bare and argument.tokens[0].kind == "number" and len(argument.tokens[0].text) > 1:
             number = argument.tokens[0]
             help_line = f"write `{mark.text}{{{number.text}}}`"
-            self.refuse("ambiguous", "TeX would take only the first digit", number.start, number.end, help_line)
+            self.refuse("ambiguous", "only the first digit would be taken by TeX", number.start, number.end, help_line)
         return argument
 
     def atom(self, cursor: Cursor, depth: int) -> TermOrGrid:

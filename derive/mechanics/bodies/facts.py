@@ -15,7 +15,7 @@ from derive.steps.step import Fact
 class OfBody(Fact):
     """The body that a tensor belongs to: it has particles and integrates over its mass."""
 
-    missing = "belongs to no body"
+    missing = "does not belong to a body"
     body: Any
 
 
@@ -23,7 +23,7 @@ class OfBody(Fact):
 class AboutPoint(Fact):
     """The point of reference of a tensor or an angular momentum."""
 
-    missing = "is about no point"
+    missing = "is not about a point"
     point: Point
 
 
@@ -38,7 +38,7 @@ class CountedFrom(Fact):
 class Integrated(Fact):
     """The variables of an evaluated integral: the radius of a section depends on z, the volume does not."""
 
-    missing = "is no integral over a body"
+    missing = "is not an integral over a body"
     eliminates: tuple[Symbol, ...]
 
     @classmethod
