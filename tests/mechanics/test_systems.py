@@ -175,7 +175,7 @@ def test_axes_turn_about_axes_that_have_turned() -> None:
         (lambda: System(Particle(m, point(0, t)), Particle(m, point(0, 0, t))), "two components, others have three"),
         (lambda: System(Particle(m, point(l, 0)), spring(k, 0 * Z, l * Z)), "two components, others have three"),
         (lambda: System(Particle(m, point(0, 0)), weight(g), weight(g)), "can have only one weight"),
-        (lambda: System(Particle(m, point(0, 0)), Z), "not of Location"),
+        (lambda: System(Particle(m, point(0, 0)), Z), "not a Location"),
     ],
 )
 def test_what_makes_no_system_is_refused(wrong: Callable[[], Any], said: str) -> None:

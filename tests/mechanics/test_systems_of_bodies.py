@@ -280,7 +280,7 @@ def held_rod(**more: Any) -> Any:
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        (lambda: System(Rod(l, m)), "not of Rod"),
+        (lambda: System(Rod(l, m)), "not a Rod"),
         (lambda: Rod(l, m).placed(coordinate("theta"), (1, 2)), "a value of `point` or `place`"),
         (
             lambda: Rod(l, m).placed(coordinate("theta"), point(0, 0, 0)),
