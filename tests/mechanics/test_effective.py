@@ -199,7 +199,10 @@ def of_planet(verb: Callable[..., Any]) -> Callable[[], Any]:
         (of_planet(lambda L, r, phi: routhian(L, L)), "not a momentum of a cyclic coordinate"),
         (of_planet(lambda L, r, phi: routhian(L, conserved(L, phi), conserved(L, phi))), "given twice"),
         (lambda: effective_potential(driven()), "contains the time"),
-        (lambda: effective_potential(lagrangian(System(Particle(m, point(coordinate("x", "length"), 0))))), "no coordinate remains"),
+        (
+            lambda: effective_potential(lagrangian(System(Particle(m, point(coordinate("x", "length"), 0))))),
+            "no coordinate remains",
+        ),
         (lambda: routhian(pendulum_on_cart()[0], elsewhere()), "not a momentum of"),
     ],
 )
