@@ -11,7 +11,7 @@ import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from collections.abc import Sequence as SequenceType
 from dataclasses import fields, is_dataclass
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from sympy import Basic, Expr, Integer, MatrixBase, Symbol
 
@@ -20,6 +20,7 @@ from derive.errors import Complaint, OutOfTime, Rejected, Spelled, Unverified
 from derive.steps.record import current_run
 from derive.steps.step import Quantity
 
+F = TypeVar("F", bound=Callable[..., Any])
 _CALLED = {
     "Quantity": "a step",
     "Coordinate": "a coordinate",
@@ -44,9 +45,9 @@ KEEPING = {
 }
 
 
-def checked(verb: Callable[..., Any], called: str = "") -> Callable[..., Any]:
-    """Return the verb with a check of its arguments before the call; `called` is its name in messages."""
-    signature, called = inspect.signature(verb), called or verb.__name__
+def checked(verb: F) -> F:
+    """Return the verb with a check of its arguments before the call, and with its earlier calls recalled."""
+    signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 
     @functools.wraps(verb)
@@ -55,14 +56,14 @@ def checked(verb: Callable[..., Any], called: str = "") -> Callable[..., Any]:
         try:
             arguments = signature.bind(*given, **named).arguments
         except TypeError as fault:
-            raise Rejected(Complaint("wrong-argument", f"`{called}`: {fault}")) from None
+            raise Rejected(Complaint("wrong-argument", f"`{verb.__name__}`: {fault}")) from None
         for name, value in arguments.items():
             parameter = signature.parameters[name]
             values = value if parameter.kind is parameter.VAR_POSITIONAL else (value,)
             if parameter.kind is parameter.VAR_KEYWORD or parameter.default is value:
                 continue
             for each in values:
-                _check(called, name, each, wanted.get(name, Any))
+                _check(verb.__name__, name, each, wanted.get(name, Any))
         run = current_run.get()
         try:
             if run is None or run.memory is None or keeps:
@@ -72,10 +73,10 @@ def checked(verb: Callable[..., Any], called: str = "") -> Callable[..., Any]:
                 return made
             return run.memory.result(verb, arguments, run, lambda: verb(*given, **named))
         except OutOfTime as late:
-            late.doing.append(_told_of_call(called, arguments))
+            late.doing.append(_told_of_call(verb.__name__, arguments))
             raise
 
-    return wrapper
+    return wrapper  # type: ignore[return-value]
 
 
 def _told_of_call(verb: str, arguments: Mapping[str, Any]) -> str:

@@ -44,6 +44,7 @@ class Holds(Enum):
     SYMBOLS = auto()  # one letter for each of several results
     FORMULA = auto()  # an expression in letters and answers, with the answers by their placeholders
     FUNCTIONS = auto()  # two answers or expressions
+    POINT = auto()  # the name of a point of a body
     AXIS = auto()  # a direction
 
 
@@ -55,6 +56,7 @@ Ends = Annotated[Any, Holds.ENDS]
 Functions = Annotated[Sequence[Any], Holds.FUNCTIONS]
 Formula = Annotated[tuple[Expr, Mapping[Any, Quantity]], Holds.FORMULA]
 Name = Annotated[str, Holds.NAME]
+Point = Annotated[str | None, Holds.POINT]
 Axis = Annotated[Any, Holds.AXIS]
 Symbols = Annotated[Sequence[str], Holds.SYMBOLS]
 Ask = Callable[[str], Quantity]  # an argument `ask` is not a key: it asks for a further answer by its name
@@ -131,10 +133,16 @@ def in_results(
     excludes: tuple[tuple[str, str], ...] = (),
     **called: str,
 ) -> Callable[[F], F]:
-    """Register how `results:` calls a function; `called` has the key of each argument, "for: a letter"."""
+    """Register how `results:` calls a function; `called` has the key of each argument, "for: a letter".
+
+    A verb whose signature fits is decorated itself. Another has a function next to it that adapts the keys and calls
+    `checked(verb)`; its name begins with an underscore. So in both cases the calls of verbs are recalled, and their
+    arguments are plain values.
+    """
 
     def declared(function: F) -> F:
-        RESULT_VERBS[name] = ResultVerb(name, yields, checked(function, name), called, one_of, excludes)
+        called_as = function if function.__name__.startswith("_") else checked(function)
+        RESULT_VERBS[name] = ResultVerb(name, yields, called_as, called, one_of, excludes)
         return function
 
     return declared

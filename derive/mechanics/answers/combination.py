@@ -11,6 +11,7 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, bound, explicit, scalar
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Formula, in_results
 from derive.solving.presentation import presented
 from derive.solving.unknowns import left_over, unknown_of
@@ -92,4 +93,4 @@ def _number(quantity: Quantity) -> Quantity | Expr:
     symbol="symbol",
 )
 def _in_results(formula: Formula, key: str, symbol: str | None = None) -> Quantity:
-    return combination(*formula, key=key, symbol=symbol)
+    return checked(combination)(*formula, key=key, symbol=symbol)

@@ -16,6 +16,7 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Value, in_results
 from derive.solving.relations import (
     TURNED,
@@ -267,4 +268,4 @@ def _sign_of_number(value: Expr) -> int:
 def _in_results(
     of: Quantity, letter: Letter, key: str, mark: str = "=", bound: Value = ZERO, other: Quantity | None = None
 ) -> Quantity:
-    return where(of, mark, bound if other is None else other, letter, key=key)
+    return checked(where)(of, mark, bound if other is None else other, letter, key=key)

@@ -31,6 +31,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.answers import claims
 from derive.mechanics.answers.quadratics import roots_together
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Symbols, in_results
 from derive.solving.attainable import is_out_of_range
 from derive.solving.presentation import presented
@@ -450,7 +451,7 @@ def _in_results(
 ) -> tuple[Quantity, ...] | Quantity:
     """Return all roots or the chosen one; the keys of zeros are those of the request, the keys of roots the letter."""
     begins = None if isinstance(equation.value, Relation) else key
-    found = roots(equation, letter, symbols=tuple(symbols) or None, key=begins)
+    found = checked(roots)(equation, letter, symbols=tuple(symbols) or None, key=begins)
     return found if root is None else _chosen(found, root)
 
 

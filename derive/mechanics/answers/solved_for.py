@@ -11,6 +11,7 @@ from derive.algebra.expressions import Ratio, Relation
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letters, in_results
 from derive.solving.presentation import presented
 from derive.solving.unknowns import (
@@ -199,4 +200,4 @@ def _key_of(unknown: Expr) -> str:
 def _in_results(equations: Sequence[Quantity], unknowns: Letters, key: str) -> tuple[Quantity, ...]:
     """Solve with the name as the key if there is one unknown, else with a numbered key for each."""
     keys = [key] if len(unknowns) == 1 else [f"{key}_{i + 1}" for i in range(len(unknowns))]
-    return solved_for(tuple(equations), *unknowns, keys=keys)
+    return checked(solved_for)(tuple(equations), *unknowns, keys=keys)

@@ -14,6 +14,7 @@ from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, e
 from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, Spelled, did_you_mean
 from derive.mechanics.answers import claims
+from derive.mechanics.arguments import checked
 from derive.mechanics.hamilton.facts import Constant, SeenWith
 from derive.mechanics.in_results import Values, in_results
 from derive.mechanics.kinematics.coordinates import AtOneMoment, Coordinate, OfCoordinate
@@ -419,4 +420,4 @@ def _in_results(
         message = f"`{of.key}` does not contain `{name}`, so its value has no effect"
         raise Rejected(Complaint("unused-value", message, help="leave it out", argument=f"values:{name}"))
     needed = {name: value for name, value in values.items() if name in there}
-    return put_in(of, *results, key=key, symbol=symbol, **(needed or values))
+    return checked(put_in)(of, *results, key=key, symbol=symbol, **(needed or values))

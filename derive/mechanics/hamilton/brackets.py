@@ -12,6 +12,7 @@ from derive.algebra.expressions import TIME, Factors, Partial, PoissonBracket, T
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.arguments import checked
 from derive.mechanics.hamilton import claims
 from derive.mechanics.hamilton.facts import PhaseSpace
 from derive.mechanics.in_results import Functions, in_results
@@ -215,4 +216,4 @@ def _in_results(
     functions: Functions, key: str, coordinates: Mapping[str, Coordinate], among: Sequence[Quantity] = ()
 ) -> Quantity:
     f, g = functions
-    return poisson_bracket(f, g, *coordinates.values(), among=among, key=key)
+    return checked(poisson_bracket)(f, g, *coordinates.values(), among=among, key=key)

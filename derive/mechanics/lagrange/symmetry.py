@@ -15,6 +15,7 @@ from derive.algebra.expressions import Factors, Partial, Relation, Terms, TimeRa
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Value, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, required
 from derive.mechanics.lagrange import claims
@@ -220,4 +221,4 @@ def _in_results(
     if strange is not None:
         message = f"`noether` shifts coordinates, but `{strange}` is not a coordinate"
         raise Rejected(Complaint("no-such-coordinate", message, argument=f"values:{strange}"))
-    return noether(of, {coordinates[name]: value for name, value in values.items()}, gained, symbol, key)
+    return checked(noether)(of, {coordinates[name]: value for name, value in values.items()}, gained, symbol, key)

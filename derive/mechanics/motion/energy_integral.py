@@ -15,6 +15,7 @@ from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.swing import SwingTime, half_swing, quarter_swing
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Ask, Value, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.model.dalembert import Matter
@@ -332,4 +333,4 @@ def _in_results(
     says_all = matter is not None and tuple(matter.coordinates) == (q.symbol,)
     if motion is None and not says_all and ask is not None:
         motion = ask(f"motion_{q.symbol.name}")
-    return speed_from_energy(energy, q, start, start_rate, motion, key)
+    return checked(speed_from_energy)(energy, q, start, start_rate, motion, key)

@@ -17,6 +17,7 @@ from derive.algebra.expressions import TIME, Partial, Relation, as_expr, bound, 
 from derive.algebra.ranges import never_vanishes_within, strict_sign_within
 from derive.algebra.taylor import slope
 from derive.errors import Complaint, Rejected
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Symbols, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, kind_of_rate, unknown
 from derive.mechanics.lagrange.applied_forces import ActedOn
@@ -250,4 +251,4 @@ def _in_results(
         raise Rejected(Complaint("wrong-argument", message, argument="symbols"))
     for q, letter in zip(turning, symbols, strict=False):
         rates[q] = unknown(letter, kind_of_rate(q.kind) or "number", positive=True)
-    return steady_motion(of, rates, places, key=key)
+    return checked(steady_motion)(of, rates, places, key=key)

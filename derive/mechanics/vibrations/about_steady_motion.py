@@ -12,6 +12,7 @@ from derive.algebra.expressions import At, Ratio, Relation, Slope, bound, explic
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.arguments import checked
 from derive.mechanics.hamilton.facts import ReducedMatter, SeenWith
 from derive.mechanics.in_results import Letter, in_results
 from derive.mechanics.kinematics.coordinates import OfCoordinate
@@ -214,4 +215,5 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
     symbol="symbol",
 )
 def _in_results(of: Quantity, at: Quantity, key: str, without: Letter = None, symbol: str = "omega_0") -> Quantity:
-    return frequency(frequency_squared_about(of, at, without, symbol, f"{key}_squared"), key=key)
+    squared = checked(frequency_squared_about)(of, at, without, symbol, f"{key}_squared")
+    return checked(frequency)(squared, key=key)

@@ -30,6 +30,7 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.squares import with_squares
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import Coordinate, T
 from derive.mechanics.vibrations import claims
@@ -445,4 +446,4 @@ def _in_results(frequencies: Sequence[Quantity], key: str, symbol: str = "omega_
         message = f"`beats` needs two frequencies, but these are {len(frequencies)}"
         raise Rejected(Complaint("wrong-argument", message))
     slow, fast = frequencies
-    return beats(slow, fast, symbol, key)
+    return checked(beats)(slow, fast, symbol, key)

@@ -17,6 +17,7 @@ from derive.algebra.expressions import TIME, Relation, Terms, explicit
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Value, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims, linear_motion
@@ -288,7 +289,7 @@ def _in_results(
 ) -> Quantity | tuple[Quantity, ...]:
     """Return the motion of one coordinate from its start, or of all coordinates by their modes, from their values."""
     if start is None and len(motions) > 1:
-        return motions_by_modes(motions, *_start_by_name(values, coordinates), case, key)
+        return checked(motions_by_modes)(motions, *_start_by_name(values, coordinates), case, key)
     for argument, name, value in (("q", "for", q), ("start", "start", start)):
         if value is None:
             message = f"`solution` of one equation needs `{name}`"
@@ -297,7 +298,7 @@ def _in_results(
         message = f"`solution` needs one answer, but these are {len(motions)}"
         raise Rejected(Complaint("wrong-argument", message))
     assert q is not None
-    return linear_motion.solution(motions[0], q, start, start_rate, case, key)
+    return checked(linear_motion.solution)(motions[0], q, start, start_rate, case, key)
 
 
 def _start_by_name(

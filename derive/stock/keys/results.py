@@ -23,7 +23,7 @@ from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Items
 from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.mechanics import Coordinate, conjugate
-from derive.mechanics.in_results import RESULT_VERBS, Axis, Holds, Name, ResultKey, ResultVerb, in_results
+from derive.mechanics.in_results import RESULT_VERBS, Axis, Holds, Name, Point, ResultKey, ResultVerb, in_results
 from derive.mechanics.lagrange.momenta import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.bodies import ENDS
@@ -52,8 +52,8 @@ def _of_a_body(
     answer: Name,
     key: str,
     elsewhere: Callable[..., Quantity] | None = None,
-    about: str | None = None,
-    origin: str | None = None,
+    about: Point = None,
+    origin: Point = None,
     direction: Axis = None,
     symbol: str | None = None,
 ) -> Quantity:
@@ -207,6 +207,11 @@ def _functions_made(
     return tuple(around.one(each) if isinstance(each, Word) else each for each in found)
 
 
+def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
+    """Return the values by plain names: a call of a verb is recalled only if its arguments have no place in a file."""
+    return {str(name): value for name, value in found.items()}
+
+
 def _formula_made(result: Result, key: ResultKey, written: Formula, around: Surroundings) -> Any:
     around.momenta_named(map(str, names_in(written.node)))
     return written.with_answers(around.one)
@@ -220,12 +225,13 @@ SORTS: Mapping[Holds, Sort] = {
     Holds.LETTERS: Sort(EXPRESSIONS, _letters),
     Holds.COORDINATE: Sort(EXPRESSIONS, _letter, _coordinate),
     Holds.VALUE: Sort(SCALAR, _value),
-    Holds.VALUES: Sort(mapping_of(SCALAR), _values),
+    Holds.VALUES: Sort(mapping_of(SCALAR), _values, _plain_values),
     Holds.ENDS: Sort(ENDS, lambda verb, key, ends, letters: tuple(value_or_infinity(each, letters) for each in ends)),
     Holds.ORDER: Sort(WORD, _order),
-    Holds.WORD: Sort(WORD, lambda verb, key, word, letters: word),
-    Holds.SYMBOL: Sort(NAMES, _symbol),
-    Holds.SYMBOLS: Sort(NAMES, lambda verb, key, node, letters: names(node)),
+    Holds.WORD: Sort(WORD, lambda verb, key, word, letters: str(word)),
+    Holds.SYMBOL: Sort(NAMES, lambda verb, key, node, letters: str(_symbol(verb, key, node, letters))),
+    Holds.SYMBOLS: Sort(NAMES, lambda verb, key, node, letters: tuple(map(str, names(node)))),
+    Holds.POINT: Sort(TEXT, lambda verb, key, word, letters: word),
     Holds.FORMULA: Sort(
         SCALAR,
         lambda verb, key, node, letters: formula(node, letters.letters),
