@@ -1,8 +1,8 @@
 """Earlier calls of verbs: their results are reused, with everything that they left on the record.
 A verb returns the same result if its arguments are the same, if as much is known of the letters, and if all that it
-asks of the record has the same answer. Arguments are identified by digests of their content, so a
-call is recalled even if
-its arguments were derived again. A call whose arguments have no description, such as a function of a script, is made.
+asks of the record has the same answer. Arguments are identified by digests of their content, so a call is recalled
+even if its arguments were derived again. A call whose arguments have no description, such as a function of a script,
+is made.
 """
 
 from __future__ import annotations

@@ -154,7 +154,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
     of         its coefficients, and the quantities for letters in them
     apart      the factor of the left side without x
     keys       answers that this step gives if there is only one root
-    Second route: substituted back into the equation; the sum of the two is -b/a.
+    Check: substituted back into the equation; the sum of the two is -b/a.
     Outcomes: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (two, one of each sign), linear.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
@@ -252,7 +252,7 @@ def _one_of_two(
     both: Quantity, sign: int, outcome: str, key: str, letter: str | None, stands_for: Sequence[str] = ()
 ) -> Quantity:
     """One of the two roots of a quadratic equation, with the given sign before the square root.
-    Second route: substituted back into the equation; 2 c/(-b -+ sqrt(b^2 - 4 a c)), in which the smaller root has the
+    Check: substituted back into the equation; 2 c/(-b -+ sqrt(b^2 - 4 a c)), in which the smaller root has the
     larger denominator.
     Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (of opposite signs), coinciding.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
@@ -299,7 +299,7 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
     """Statement that there is no real root for the given numbers, b^2 - 4 a c < 0.
 
     Outcomes: none.
-    Second route: the numbers substituted in the discriminant by the resultant.
+    Check: the numbers substituted in the discriminant by the resultant.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of = both.needed(Roots)

@@ -154,7 +154,6 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; forces keep
     a constraint on the coordinates.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
-    Source: that of `equilibria`.
     """
     require_kind("equilibria", "of", of, "energy")
     if explicit(of.value).has(TIME):

@@ -87,7 +87,6 @@ def stability(
     Errors: a force remains there; coordinates are missing; for several coordinates the energy has no minimum, but
     forces linear in the rates, as in a rotating frame or a magnetic field, may still stabilise the equilibrium.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
-    Source: that of `stability`.
     """
     require_kind("stability", "of", of, "energy")
     held = constraints_of(of)

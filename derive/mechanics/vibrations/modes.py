@@ -73,7 +73,6 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     Errors: the roots have no closed form, and letters have no numbers; with drag the modes do not separate; too many
     letters.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
-    Source: that of `normal_modes`.
     """
     together = linear[0].needed(Linear)
     _check_whole(linear, together)

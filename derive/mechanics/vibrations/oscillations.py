@@ -202,7 +202,7 @@ def _rate(
     stands_for: Sequence[str] = (),
 ) -> Quantity:
     """Frequency of the oscillation, or growth rate kappa.
-    Second route: the motion substituted back; its sign.
+    Check: the motion substituted back; its sign.
     Outcomes: stable, conditional, neutral, unstable, growing (unstable if the square is negative, which is open).
     Source: that of `frequency`.
     """
