@@ -110,6 +110,43 @@ def test_what_a_reference_pins_otherwise_is_recalled_too(tmp_path: Path, made: l
     assert made.count("torque") == 1
 
 
+WEDGE = """\
+title: A block that slides on a wedge
+solve: system
+symbols: {m: mass, M: mass, g: acceleration, h: length, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {x: length, s: length}
+  places: {wedge: [x, 0]}
+  particles:
+    wedge: {mass: M, at: wedge}
+    block: {mass: m, at: {from: wedge, by: [s*cos(alpha), h - s*sin(alpha)]}}
+  gravity: g
+  results:
+    heavy: {limit: acceleration_s, for: M, to: infinity}
+    steep: {put_in: acceleration_s, values: {alpha: pi/2}}
+statement: A block slides on a wedge.
+parts:
+  - ask: Find the accelerations.
+    answer: [accelerations, heavy, steep]
+"""
+
+
+def test_calls_that_results_makes_are_recalled(tmp_path: Path, made: list[str]) -> None:
+    course, cache = course_in(tmp_path), Cache(tmp_path / "kept")
+    (course / "problems" / "hw9" / "block.py").unlink()
+    (course / "problems" / "hw9" / "block.yaml").write_text(WEDGE)
+    derive(course, cache)
+    assert {"heavy", "steep"} <= set(made)
+    made.clear()
+    derive(course, cache)
+    assert not {"heavy", "steep"} & set(made)
+    change(course, "block.yaml", "{alpha: pi/2}", "{alpha: pi/4}")
+    made.clear()
+    assert page(course, "hw9/block", cache) == page(course, "hw9/block", Cache())
+    assert made.count("steep") == 2, "once with the cache and once without"
+    assert made.count("heavy") == 1, "without the cache alone"
+
+
 def test_a_part_that_is_added_derives_itself_alone(tmp_path: Path, made: list[str]) -> None:
     course, cache = course_in(tmp_path), Cache(tmp_path / "kept")
     derive(course, cache)
