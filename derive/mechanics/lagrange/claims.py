@@ -324,6 +324,19 @@ def constraint_rate_in_coordinates(facts: Judged) -> bool:
     return bool(not has_rates(facts.inputs["condition"]))
 
 
+def _is_constrained(facts: Judged) -> bool:
+    kept = facts.quantities["lagrangian"].fact(Constrained)
+    return bool(kept and kept.constraints)
+
+
+def acceleration_with_constraints(facts: Judged) -> bool:
+    return bool(lasts(facts) and _is_constrained(facts))
+
+
+def acceleration_without_constraints(facts: Judged) -> bool:
+    return bool(lasts(facts) and not _is_constrained(facts))
+
+
 def multiplier_generic(facts: Judged) -> bool:
     return bool(lasts(facts) and not is_stretched(facts))
 

@@ -124,10 +124,11 @@ def _lagrangian_of(verb: str, equation: Quantity) -> Quantity:
 
 
 def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
-    """Accelerations q_ddot, from the equations of motion and the constraints.
+    """Accelerations q_ddot, from the equations of motion and the constraints, if any.
 
     equations   of motion, one for each coordinate of one Lagrangian
     Keys: acceleration_ and the name of the coordinate.
+    Outcomes: generic (with constraints), unconstrained, zero.
     Second route: they are substituted in d'Alembert's principle, sum of (m a - F) . dr/dq = 0 for every coordinate,
     with constraint forces; and the constraints, differentiated as functions of t, remain satisfied.
     Errors: an equation is missing; the constraints contradict or repeat one another; a coordinate has no inertia.
@@ -224,7 +225,11 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 ACCELERATION = Rule(
     "lagrange.acceleration",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-    outcomes={"generic": lasts, "zero": vanishes},
+    outcomes={
+        "generic": claims.acceleration_with_constraints,
+        "unconstrained": claims.acceleration_without_constraints,
+        "zero": vanishes,
+    },
     evidence={"virtual_work": ROUTE, "constraint": CHECK},
     statements=[claims.a_second_rate, says_what_it_divides_by],
 )
@@ -243,8 +248,11 @@ def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Qu
             "virtual_work": lambda value: _virtual_work(problem, {**found, rate(q, 2): value}),
             "constraint": lambda value: _keeps_holding(problem, {**found, rate(q, 2): value}),
         },
-        outcome=lambda value: "zero" if value == 0 else "generic",
-        phrase_data=PhraseData(formulas=told_of_divisors([found[rate(p, 2)] for p in problem.moving])),
+        outcome=lambda value: "zero" if value == 0 else "generic" if problem.constraints else "unconstrained",
+        phrase_data=PhraseData(
+            formulas=told_of_divisors([found[rate(p, 2)] for p in problem.moving]),
+            points_to={"lagrangian": problem.lagrangian},
+        ),
         key=f"acceleration_{q.name}",
         kind=_kind_of_acceleration(coordinate.kind),
         parents=[*problem.equations, *rates],
