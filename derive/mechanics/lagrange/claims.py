@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import combinations, islice
+from itertools import combinations
 from typing import Any
 
 from sympy import (
@@ -21,7 +21,7 @@ from sympy import (
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, Partial, Relation, bound, explicit, rate
-from derive.algebra.samples import letters_of, points, seed_of
+from derive.algebra.samples import letters_of
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
@@ -32,6 +32,7 @@ from derive.steps.claims import lasts, letters_in, parallel, value_of_role
 from derive.steps.record import assumed, assumed_in_words, coordinates_in
 from derive.steps.rule import Judged, Predicate, Statement, handed_on_by
 from derive.steps.step import Quantity, is_zero
+from derive.steps.trial_numbers import Point, everywhere, trial_points
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
@@ -222,13 +223,14 @@ def is_stretched(facts: Judged) -> bool:
     moving = sorted(coordinates_in(ImmutableDenseMatrix([*place, condition])), key=str)
     J = Matrix([[diff(c, q) for q in moving] for c in place])
     a = Matrix([diff(condition, q) for q in moving])
-    for point in islice(points(letters_of(condition) | set().union(*map(letters_of, place)), seed_of(condition)), 4):
+
+    def is_unit(point: Point) -> bool:
         there = {letter: value.evalf(30) for letter, value in point.items()}
         jacobian, slopes = J.xreplace(there).evalf(30), a.xreplace(there).evalf(30)
         steepest = (jacobian * jacobian.T).inv() * jacobian * slopes
-        if abs(steepest.norm() - 1) > Rational(1, 10**9):
-            return True
-    return False
+        return bool(abs(steepest.norm() - 1) <= Rational(1, 10**9))
+
+    return not everywhere(trial_points(letters_of(condition).union(*map(letters_of, place)), tried=4), is_unit)
 
 
 Told = Callable[[Judged, str], bool]
