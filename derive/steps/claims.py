@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
-from itertools import islice
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from sympy import (
     Expr,
     Integer,
     Mul,
-    Rational,
-    Symbol,
     factor,
     factor_terms,
-    prime,
 )
 
-from derive.algebra.expressions import Relation, explicit
-from derive.algebra.ranges import fulfilling, range_of, strict_sign_within
-from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.expressions import explicit
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.steps.known_numbers import sign_known, with_numbers
-from derive.steps.record import assumed
 from derive.steps.rule import Judged, Naming, Predicate
 from derive.steps.step import is_zero
+from derive.steps.trial_numbers import Point, everywhere, holds_at, sign_at, signs_of, trial_points
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
@@ -69,9 +64,6 @@ def parallel(one: Mapping[Any, Expr], other: Mapping[Any, Expr]) -> bool:
     return first is not None and all(is_zero(one[k] * other[first] - one[first] * other[k]) for k in other)
 
 
-TRIED, MANY = 12, 60  # points within the ranges; points among which some fulfil the assumptions
-
-
 MARK_OF = {  # name of a comparison -> its sign
     "equal_to": "=",
     "different_from": "!=",
@@ -82,44 +74,12 @@ MARK_OF = {  # name of a comparison -> its sign
 }
 
 
-def holds_at(condition: Relation, point: Any) -> bool:
-    """Whether a condition is true for these numbers."""
-    apart = value_at(explicit(condition.residual), point)
-    if condition.operator in {"=", "!="}:
-        return bool(apart == 0) == (condition.operator == "=")
-    ahead = apart if condition.operator[0] == ">" else -apart
-    return bool(ahead > 0 or ahead == 0 and condition.operator.endswith("="))
-
-
-def points_as_assumed(letters: set[Any], seed: int) -> Iterator[Any]:
-    """Yield points that fulfil every assumption of the page about these letters."""
-    conditions = [with_numbers(each) for each in assumed() if letters_of(each.residual) <= letters]
-    for point in islice(points(letters, seed), MANY):
-        try:
-            if all(holds_at(each, point) for each in conditions):
-                yield point
-        except (Undefined, NoNumber):
-            continue
-
-
 def vanishes(facts: Judged) -> bool:
     return is_zero(facts.result)
 
 
 def lasts(facts: Judged) -> bool:
     return not is_zero(facts.result)
-
-
-def may_be_negative(letter: Any) -> bool:
-    """Whether the letter may be negative: it is not declared nonnegative, and it has no range."""
-    return not letter.is_nonnegative and range_of(letter) is None
-
-
-def turned(numbers: Mapping[Any, Expr], shift: int) -> dict[Any, Expr]:
-    """Return the same numbers, some with a minus sign where the letter may be negative; over the shifts, two
-    neighbours take all four combinations of signs."""
-    signs = (-1 if may_be_negative(s) and shift >> i % 2 & 1 else 1 for i, s in enumerate(numbers))
-    return fulfilling({s: sign * number for (s, number), sign in zip(numbers.items(), signs, strict=True)})
 
 
 def never_vanishes(v: Any) -> bool:
@@ -148,49 +108,19 @@ def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts:
 
 
 def _sign_in_ranges(value: Expr) -> int | None:
-    """Return the sign that follows from the ranges of the letters, if it is confirmed at numbers within them."""
+    """Return the sign that follows from the ranges of the letters, if it is confirmed at trial numbers."""
     sign = strict_sign_within(value)
-    letters = letters_of(value)
-    if sign is None:
-        return None
-    try:
-        found = [value_at(value, point) for point in islice(points(letters, seed_of(value)), TRIED)]
-    except (Undefined, NoNumber):
-        return None
-    return sign if all(sign * number > 0 for number in found) else None
+    return sign if sign is not None and signs_of(value) == {sign} else None
 
 
 def sign_where_it_exists(wanted: int, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
     """Judge the sign at the given numbers, or at any numbers for which the equilibrium exists."""
 
     def is_so(facts: Judged) -> bool:
-        return not is_zero(of(facts)) and _signs_where(of(facts), facts.inputs.get("exists")) == {wanted}
+        conditions = [with_numbers(facts.inputs["exists"])] if "exists" in facts.inputs else []
+        return not is_zero(of(facts)) and signs_of(with_numbers(of(facts)), *conditions) == {wanted}
 
     return is_so
-
-
-def _signs_where(value: Expr, exists: Relation | None) -> set[int]:
-    value = with_numbers(value)
-    condition = (
-        with_numbers(exists.residual) * (1 if exists.operator == ">" else -1) if exists is not None else Integer(1)
-    )
-    letters = sorted(value.free_symbols | condition.free_symbols, key=str)
-    found = set()
-    for shift in range(24):
-        numbers = turned({s: _number(s, i, shift) for i, s in enumerate(letters)}, shift)
-        if condition.xreplace(numbers).evalf(30) > 0:
-            found.add(1 if value.xreplace(numbers).evalf(30) > 0 else -1)
-    return found
-
-
-def _number(letter: Symbol, n: int, shift: int) -> Expr:
-    """Return the number of a letter: large where that of another is small, and within its range if it has one."""
-    if (known := range_of(letter)) is not None:
-        return known.at(Rational(1 + (3 * n + 5 * shift) % 7, 8))
-    return Rational(prime(2 + (11 * n + 5 * shift + n * shift) % 29), 7 + n)
-
-
-POINTS = 24
 
 
 def letters_in(value: Any) -> set[Any]:
@@ -201,22 +131,15 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
     """Whether the root is numerically real, and positive where required, exactly where the condition holds.
     Letters with a given number keep it: the number may decide what the condition leaves open.
     """
-    told, given, value = facts.inputs.get("condition"), facts.inputs.get("existing"), explicit(facts.result)
-    conditions = [explicit(each.residual) for each in (told, given) if each is not None]
-    letters = letters_of(value).union(*map(letters_of, conditions))
-    known = {letter: number for letter in letters if not (number := with_numbers(letter)).free_symbols}
-    for drawn in islice(points(letters, seed_of(value)), POINTS):
-        try:
-            point = {**drawn, **known}
-            number = value_at(value, point)
-            if given is not None and not holds_at(given, point):
-                continue
-            is_root = bool(number.is_real) and (facts.inputs["positive"] == 0 or number > 0)
-            if is_root != (told is None or holds_at(told, point)):
-                return False
-        except (Undefined, NoNumber):
-            continue
-    return True
+    value = with_numbers(facts.result)
+    told, given = ([with_numbers(facts.inputs[r])] if r in facts.inputs else [] for r in ("condition", "existing"))
+    letters = letters_of(value).union(*(letters_of(each.residual) for each in (*told, *given)))
+    allowed = {1, 0, -1} if facts.inputs["positive"] == 0 else {1}
+
+    def is_so(point: Point) -> bool:
+        return (sign_at(value, point) in allowed) == all(holds_at(each, point) for each in told)
+
+    return everywhere(trial_points(letters, *given), is_so)
 
 
 def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
@@ -248,16 +171,12 @@ def not_negative(facts: Judged, outcome: str) -> bool:
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:
     """Whether a period or a radius is not negative for any numbers; its sign must not depend on the letters."""
-    return not_negative(facts, outcome) and all(number >= 0 for number in real_numbers(facts))
+    return not_negative(facts, outcome) and nowhere_negative_where_real(facts)
 
 
-def real_numbers(facts: Judged) -> Iterator[Expr]:
-    value = explicit(facts.result)
-    for point in islice(points(letters_of(value), seed_of(value)), POINTS):
-        with suppress(Undefined, NoNumber):
-            number = value_at(value, point)
-            if number.is_real:
-                yield number
+def nowhere_negative_where_real(facts: Judged) -> bool:
+    found = signs_of(explicit(facts.result)) - {None}
+    return bool(found) and -1 not in found
 
 
 def value_integrated(facts: Judged) -> bool:

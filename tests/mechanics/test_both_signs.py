@@ -9,9 +9,9 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, sqrt, symbols
 
 from derive.algebra.ranges import POSITIVE, Range, within
 from derive.mechanics.answers.quadratics import Quadratic
-from derive.steps.claims import turned
 from derive.steps.record import Run, recorded
 from derive.steps.rule import Judged
+from derive.steps.trial_numbers import sign_at, trial_points
 from tests.rules import holds
 
 m, k = symbols("m k", positive=True)
@@ -59,10 +59,13 @@ def test_which_root_is_smaller_depends_on_the_sign_of_a_letter() -> None:
 
 
 def test_all_ways_of_two_letters_are_tried() -> None:
-    one = 0 * m + 1
-    ways = [tuple(turned({alpha: one, m: one, beta: one}, shift).values()) for shift in range(4)]
-    assert {way[1] for way in ways} == {1} and {way[0] for way in ways} == {1, -1}
-    both = [tuple(turned({alpha: one, beta: one}, shift).values()) for shift in range(4)]
-    assert set(both) == {(1, 1), (1, -1), (-1, 1), (-1, -1)}
-    with within({alpha: Range(one, 3 * one)}):
-        assert {turned({alpha: one}, shift)[alpha] for shift in range(4)} == {1}
+    """Whatever positive letters are between them."""
+
+    def ways(*letters: Expr) -> set[tuple[int, ...]]:
+        return {tuple(sign_at(letter, point) or 0 for letter in letters) for point in trial_points({*letters, m, k})}
+
+    assert ways(m) == {(1,)}
+    assert ways(alpha, beta) == {(1, 1), (1, -1), (-1, 1), (-1, -1)}
+    assert len(ways(alpha, beta, *symbols("x y", real=True))) == 16
+    with within({alpha: Range(Integer(1), Integer(3))}):
+        assert ways(alpha) == {(1,)}

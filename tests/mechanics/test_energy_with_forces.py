@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from sympy import cos, sin, symbols
+from sympy import Expr, cos, sin, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import explicit, rate
@@ -64,6 +64,23 @@ def test_drag_takes_twice_the_dissipation_function() -> None:
     assert h.step.outcome == "work_energy"
     assert found.step.outcome == "lost"
     assert equal(explicit(found.value.right), -b * x.rate**2)
+
+
+@pytest.mark.parametrize(("coupling", "is_lost"), [(0, True), (b, True), (-2 * b, True), (3 * b, False), (a, False)])
+def test_energy_is_called_lost_only_if_no_velocity_makes_the_power_positive(
+    coupling: Expr, is_lost: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The power is -b v_x^2 - b v_y^2 + c v_x v_y, at most zero for c^2 <= 4 b^2; both squares have a minus sign."""
+    x, y = coordinate("x", "length"), coordinate("y", "length")
+    h = energy_function(
+        lagrangian(System(Particle(m, point(x, y)), force((coupling * y.rate - b * x.rate, -b * y.rate), point(x, y))))
+    )
+    monkeypatch.setattr(energy, "_sort_of_rate", lambda *_: "lost")
+    if is_lost:
+        assert energy_function_rate(h).step.outcome == "lost"
+    else:
+        with pytest.raises(Unverified):
+            energy_function_rate(h)
 
 
 def test_a_force_that_drives_does_the_work_force_times_velocity() -> None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
-from itertools import islice
 from typing import Any
 
 from sympy import (
@@ -21,7 +20,6 @@ from sympy import (
     factor_list,
     gcd_list,
     oo,
-    prime,
     sign,
     sin,
 )
@@ -29,29 +27,34 @@ from sympy import (
 from derive.algebra.equality import equal
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit
-from derive.algebra.ranges import range_of, rational_in_range
-from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.ranges import range_of
+from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
 from derive.solving.root_of_factor import RootOf
 from derive.steps.claims import (
     MARK_OF,
-    POINTS,
-    holds_at,
     is_a_root_just_where_told,
     letters_in,
     same_equation,
-    turned,
     value_of_role,
 )
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assumed
 from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.step import is_zero
+from derive.steps.trial_numbers import (
+    ALLOWED,
+    Point,
+    assumptions_about,
+    everywhere,
+    holds_at,
+    real_at,
+    roots_of,
+    signs_of,
+    trial_points,
+)
 
-TRIED, LITTLE = 8, 1e-12
-
-
-_CAN_BE = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
+LITTLE = 1e-12
 
 
 def one_of(alone: bool, first: bool) -> Predicate:
@@ -85,18 +88,18 @@ def double(facts: Judged) -> bool:
 def only(facts: Judged) -> bool:
     """Whether this root is the only one kept: the polynomial has other roots, but they are complex or not positive."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
-    return alone and all(_only_there(facts, point) for point in islice(points(_letters(facts), 4099), TRIED))
+    return alone and everywhere(trial_points(_letters(facts)), lambda point: _only_there(facts, point))
 
 
 def _letters(facts: Judged) -> set[Any]:
     return letters_of(_polynomial(facts).as_expr()) - {facts.inputs["gen"]}
 
 
-def _only_there(facts: Judged, point: Any) -> bool:
+def _only_there(facts: Judged, point: Point) -> bool:
     """Whether, numerically, no other root is possible."""
     own = complex(value_at(explicit(facts.result), point))
-    there = Poly(_polynomial(facts).as_expr().xreplace(point), facts.inputs["gen"])
-    numbers = sorted((complex(root) for root in there.nroots(n=20, maxsteps=200)), key=lambda root: abs(root - own))
+    there = Poly(_polynomial(facts).as_expr().xreplace(dict(point)), facts.inputs["gen"])
+    numbers = sorted(roots_of(there), key=lambda root: abs(root - own))
     unknown, size = facts.inputs["unknown"], max(map(abs, numbers)) or 1
     known, limited = range_of(unknown), isinstance(unknown, sin | cos)
     for other in numbers[1:]:
@@ -130,15 +133,13 @@ def where_the_coefficients_last(predicate: Predicate) -> Predicate:
 
 
 def absent(facts: Judged) -> bool:
-    return isinstance(facts.result, Relation) and sign_known(facts.result.left) in _CAN_BE[facts.result.operator]
+    return isinstance(facts.result, Relation) and sign_known(facts.result.left) in ALLOWED[facts.result.operator]
 
 
 def beyond_one(facts: Judged) -> bool:
     """Whether, numerically, the cosine is greater than 1, or less than -1."""
-    value = with_numbers(facts.result.left)
-    letters = {letter: Rational(7, 5) for letter in value.free_symbols}
-    there = value.xreplace(letters).evalf(20)
-    return bool(there > 1 if facts.result.operator == ">" else there < -1)
+    side = 1 if facts.result.operator == ">" else -1
+    return signs_of(side * with_numbers(facts.result.left) - 1) == {1}
 
 
 def put_in(only_values: bool) -> Predicate:
@@ -180,12 +181,11 @@ def always(wanted: bool) -> Predicate:
     """Whether the difference has one sign for all values of the letters, and this sign fulfils the comparison."""
 
     def is_so(facts: Judged) -> bool:
-        held = facts.inputs["sign"] in _CAN_BE[MARK_OF[facts.words["comparison"]]]
+        held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]
         difference = with_numbers(facts.inputs["difference"])
-        letters = sorted(difference.free_symbols, key=str)
-        there = difference.subs({letter: Integer(3 + 2 * i) / 4 for i, letter in enumerate(letters)}).evalf(20)
-        sign = 0 if is_zero(facts.inputs["difference"]) else (1 if there > 0 else -1)
-        return held == wanted and bool(sign == facts.inputs["sign"] or sign in _CAN_BE[facts.result.operator])
+        found = signs_of(difference, *assumptions_about(letters_of(difference)))
+        allowed = {facts.inputs["sign"], *ALLOWED[facts.result.operator]}
+        return held == wanted and bool(found) and found <= allowed
 
     return is_so
 
@@ -247,20 +247,17 @@ def bent(sign: int) -> Predicate:
         told = [c for role, c in facts.inputs.items() if role == "condition" or role.startswith("inside_")]
         conditions = [with_numbers(explicit(condition).xreplace(varied)) for condition in (*told, *assumed())]
         letters = {s for e in (value, place, *(c.residual for c in conditions)) for s in letters_of(e)} - {x}
-        seen = []
-        for point in islice(points(letters, seed_of(value, place)), 40):
-            try:
-                there = value_at(place, point)
-                if all(holds_at(c, {**point, x: there}) for c in conditions):
-                    seen.append(_beside(value, x, there, point))
-            except (Undefined, NoNumber, TypeError):
-                continue
-        return bool(seen) and all(sign * apart > 0 for apart in seen[:3])
+        there = [condition.xreplace({x: place}) for condition in conditions]
+
+        def is_so_at(point: Point) -> bool:
+            return bool(sign * _beside(value, x, value_at(place, point), point) > 0)
+
+        return everywhere(trial_points(letters, *there), is_so_at)
 
     return is_so
 
 
-def _beside(value: Expr, x: Symbol, place: Expr, point: Any) -> Expr:
+def _beside(value: Expr, x: Symbol, place: Expr, point: Point) -> Expr:
     near = abs(place) / 10**6 + Rational(1, 10**9)
     there, *others = (value_at(value, {**point, x: place + k * near}) for k in (0, 1, -1))
     return min(there - other for other in others) if there > others[0] else max(there - other for other in others)
@@ -298,30 +295,16 @@ def to_order(wanted: int | None) -> Predicate:
     return is_so
 
 
-def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
-    """Yield numbers for the letters, of several magnitudes and both signs; within the range of a letter with one."""
-    ordered = sorted(letters, key=str)
-    for shift in range(12):
-        drawn = (Rational(prime(5 + (7 * i + 3 * shift) % 23), 2 + (i + shift) % 5) for i in range(len(ordered)))
-        yield turned({s: rational_in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}, shift)
-
-
-def _two_roots(facts: Judged) -> Iterable[tuple[Expr, Expr, Expr]]:
-    """Yield this root, the other root and the coefficient b at numbers for which the roots are real: the given numbers,
-    and some for each letter without one."""
-    quadratic = facts.inputs["quadratic"]
-    other = -quadratic.b / quadratic.a - facts.result
-    this, other, b, discriminant = map(with_numbers, (facts.result, other, quadratic.b, quadratic.discriminant))
-    letters = set().union(*(each.free_symbols for each in (this, other, b, discriminant)))
-    for point in _some_points(letters) if letters else ({},):
-        if discriminant.xreplace(point).evalf(30) > 0 or not letters:
-            yield tuple(each.xreplace(point).evalf(30) for each in (this, other, b))
-
-
 def roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
+    """Test this root, the other root and the coefficient b where the roots are real: at the given numbers, and at trial
+    numbers for each letter without one."""
+
     def is_so(facts: Judged) -> bool:
-        seen = list(_two_roots(facts))
-        return bool(seen) and all(bool(test(*numbers)) for numbers in seen)
+        quadratic = facts.inputs["quadratic"]
+        other = -quadratic.b / quadratic.a - facts.result
+        values = [with_numbers(each) for each in (facts.result, other, quadratic.b, quadratic.discriminant)]
+        points = trial_points(set().union(*map(letters_of, values)), Relation(values.pop(), ">", 0))
+        return everywhere(points, lambda point: bool(test(*(value_at(each, point) for each in values))))
 
     return is_so
 
@@ -495,17 +478,18 @@ def _between_the_ends_just_where_told(facts: Judged) -> bool:
     inside = [each for role, each in facts.inputs.items() if role.startswith("inside_")]
     real = [each for role, each in facts.inputs.items() if role == "condition"]
     letters = letters_of(place).union(*map(letters_of, ends), *(letters_of(each.residual) for each in inside))
-    for point in islice(points(letters, seed_of(place)), POINTS):
-        try:
-            low, there, high = (value_at(each, point) for each in (ends[0], place, ends[1]))
-            at = {**point, facts.inputs["letter"]: there}
-            if not low < high or not all(holds_at(each, at) for each in (*real, *assumed())):
-                continue
-            if (low < there < high) != all(holds_at(each, point) for each in inside):
-                return False
-        except (Undefined, NoNumber, TypeError):
-            continue
-    return True
+
+    def is_so(point: Point) -> bool | None:
+        found: list[Any] = [real_at(each, point) for each in (ends[0], place, ends[1])]
+        if None in found:
+            return None
+        low, there, high = found
+        at = {**point, facts.inputs["letter"]: there}
+        if not low < high or not all(holds_at(each, at) for each in (*real, *assumed())):
+            return None
+        return bool(low < there < high) == all(holds_at(each, point) for each in inside)
+
+    return everywhere(trial_points(letters), is_so)
 
 
 def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:

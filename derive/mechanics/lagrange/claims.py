@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import islice
+from itertools import combinations
 from typing import Any
 
 from sympy import (
@@ -16,12 +16,14 @@ from sympy import (
     Rational,
     Symbol,
     diff,
+    hessian,
 )
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, Partial, Relation, bound, explicit, rate
-from derive.algebra.samples import letters_of, points, seed_of
+from derive.algebra.samples import letters_of
 from derive.algebra.taylor import slope
+from derive.algebra.tidy import tidied
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.mechanics.lagrange.facts import Energies, ForceOf, KeptMomentum, WithMomenta, energies_of
 from derive.mechanics.model.constraint import Constrained
@@ -30,6 +32,7 @@ from derive.steps.claims import lasts, letters_in, parallel, value_of_role
 from derive.steps.record import assumed, assumed_in_words, coordinates_in
 from derive.steps.rule import Judged, Predicate, Statement, handed_on_by
 from derive.steps.step import Quantity, is_zero
+from derive.steps.trial_numbers import Point, everywhere, trial_points
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
@@ -131,10 +134,15 @@ def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> 
 
 
 def _never_gains(power: Expr, moving: tuple[Symbol, ...]) -> bool:
-    """The power is even in the rates, and its second derivative by each rate is not positive."""
+    """The power vanishes at rest, is even in the rates, and is nowhere convex along any of their combinations: no
+    principal minor of its second derivatives, with a minus sign, is negative."""
     rates = [rate(q) for q in moving]
-    forwards = power.xreplace({v: -v for v in rates})
-    return is_zero(forwards - power) and all(bool(diff(power, v, 2).is_nonpositive) for v in rates)
+    at_rest = power.xreplace(dict.fromkeys(rates, Integer(0)))
+    turned = power.xreplace({v: -v for v in rates})
+    bent = -hessian(power, rates)
+    chosen = [rows for n in range(len(rates)) for rows in combinations(range(len(rates)), n + 1)]
+    minors = [tidied(bent.extract(rows, rows).det()) for rows in chosen]
+    return is_zero(at_rest) and is_zero(turned - power) and all(bool(each.is_nonnegative) for each in minors)
 
 
 def carries_momenta_alone(facts: Judged) -> bool:
@@ -215,13 +223,14 @@ def is_stretched(facts: Judged) -> bool:
     moving = sorted(coordinates_in(ImmutableDenseMatrix([*place, condition])), key=str)
     J = Matrix([[diff(c, q) for q in moving] for c in place])
     a = Matrix([diff(condition, q) for q in moving])
-    for point in islice(points(letters_of(condition) | set().union(*map(letters_of, place)), seed_of(condition)), 4):
+
+    def is_unit(point: Point) -> bool:
         there = {letter: value.evalf(30) for letter, value in point.items()}
         jacobian, slopes = J.xreplace(there).evalf(30), a.xreplace(there).evalf(30)
         steepest = (jacobian * jacobian.T).inv() * jacobian * slopes
-        if abs(steepest.norm() - 1) > Rational(1, 10**9):
-            return True
-    return False
+        return bool(abs(steepest.norm() - 1) <= Rational(1, 10**9))
+
+    return not everywhere(trial_points(letters_of(condition).union(*map(letters_of, place)), tried=4), is_unit)
 
 
 Told = Callable[[Judged, str], bool]

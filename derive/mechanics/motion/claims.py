@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-from itertools import islice
 from typing import Any
 
 from sympy import (
     Expr,
     Integer,
-    Rational,
     Symbol,
     acos,
     asin,
@@ -21,13 +18,22 @@ from sympy import (
 )
 
 from derive.algebra.expressions import explicit, rate
-from derive.algebra.samples import NoNumber, Undefined, letters_of, seed_of, value_at
+from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.mechanics.motion.facts import ByEnergy, Steady
-from derive.steps.claims import holds_at, points_as_assumed, same_equation, sign_is, value_of_role
+from derive.steps.claims import same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.step import is_zero
+from derive.steps.trial_numbers import (
+    Point,
+    assumptions_about,
+    everywhere,
+    holds_at,
+    sign_at,
+    signs_of,
+    trial_points,
+)
 
 
 def released(at_rest: bool) -> Predicate:
@@ -42,9 +48,6 @@ def isochronous(wanted: bool) -> Predicate:
         return is_zero(a - a.diff(q).subs(q, 0) * q) == wanted
 
     return is_so
-
-
-TRIED = 8
 
 
 def _letter_at(unknown: Expr, start: Expr) -> tuple[Expr, Expr]:
@@ -65,14 +68,8 @@ def lost(later: bool) -> Predicate:
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
         force = with_numbers(explicit(facts.inputs["force"]).subs(letter, start))
-        seen = []
-        for point in islice(points_as_assumed(letters_of(force), seed_of(force)), 8):
-            try:
-                seen.append(value_at(force, point))
-            except (Undefined, NoNumber):
-                continue
-        there = [value == 0 if later else value > 0 for value in seen if value.is_real]
-        return _vanishing_force(facts) and bool(there) and all(there) and _gets_there_as_told(facts)
+        found = signs_of(force, *assumptions_about(letters_of(force))) - {None}
+        return _vanishing_force(facts) and found == {0 if later else 1} and _gets_there_as_told(facts)
 
     return is_so
 
@@ -85,13 +82,14 @@ def _gets_there_as_told(facts: Judged) -> bool:
     there = explicit(facts.inputs["squared"]).subs(*_letter_at(*facts.result.sides))
     if told is not None and not explicit(told.residual).free_symbols <= there.free_symbols:
         return False
-    value = with_numbers(there)
-    for point in islice(points_as_assumed(letters_of(value), seed_of(value)), TRIED):
-        with suppress(Undefined, NoNumber):
-            number = value_at(value, point)
-            if number.is_real and bool(number > 0) != (told is None or holds_at(with_numbers(told), point)):
-                return False
-    return True
+    value, conditions = with_numbers(there), [] if told is None else [with_numbers(told)]
+    letters = letters_of(value)
+
+    def is_so(point: Point) -> bool | None:
+        sign = sign_at(value, point)
+        return None if sign is None else (sign == 1) == all(holds_at(each, point) for each in conditions)
+
+    return everywhere(trial_points(letters, *assumptions_about(letters)), is_so)
 
 
 def turned_back(facts: Judged) -> bool:
@@ -101,19 +99,13 @@ def turned_back(facts: Judged) -> bool:
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
     values = [with_numbers(explicit(each).subs(*end)) for end in ends for each in (force, squared)]
-    seen = 0
-    for point in islice(points_as_assumed(set().union(*map(letters_of, values)), seed_of(*values)), 8):
-        try:
-            pushing, moving, last, beyond = (value_at(each, point) for each in values)
-        except (Undefined, NoNumber):
-            continue
-        gets_there = abs(beyond) < Rational(1, 10**9)
-        if not (pushing > 0 and moving >= 0 and abs(last) < Rational(1, 10**9)) or gets_there != just_there:
-            return False
-        if not (gets_there or beyond < 0):
-            return False
-        seen += 1
-    return seen > 0
+    letters = set().union(*map(letters_of, values))
+
+    def is_so(point: Point) -> bool:
+        pushing, moving, last, beyond = (sign_at(each, point) for each in values)
+        return (pushing, last, beyond) == (1, 0, 0 if just_there else -1) and moving in (0, 1)
+
+    return everywhere(trial_points(letters, *assumptions_about(letters)), is_so)
 
 
 def by_energy(facts: Judged, fact: ByEnergy) -> bool:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
-from itertools import combinations_with_replacement, islice
+from itertools import combinations_with_replacement
 from typing import Any
 
 from mpmath import mp
@@ -26,9 +26,7 @@ from sympy import (
     factor_list,
     factorial,
     gcd_list,
-    im,
     lambdify,
-    prime,
     sign,
     together,
 )
@@ -36,8 +34,8 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate
-from derive.algebra.ranges import fulfilling, has_meaning, range_of, rational_in_range
-from derive.algebra.samples import NoNumber, SamplePoint, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.ranges import has_meaning, range_of
+from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
 from derive.mechanics.rest.facts import DerivativeOf, LowestOrder, Shape, StableWhere
 from derive.mechanics.rest.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
@@ -45,10 +43,7 @@ from derive.mechanics.rest.on_constraints import signs_on_constraints
 from derive.mechanics.rest.searched import none_is_missing
 from derive.steps.claims import (
     always_sign,
-    holds_at,
     lasts,
-    may_be_negative,
-    points_as_assumed,
     same_equation,
     value_of_role,
     vanishes,
@@ -58,37 +53,21 @@ from derive.steps.numeric import Extreme
 from derive.steps.record import assumed, assumed_in_words
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import is_zero
+from derive.steps.trial_numbers import (
+    Point,
+    assumptions_about,
+    decides,
+    everywhere,
+    holds_at,
+    sign_at,
+    signs_of,
+    trial_points,
+)
 from derive.witness.facts import Rest
-
-SHIFTS = 24
-
-
-LITTLE = Rational(1, 10**12)
-
-
-def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
-    """Yield numbers for the letters, one large where another is small, in different orders of size.
-    A letter that may be negative is negative in some of them.
-    """
-    ordered = sorted(letters, key=str)
-    for shift in range(SHIFTS):
-        drawn = [Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i in range(len(ordered))]
-        turned = [-1 if may_be_negative(s) and shift >> i % 4 & 1 else 1 for i, s in enumerate(ordered)]
-        numbers = zip(ordered, drawn, turned, strict=True)
-        yield fulfilling({s: turn * rational_in_range(s, number) for s, number, turn in numbers})
 
 
 def _entries(value: Any) -> list[Expr]:
     return list(value) if isinstance(value, MatrixBase) else [value]
-
-
-def _is_real(value: Any, point: dict[Any, Expr]) -> bool:
-    return all(abs(im(entry.xreplace(point).evalf(30))) < LITTLE for entry in _entries(value))
-
-
-def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
-    difference = explicit(condition.left - condition.right).xreplace(point).evalf(30)
-    return bool(difference > 0) == (condition.operator == ">")
 
 
 def _letters(facts: Judged) -> set[Any]:
@@ -98,15 +77,14 @@ def _letters(facts: Judged) -> set[Any]:
     return found | (set(exists.free_symbols) if exists is not None else set())
 
 
-def _is_there(facts: Judged, point: dict[Any, Expr]) -> bool:
-    """Whether the equilibrium exists at these numbers: it is real, distances are positive, and no force remains."""
-    if not _is_real(facts.result, point):
-        return False
-    entries = _entries(facts.result)
-    if not all(entries[int(i)].xreplace(point).evalf(30) > 0 for i in facts.inputs["distances"]):
+def _is_there(facts: Judged, point: Point) -> bool:
+    """Whether the equilibrium exists at a point: it is real, distances are positive, and no force remains."""
+    entries, distances = _entries(facts.result), {int(i) for i in facts.inputs["distances"]}
+    signs = [sign_at(entry, point) for entry in entries]
+    if None in signs or not all(signs[i] == 1 for i in distances):
         return False
     there = dict(zip(facts.inputs["sought"], entries, strict=False))
-    return all(abs(force.xreplace(there).xreplace(point).evalf(30)) < LITTLE for force in _sided_forces(facts))
+    return all(sign_at(force.xreplace(there), point) == 0 for force in _sided_forces(facts))
 
 
 def _sided_forces(facts: Judged) -> list[Expr]:
@@ -123,7 +101,8 @@ def _force(facts: Judged, i: int) -> Expr:
 
 def anywhere(facts: Judged) -> bool:
     """Whether it exists for all numbers, and no condition is stated."""
-    return "exists" not in facts.inputs and all(_is_there(facts, n) for n in _numbers(_letters(facts)))
+    points = trial_points(_letters(facts))
+    return "exists" not in facts.inputs and everywhere(points, lambda point: _is_there(facts, point))
 
 
 def several(facts: Judged) -> bool:
@@ -134,8 +113,9 @@ def under_its_condition(facts: Judged) -> bool:
     """Whether it exists exactly where the condition holds, which some numbers fulfil and some do not."""
     if "exists" not in facts.inputs:
         return False
-    tried = [(_holds(facts.inputs["exists"], n), _is_there(facts, n)) for n in _numbers(_letters(facts))]
-    return all(holds == real for holds, real in tried) and {holds for holds, _ in tried} == {True, False}
+    exists, points = facts.inputs["exists"], trial_points(_letters(facts))
+    fits = everywhere(points, lambda point: holds_at(exists, point) == _is_there(facts, point))
+    return fits and decides(exists, points)
 
 
 def _can_be_counted(sought: Sequence[Symbol]) -> bool:
@@ -164,10 +144,10 @@ def _letters_here(facts: Judged) -> list[Any]:
     return sorted((_letters(facts) | of_energy) - set(_moving(facts)), key=str)
 
 
-def _signs_by_numbers(facts: Judged) -> list[tuple[dict[Any, Expr], int]]:
+def _signs_by_numbers(facts: Judged) -> list[tuple[Point, int]]:
     """Return numbers for the letters, for which the equilibrium exists, with the sign of the energy to second order."""
     exists, letters = facts.inputs.get("exists"), _letters_here(facts)
-    points = [n for n in _numbers(set(letters)) if exists is None or _holds(exists, n)]
+    points = trial_points(letters, *([] if exists is None else [exists]))
     numbers = tuple(tuple(point[s] for s in letters) for point in points)
     signs = _signs_at(facts.inputs["potential_here"], _moving(facts), facts.inputs["place"], tuple(letters), numbers)
     return list(zip(points, signs, strict=True))
@@ -179,7 +159,7 @@ def _signs_at(
 ) -> list[int]:
     energy = lambdify([*letters, *moving], potential, "mpmath", dummify=True)
     place = lambdify(letters, list(there), "mpmath")
-    with mp.workdps(50):
+    with mp.workdps(100):
         found = []
         for point in numbers:
             known = [mp.mpf(int(number.p)) / int(number.q) for number in point]
@@ -196,7 +176,7 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
     Nothing is differentiated: differences of the energy at nearby points give the matrix of second order, scaled to a
     suitable size for each coordinate, and the sign is that of its least eigenvalue.
     """
-    step, here, size = mp.mpf(10) ** -12, energy(*place), len(place)
+    step, here, size = mp.mpf(10) ** -30, energy(*place), len(place)
 
     def gained(*ways: int) -> Any:
         moved = [x + step * way for x, way in zip(place, ways, strict=True)]
@@ -211,7 +191,7 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
     matrix = mp.matrix(size, size)
     for i, j in combinations_with_replacement(range(size), 2):
         matrix[i, j] = matrix[j, i] = alone[i] if i == j else (mp.re(twice(i, j)) - alone[i] - alone[j]) / 2
-    noise = (abs(here) + mp.mpf(10) ** -6) * mp.mpf(10) ** -16
+    noise = (abs(here) + mp.mpf(10) ** -6) * mp.mpf(10) ** -34
     rough = [max(abs(matrix[i, j]) for j in range(size)) for i in range(size)]
     kept = [i for i in range(size) if rough[i] > noise]
     scaled = mp.matrix(len(kept), len(kept))
@@ -257,8 +237,8 @@ def nothing_turns_it(facts: Judged) -> bool:
     return matter is None or not is_turned_aside(matter, _at_rest(facts), there)
 
 
-def numbers_here(facts: Judged) -> list[dict[Any, Expr]]:
-    return list(_numbers(set(_letters_here(facts))))
+def numbers_here(facts: Judged) -> list[Point]:
+    return trial_points(_letters_here(facts))
 
 
 def _at_rest(facts: Judged) -> dict[Any, Expr]:
@@ -290,7 +270,7 @@ def kind_of_order(value: Expr, facts: Judged) -> str:
     for order in range(2, 9):
         there = derivative(value, q, order).xreplace({q: place})
         if not is_zero(there):
-            signs = {1 if there.xreplace(n).evalf(20) > 0 else -1 for n in _numbers(there.free_symbols)}
+            signs = signs_of(there)
             if order % 2 or signs == {-1}:
                 return "unstable"
             return "stable" if signs == {1} else "open"
@@ -302,8 +282,9 @@ def depends(border: str | None) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         condition, where = facts.inputs["condition"], facts.inputs.get("at_border")
-        tried = [(_holds(condition, numbers), sign) for numbers, sign in _signs_by_numbers(facts)]
-        fits = all(holds == (sign == 1) for holds, sign in tried if sign) and len({holds for holds, _ in tried}) == 2
+        found = _signs_by_numbers(facts)
+        fits = all(holds_at(condition, point) == (sign == 1) for point, sign in found if sign)
+        fits &= decides(condition, [point for point, _ in found])
         if border is None or where is None or not fits:
             return fits and where is None and border is None
         there = facts.inputs["potential_here"].subs(where.left, where.right)
@@ -372,7 +353,7 @@ def residual(facts: Judged) -> Judged:
     return Judged(facts.result.residual)
 
 
-TRIED, DIGITS_LEFT = 6, 10**40  # places; values have 60 digits
+DIGITS_LEFT = 10**40  # values have 60 digits
 
 
 def facts_derivative(facts: Judged, fact: DerivativeOf) -> bool:
@@ -385,26 +366,21 @@ def facts_derivative(facts: Judged, fact: DerivativeOf) -> bool:
     return is_zero(diff(energy, fact.coordinate, int(order)) - found)
 
 
-def _nearby(point: SamplePoint) -> Expr:
+def _nearby(point: Point) -> Expr:
     """Return a distance that is small compared with every number of a point."""
     return min((abs(number) for number in point.values()), default=Integer(1)) / 10**9
 
 
 def _is_slope_in_numbers(energy: Expr, q: Symbol, order: int, found: Expr) -> bool:
     """Check the derivative of an energy with distances |x - d|, by central differences at random places."""
-    seen = 0
-    for point in islice(points(letters_of(energy) | letters_of(found), seed_of(energy)), TRIED):
-        try:
-            near, steps = _nearby(point), range(order + 1)
-            there = [value_at(energy, {**point, q: point[q] + (n - Rational(order, 2)) * near}) for n in steps]
-            slope = Add(*((-1) ** (order - n) * binomial(order, n) * there[n] for n in steps)) / near**order
-            apart, size = slope - value_at(found, point), abs(slope) + 1
-        except (Undefined, NoNumber):
-            continue
-        if abs(apart) > size / 10**6:
-            return False
-        seen += 1
-    return seen > 0
+
+    def is_so(point: Point) -> bool:
+        near, steps = _nearby(point), range(order + 1)
+        there = [value_at(energy, {**point, q: point[q] + (n - Rational(order, 2)) * near}) for n in steps]
+        slope = Add(*((-1) ** (order - n) * binomial(order, n) * there[n] for n in steps)) / near**order
+        return bool(abs(slope - value_at(found, point)) <= (abs(slope) + 1) / 10**6)
+
+    return everywhere(trial_points(letters_of(energy) | letters_of(found)), is_so)
 
 
 def curvature(facts: Judged, fact: Extreme) -> bool:
@@ -431,24 +407,19 @@ def shape(facts: Judged, fact: Shape) -> bool:
 
 def _is_curvature_in_numbers(facts: Judged, energy: Expr, fact: Shape, found: Expr) -> bool:
     """Check the curvature of an energy with distances |x - d| at an equilibrium, by a central difference."""
-    seen, exists = 0, facts.inputs.get("exists")
+    exists = facts.inputs.get("exists")
     conditions = [each for each in (exists, *assumed()) if each is not None]
     letters = letters_of(energy) | letters_of(found) | {s for c in conditions for s in letters_of(c.residual)}
-    for point in islice(points(letters - {fact.coordinate}, seed_of(energy)), 4 * TRIED):
-        try:
-            if not all(holds_at(each, point) for each in conditions):
-                continue
-            at, near = value_at(fact.place, point), _nearby(point)
-            below, there, above = (value_at(energy, {**point, fact.coordinate: at + n * near}) for n in (-1, 0, 1))
-            apart = (below - 2 * there + above) / near**2 - value_at(found, point)
-        except (Undefined, NoNumber):
-            continue
+
+    def is_so(point: Point) -> bool | None:
+        at, near = value_at(fact.place, point), _nearby(point)
+        below, there, above = (value_at(energy, {**point, fact.coordinate: at + n * near}) for n in (-1, 0, 1))
+        expected = value_at(found, point)
         if abs(there) > near**2 * DIGITS_LEFT:  # no digits are left in the difference of such numbers
-            continue
-        if abs(apart) > (abs(value_at(found, point)) + 1) / 10**6:
-            return False
-        seen += 1
-    return seen > 0
+            return None
+        return bool(abs((below - 2 * there + above) / near**2 - expected) <= (abs(expected) + 1) / 10**6)
+
+    return everywhere(trial_points(letters - {fact.coordinate}, *conditions), is_so)
 
 
 def stable_where(facts: Judged, fact: StableWhere) -> bool:
@@ -505,9 +476,6 @@ def bent(sign: int | None) -> Predicate:
     return always_sign(sign, curvature)
 
 
-NEARLY = Rational(1, 10**9)
-
-
 def only_coordinate(facts: Judged, q: Any) -> bool:
     """Whether q is the only coordinate in the potential energy."""
     of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
@@ -526,9 +494,8 @@ def level_there(role: str) -> Naming:
 
 def _vanishes_as_assumed(slope: Expr) -> bool:
     """Whether the slope vanishes numerically; the side of the spring's end on which the place is may be assumed."""
-    drawn = islice(points_as_assumed(letters_of(slope), seed_of(slope)), TRIED)
-    seen = [abs(value_at(slope, point)) < NEARLY for point in drawn]
-    return bool(seen) and all(seen)
+    letters = letters_of(slope)
+    return signs_of(slope, *assumptions_about(letters)) == {0}
 
 
 def extreme_there(facts: Judged, place: Any) -> bool:

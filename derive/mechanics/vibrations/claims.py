@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Callable
 from functools import lru_cache
-from itertools import islice
 from typing import Any
 
 from sympy import (
@@ -21,7 +19,6 @@ from sympy import (
     Rational,
     Symbol,
     diff,
-    prime,
     re,
     tan,
 )
@@ -30,24 +27,33 @@ from sympy.matrices import MatrixBase
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import TIME, Relation, explicit, rate
 from derive.algebra.ordered_roots import OrderedRoot
-from derive.algebra.ranges import fulfilling, rational_in_range
-from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
+from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
 from derive.mechanics.vibrations.facts import Linear, Mode, SquareOf
 from derive.steps.claims import (
     always_sign,
-    holds_at,
     is_a_root_just_where_told,
     not_negative,
-    points_as_assumed,
-    real_numbers,
+    nowhere_negative_where_real,
     same_equation,
     sign_where_it_exists,
-    turned,
 )
 from derive.steps.known_numbers import sign_known
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import is_zero
+from derive.steps.trial_numbers import (
+    TRIED,
+    Point,
+    as_rational,
+    assumptions_about,
+    everywhere,
+    holds_at,
+    roots_of,
+    sign_at,
+    signs,
+    signs_of,
+    trial_points,
+)
 
 
 def free_motion(wanted: str) -> Predicate:
@@ -80,13 +86,10 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
     condition = explicit(facts.inputs["condition"])
     if not same_equation(condition.residual, discriminant) or (condition.operator == "=") != (wanted == 0):
         return False
-    if wanted == 0:
-        return True
-    seen = set()
-    for point in points_as_assumed(letters_of(condition.residual) | letters_of(discriminant), 0):
-        with suppress(Undefined, NoNumber):
-            seen.add(holds_at(condition, point) == (value_at(discriminant, point) * wanted > 0))
-    return condition.operator in (">", "<") and seen == {True}
+    letters = letters_of(condition.residual) | letters_of(discriminant)
+    points = trial_points(letters, *assumptions_about(letters))
+    fits = everywhere(points, lambda point: holds_at(condition, point) == (sign_at(discriminant, point) == wanted))
+    return wanted == 0 or condition.operator in (">", "<") and fits
 
 
 def _unless_it_grows(word: str, rate: Expr) -> str:
@@ -141,56 +144,31 @@ def linear(facts: Judged, fact: Linear) -> bool:
     return False
 
 
-SHIFTS, LITTLE = 20, 1e-9
-
-
-SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))  # one letter is large where another is small
+LITTLE = 1e-9
 
 
 S = Dummy("s")
 
 
-def _numbers(facts: Judged) -> Iterator[dict[Any, Expr]]:
-    """Yield numbers for the letters for which the equilibrium exists."""
-    matrices = [facts.inputs[role] for role in ("stiffness", "turning", "mass")]
-    letters = sorted(set().union(*(each.free_symbols for each in matrices)), key=str)
-    for shift in range(SHIFTS):
-        drawn = {
-            s: rational_in_range(
-                s, Rational(prime(3 + (7 * i + 5 * shift) % 23), 11) * SCALES[(shift * (i + 1) + i) % 5]
-            )
-            for i, s in enumerate(letters)
-        }
-        drawn = fulfilling(drawn)
-        exists = facts.inputs.get("exists")
-        if exists is None or _holds(exists, drawn):
-            yield drawn
-
-
-def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
-    difference = explicit(condition.left - condition.right).xreplace(point).evalf(30)
-    return bool(difference > 0) == (condition.operator == ">")
-
-
-def _roots(facts: Judged, point: dict[Any, Expr]) -> list[complex]:
-    return _roots_of(*(ImmutableDenseMatrix(facts.inputs[role].xreplace(point)) for role in MATRICES))
+def _points(facts: Judged, tried: int = TRIED) -> list[Point]:
+    """Return points for which the equilibrium exists."""
+    letters = set().union(*(facts.inputs[role].free_symbols for role in MATRICES if role in facts.inputs))
+    exists = facts.inputs.get("exists")
+    return trial_points(letters, *([] if exists is None else [exists]), tried=tried)
 
 
 MATRICES = ("stiffness", "turning", "mass")
 
 
+def _roots(facts: Judged, point: Point) -> list[complex]:
+    """Return all different exponents s at a point."""
+    return _roots_of(*(ImmutableDenseMatrix(facts.inputs[role].xreplace(dict(point))) for role in MATRICES))
+
+
 @lru_cache(maxsize=128)
 def _roots_of(stiffness: MatrixBase, turning: MatrixBase, mass: MatrixBase) -> list[complex]:
-    """Return all different exponents s."""
-    parts = (each.applyfunc(_as_number) for each in (stiffness, turning, mass))
-    k, g, m = parts
-    matrix = ImmutableDenseMatrix(k + S * g + S**2 * m)
-    polynomial = Poly(determinant_of(matrix), S)
-    return [complex(root) for root in polynomial.sqf_part().nroots(n=25, maxsteps=200)]
-
-
-def _as_number(entry: Expr) -> Expr:
-    return entry if entry.is_Rational else Rational(str(entry.evalf(40)))
+    k, g, m = (each.applyfunc(as_rational) for each in (stiffness, turning, mass))
+    return roots_of(Poly(determinant_of(ImmutableDenseMatrix(k + S * g + S**2 * m)), S))
 
 
 def _is_among(value: complex, roots: list[complex]) -> bool:
@@ -200,27 +178,23 @@ def _is_among(value: complex, roots: list[complex]) -> bool:
 
 def frequency(sign: int | None) -> Predicate:
     def is_so(facts: Judged) -> bool:
-        real = []
-        for point in _numbers(facts):
-            value = complex(explicit(facts.result).xreplace(point).evalf(25))
-            exponent = value if sign == -1 else 1j * value
-            if not _is_among(exponent, _roots(facts, point)):
-                return False
-            allowed = all(_holds(c, point) for c in facts.inputs["conditions"])
+        def is_so_at(point: Point) -> bool:
+            value = complex(value_at(explicit(facts.result), point))
             positive = abs(value.imag) <= LITTLE * abs(value) and value.real > 0
-            if allowed and not positive:
-                return False
-            real.append(positive)
-        return sign is None or all(real)
+            required = sign is not None or all(holds_at(c, point) for c in facts.inputs["conditions"])
+            exponent = value if sign == -1 else 1j * value
+            return _is_among(exponent, _roots(facts, point)) and (positive or not required)
+
+        return everywhere(_points(facts), is_so_at)
 
     return is_so
 
 
 def free(facts: Judged) -> bool:
-    return is_zero(facts.result) and all(_is_among(0j, _roots(facts, point)) for point in _numbers(facts))
+    return is_zero(facts.result) and everywhere(_points(facts), lambda point: _is_among(0j, _roots(facts, point)))
 
 
-def _steady(facts: Judged, point: dict[Any, Expr]) -> bool:
+def _steady(facts: Judged, point: Point) -> bool:
     """Whether all exponents are imaginary."""
     roots = _roots(facts, point)
     size = max(abs(root) for root in roots)
@@ -228,15 +202,19 @@ def _steady(facts: Judged, point: dict[Any, Expr]) -> bool:
 
 
 def always(steady: bool) -> Predicate:
-    return lambda facts: all(_steady(facts, point) == steady for point in _numbers(facts))
+    return lambda facts: everywhere(_points(facts), lambda point: _steady(facts, point) == steady)
 
 
 def depends(facts: Judged) -> bool:
     """Whether all conditions together hold exactly where nothing grows; their boundaries are not judged."""
     conditions = facts.inputs["conditions"]
-    points = [n for n in _numbers(facts) if not any(is_zero(explicit(c.residual).xreplace(n)) for c in conditions)]
-    tried = [(all(_holds(c, n) for c in conditions), _steady(facts, n)) for n in points]
-    return all(told == found for told, found in tried) and facts.result in conditions
+
+    def is_so(point: Point) -> bool | None:
+        if any(sign_at(each.residual, point) == 0 for each in conditions):
+            return None
+        return all(holds_at(each, point) for each in conditions) == _steady(facts, point)
+
+    return everywhere(_points(facts), is_so) and facts.result in conditions
 
 
 def is_among_conditions(facts: Judged, place: int) -> bool:
@@ -249,24 +227,21 @@ def moving(facts: Judged) -> list[Expr]:
     return [entry for entry in facts.result if not is_zero(entry)]
 
 
-def _at_quarters(facts: Judged) -> list[tuple[list[float], list[float]]]:
-    """Return the two moving coordinates at the start, and a little later, numerically."""
-    found = []
-    for point in _numbers(facts):
-        entries = [explicit(entry).xreplace(point) for entry in moving(facts)]
-        at = [[float(re(e.subs(TIME, t).evalf(20))) for e in entries] for t in (Integer(0), Rational(1, 10**6))]
-        found.append((at[0], at[1]))
-    return found
+def _turning_at(facts: Judged, point: Point) -> int:
+    """Return the sense in which the two moving coordinates turn from the start to a little later, 1 or -1."""
+    entries = [explicit(entry) for entry in moving(facts)]
+    start, later = ([re(value_at(each.subs(TIME, t), point)) for each in entries] for t in (0, Rational(1, 10**6)))
+    return 1 if start[0] * later[1] - start[1] * later[0] > 0 else -1
 
 
 def sense(wanted: int | None, circle: bool) -> Predicate:
     def is_so(facts: Judged) -> bool:
         if len(moving(facts)) != 2:
             return False
-        turned = {1 if a[0] * b[1] - a[1] * b[0] > 0 else -1 for a, b in _at_quarters(facts)}
         first, second = moving(facts)
         steady = is_zero(explicit(first**2 + second**2).diff(TIME))
-        return steady == circle and (wanted is None or turned == {wanted})
+        turns = wanted is None or everywhere(_points(facts), lambda point: _turning_at(facts, point) == wanted)
+        return steady == circle and turns
 
     return is_so
 
@@ -275,7 +250,7 @@ def departing(facts: Judged) -> bool:
     """Whether all moving coordinates grow at one rate, which is real and positive."""
     rates = {tidied(entry.diff(TIME) / entry) for entry in map(explicit, moving(facts))}
     (rate, *others) = rates
-    return not others and not rate.has(TIME) and all(rate.xreplace(n).evalf(20) > 0 for n in _numbers(facts))
+    return not others and not rate.has(TIME) and signs(rate, _points(facts)) == {1}
 
 
 def straight(facts: Judged) -> bool:
@@ -288,8 +263,7 @@ def sign_of_product(wanted: int) -> Predicate:
     def is_so(facts: Judged) -> bool:
         if len(facts.result) != 2:
             return False
-        products = {(facts.result[0] * facts.result[1]).xreplace(n).evalf(20) for n in _numbers(facts)}
-        return all(value * wanted > 0 for value in products)
+        return signs(facts.result[0] * facts.result[1], _points(facts)) == {wanted}
 
     return is_so
 
@@ -298,17 +272,14 @@ def damped(sign: int | None) -> Predicate:
     """Judge whether -beta +- i omega are roots: with omega real, or imaginary."""
 
     def is_so(facts: Judged) -> bool:
-        for point in _numbers(facts):
-            beta = complex(explicit(facts.inputs["beta"]).xreplace(point).evalf(25))
-            value = complex(explicit(facts.result).xreplace(point).evalf(25))
-            turned = value if sign == -1 else 1j * value
+        def is_so_at(point: Point) -> bool:
+            beta, value = (complex(value_at(explicit(each), point)) for each in (facts.inputs["beta"], facts.result))
+            turned, roots = value if sign == -1 else 1j * value, _roots(facts, point)
             real = abs(value.imag) <= LITTLE * abs(value)
-            roots = _roots(facts, point)
-            if not (_is_among(-beta + turned, roots) and _is_among(-beta - turned, roots)):
-                return False
-            if sign is not None and not real or any(_holds(c, point) != real for c in facts.inputs["conditions"]):
-                return False
-        return bool(facts.inputs["conditions"]) == (sign is None)
+            fits = real if sign is not None else all(holds_at(c, point) == real for c in facts.inputs["conditions"])
+            return fits and _is_among(-beta + turned, roots) and _is_among(-beta - turned, roots)
+
+        return bool(facts.inputs["conditions"]) == (sign is None) and everywhere(_points(facts), is_so_at)
 
     return is_so
 
@@ -317,14 +288,13 @@ def gyroscopic_rate(kind: str) -> Predicate:
     """Judge whether minus the result is half the sum of two roots, or a root."""
 
     def is_so(facts: Judged) -> bool:
-        for point in _numbers(facts):
-            value, roots = complex(explicit(facts.result).xreplace(point).evalf(25)), _roots(facts, point)
-            halves = [(a + b) / 2 for i, a in enumerate(roots) for b in roots[:i]]
-            if not _is_among(-value, halves if kind == "oscillator" else roots):
-                return False
-            if kind != "oscillator" and (value.real > 0) != (kind == "decay"):
-                return False
-        return True
+        def is_so_at(point: Point) -> bool:
+            value, roots = complex(value_at(explicit(facts.result), point)), _roots(facts, point)
+            if kind == "oscillator":
+                return _is_among(-value, [(a + b) / 2 for i, a in enumerate(roots) for b in roots[:i]])
+            return _is_among(-value, roots) and (value.real > 0) == (kind == "decay")
+
+        return everywhere(_points(facts), is_so_at)
 
     return is_so
 
@@ -334,37 +304,13 @@ def has_turning(facts: Judged) -> bool:
 
 
 TINY = Rational(1, 10**15)
+FEW = 5  # points at which a determinant is evaluated
 
 
-def _modes_numbers(facts: Judged) -> Iterator[dict[Expr, Expr]]:
-    """Yield numbers for the letters, of several magnitudes and both signs; within the range of a letter with one."""
-    letters = sorted(facts.inputs["stiffness"].free_symbols | facts.inputs["mass"].free_symbols, key=str)
-    drawn = (
-        turned(
-            {
-                s: rational_in_range(s, Rational(prime(4 + (5 * i + 3 * shift + i * shift) % 17), 3 + (i + shift) % 4))
-                for i, s in enumerate(letters)
-            },
-            shift,
-        )
-        for shift in range(40)
-    )
-    yield from islice((numbers for numbers in drawn if _exists(facts, numbers)), 5)
-
-
-def _exists(facts: Judged, numbers: dict[Expr, Expr]) -> bool:
-    """Whether these numbers fulfil the condition under which the equilibrium exists."""
-    condition = facts.inputs.get("exists")
-    if condition is None:
-        return True
-    difference = condition.residual.xreplace(numbers)
-    return bool(difference > 0 if condition.operator == ">" else difference < 0)
-
-
-def _polynomial(facts: Judged, numbers: dict[Expr, Expr]) -> Poly:
-    """Return det(K - lambda M) with numbers for the letters."""
-    stiffness, mass = (ImmutableDenseMatrix(facts.inputs[role].xreplace(numbers)) for role in ("stiffness", "mass"))
-    return _determinant(stiffness, mass)
+def _polynomial(facts: Judged, point: Point) -> Poly:
+    """Return det(K - lambda M) at a point."""
+    there = (facts.inputs[role].xreplace(dict(point)) for role in ("stiffness", "mass"))
+    return _determinant(*map(ImmutableDenseMatrix, there))
 
 
 @lru_cache(maxsize=64)  # the same few for each frequency and each shape of a system
@@ -381,27 +327,19 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
     """Whether det(K - lambda M) vanishes there; for a repeated root its derivative vanishes too."""
-    for numbers in _modes_numbers(facts):
-        polynomial, place = _polynomial(facts, numbers), explicit(square.xreplace(numbers))
+
+    def is_so(point: Point) -> bool:
+        polynomial, place = _polynomial(facts, point), value_at(explicit(square), point)
         several = _vanishes_at(polynomial.diff(), place)
-        if not _vanishes_at(polynomial, place) or times is not None and several != (times > 1):
-            return False
-    return True
+        return _vanishes_at(polynomial, place) and (times is None or several == (times > 1))
 
-
-def _sign_everywhere(value: Expr, facts: Judged) -> int | None:
-    """Return the sign at all points that were tried, if it is the same."""
-    signs = set()
-    for numbers in _modes_numbers(facts):
-        there = explicit(value.xreplace(numbers)).evalf(30)
-        signs.add(0 if is_zero(value) else 1 if there.is_positive else -1 if there.is_negative else None)
-    return signs.pop() if len(signs) == 1 else None
+    return everywhere(_points(facts, FEW), is_so)
 
 
 def modes_frequency(sign: int | None, repeated: bool) -> Predicate:
     def is_so(facts: Judged) -> bool:
         square = -(facts.result**2) if sign == -1 else facts.result**2
-        decided = sign is None or _sign_everywhere(square, facts) == sign
+        decided = sign is None or signs(square, _points(facts)) == {sign}
         return decided and _is_not_negative(facts) and _is_root(square, facts, 2 if repeated else 1)
 
     return is_so
@@ -417,21 +355,23 @@ def is_in_order(whole: bool) -> Predicate:
             return False
         place, size = int(str(square.name).rpartition("_")[2]), facts.inputs["stiffness"].shape[0]
         unknown = Dummy("lambda")
-        for numbers in _modes_numbers(facts):
-            factor = Poly([each.xreplace(numbers) for each in square.args[0]], unknown)
-            below = Rational(str(explicit(square.xreplace(numbers)).evalf(40) * (1 - TINY)))
-            own = _polynomial(facts, numbers) if whole else factor
-            if own.count_roots(sup=below) != place - 1 or (factor.degree() == size) != whole:
-                return False
-        return _is_root(square, facts, 1) and _sign_everywhere(square, facts) == 1
+
+        def is_so_at(point: Point) -> bool:
+            factor = Poly([each.xreplace(dict(point)) for each in square.args[0]], unknown)
+            below = Rational(str(value_at(explicit(square), point) * (1 - TINY)))
+            own = _polynomial(facts, point) if whole else factor
+            return bool(own.count_roots(sup=below) == place - 1 and (factor.degree() == size) == whole)
+
+        in_order = everywhere(_points(facts, FEW), is_so_at)
+        return in_order and _is_root(square, facts, 1) and signs(square, _points(facts)) == {1}
 
     return is_so
 
 
 def _is_not_negative(facts: Judged) -> bool:
     """Whether the frequency is the square root that is not negative, wherever it is real."""
-    there = [explicit(facts.result.xreplace(numbers)).evalf(30) for numbers in _modes_numbers(facts)]
-    return not any(value.is_negative or (value / I).is_negative for value in there)
+    points = _points(facts)
+    return -1 not in signs(facts.result, points) | signs(facts.result / I, points)
 
 
 def of_pair(same: bool) -> Predicate:
@@ -439,7 +379,7 @@ def of_pair(same: bool) -> Predicate:
         if len(facts.result) != 2:
             return False
         product = facts.result[0] * facts.result[1]
-        return _sign_everywhere(product, facts) == (1 if same else -1) and oscillates(facts)
+        return signs(product, _points(facts)) == {1 if same else -1} and oscillates(facts)
 
     return is_so
 
@@ -479,13 +419,8 @@ def drifts_as_told(facts: Judged, outcome: str) -> bool:
     order."""
     if "drift" not in facts.inputs:
         return True
-    left = facts.inputs["left"]
-    letters = sorted(set().union(*(each.free_symbols for each in left)), key=str)
-    for n in (1, 2):
-        point = {s: rational_in_range(s, Rational(prime(5 + 3 * i + n), 7 + n)) for i, s in enumerate(letters)}
-        if any(abs(each.xreplace(point).evalf(30)) > TINY for each in left):
-            return False
-    return bool(left)
+    points = trial_points(set().union(*map(letters_of, facts.inputs["left"])))
+    return bool(facts.inputs["left"]) and all(signs(each, points) == {0} for each in facts.inputs["left"])
 
 
 def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
@@ -659,12 +594,12 @@ def swings_of_its_equation(facts: Judged, outcome: str) -> bool:
 
 def positive_where_real(facts: Judged, outcome: str) -> bool:
     """Whether the frequency is numerically not negative, wherever it is real."""
-    return all(number >= 0 for number in real_numbers(facts))
+    return nowhere_negative_where_real(facts)
 
 
 def somewhere_positive(facts: Judged, outcome: str) -> bool:
     """Whether the second frequency is the greater one for some values of the letters."""
-    return not_negative(facts, outcome) and any(number >= 0 for number in real_numbers(facts))
+    return not_negative(facts, outcome) and 1 in signs_of(explicit(facts.result))
 
 
 def lag_as_written(facts: Judged, outcome: str) -> bool:

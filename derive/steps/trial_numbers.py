@@ -1,0 +1,154 @@
+"""Trial numbers: the points at which predicates test a statement, and the tests that they have in common.
+
+A point gives each letter a rational number that its range, the assumed order of letters and the conditions of the
+statement allow. In some points all numbers are of ordinary size, in others one letter is large where another is small.
+Letters that may be negative take all combinations of signs.
+
+Verbs decide a sign by the letters, and their checks draw other points. Here a statement is accepted only if it is true
+at each point where it has a meaning, and if there is such a point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import count, islice
+from typing import Any, TypeAlias
+
+from mpmath.libmp import NoConvergence
+from sympy import Expr, Integer, Poly, Rational, primerange
+
+from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
+from derive.algebra.ranges import fulfilling, range_of, rational_in_range
+from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
+from derive.steps.known_numbers import with_numbers
+from derive.steps.record import assumed
+
+Point: TypeAlias = Mapping[Any, Expr]
+
+TRIED = 24  # points at which a statement is tested
+DRAWN = 120  # points that are drawn until so many fulfil the conditions
+SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
+PRIMES = tuple(primerange(5, 130))
+ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # signs of left minus right
+SMALL = Rational(1, 10**20)  # an imaginary part, compared with the real part, that is a rounding error
+
+
+def trial_points(letters: Iterable[Any], *conditions: Relation, tried: int = TRIED) -> list[Point]:
+    """Return points for the letters at which the conditions hold; without letters, one empty point."""
+    chosen = sorted(letters, key=str)
+    drawn = islice(_drawn(chosen), DRAWN) if chosen else iter([{}])
+    return list(islice((point for point in drawn if _fulfils(point, conditions)), tried))
+
+
+def _drawn(letters: list[Any]) -> Iterator[Point]:
+    either = [letter for letter in letters if may_be_negative(letter)]
+    for n in count():
+        turned = {letter: -1 for i, letter in enumerate(either) if n >> i % 4 & 1}
+        sizes = (
+            Integer(1) if letter == PLUS_MINUS else rational_in_range(letter, _size(i, n))
+            for i, letter in enumerate(letters)
+        )
+        yield fulfilling({s: turned.get(s, 1) * size for s, size in zip(letters, sizes, strict=True)})
+
+
+def _size(i: int, n: int) -> Expr:
+    """Return the number of the letter with index i at point n."""
+    scale = SCALES[(n * (i + 1) + i) % 5] if n % 3 else 1
+    return Rational(PRIMES[(11 * i + 5 * n + i * n) % 29], 7 + i) * scale
+
+
+def _fulfils(point: Point, conditions: Iterable[Relation]) -> bool:
+    try:
+        return all(holds_at(each, point) for each in conditions)
+    except (Undefined, NoNumber):
+        return False
+
+
+def may_be_negative(letter: Any) -> bool:
+    """Whether the letter may be negative: it is not declared nonnegative, and it has no range."""
+    return not letter.is_nonnegative and range_of(letter) is None
+
+
+def assumptions_about(letters: Iterable[Any]) -> list[Relation]:
+    """Return the assumptions of the page about these letters only, with the given numbers of other letters."""
+    known = set(letters)
+    conditions = [explicit(with_numbers(each)) for each in assumed()]
+    return [each for each in conditions if letters_of(each.residual) <= known]
+
+
+def real_at(value: Any, point: Point) -> Expr | None:
+    """Return the value at a point; None if it is not real."""
+    real, imaginary = value_at(explicit(value), point).as_real_imag()
+    return real if abs(imaginary) <= abs(real) * SMALL else None
+
+
+def sign_at(value: Any, point: Point) -> int | None:
+    """Return 1, -1 or 0 for the value at a point; None if it is not real."""
+    number = real_at(value, point)
+    return None if number is None else 0 if number == 0 else 1 if number > 0 else -1
+
+
+def holds_at(condition: Relation, point: Point) -> bool:
+    """Whether a condition is true at a point; raise `Undefined` where an inequality compares what is not real."""
+    sign = sign_at(condition.residual, point)
+    if sign is None and condition.operator not in ("=", "!="):
+        raise Undefined(condition)
+    return condition.operator == "!=" if sign is None else sign in ALLOWED[condition.operator]
+
+
+def signs(value: Any, points: Iterable[Point]) -> set[int | None]:
+    """Return all signs of a value at the points; None stands for a value that is not real, or not defined."""
+    found = set[int | None]()
+    for point in points:
+        try:
+            found.add(sign_at(value, point))
+        except (Undefined, NoNumber):
+            found.add(None)
+    return found
+
+
+def signs_of(value: Expr, *conditions: Relation) -> set[int | None]:
+    """Return all signs that a value has where the conditions hold."""
+    letters = letters_of(explicit(value)).union(*(letters_of(explicit(each.residual)) for each in conditions))
+    return signs(value, trial_points(letters, *conditions))
+
+
+def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
+    """Whether a statement is true at each point where it has a meaning, and has one at some point.
+
+    is_so   whether it is true at a point; None, `Undefined` or `NoNumber` where it has no meaning
+    """
+    found = _judged(points, is_so)
+    return bool(found) and all(found)
+
+
+def roots_of(polynomial: Poly) -> list[complex]:
+    """Return the different roots of a polynomial whose coefficients are numbers; raise `NoNumber` if they are not
+    found."""
+    exact = Poly([as_rational(each) for each in polynomial.all_coeffs()], polynomial.gen)
+    try:
+        return [complex(root) for root in exact.sqf_part().nroots(n=25, maxsteps=200)]
+    except NoConvergence:
+        raise NoNumber(polynomial.as_expr()) from None
+
+
+def as_rational(number: Expr) -> Expr:
+    """Return the number, or a rational number that agrees with it in 40 digits."""
+    return number if number.is_Rational else Rational(str(number.evalf(40)))
+
+
+def decides(condition: Relation, points: Iterable[Point]) -> bool:
+    """Whether a condition is true at some of the points and false at others."""
+    return {holds_at(condition, point) for point in points} == {True, False}
+
+
+def _judged(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> list[bool]:
+    found = []
+    for point in points:
+        try:
+            verdict = is_so(point)
+        except (Undefined, NoNumber):
+            continue
+        if verdict is not None:
+            found.append(bool(verdict))
+    return found
