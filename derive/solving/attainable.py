@@ -10,8 +10,8 @@ from derive.algebra.expressions import Relation
 from derive.algebra.ranges import Range, ends_within, range_of
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
-from derive.solving.signs import sign_by_factors
 from derive.solving.zeros import within_one
+from derive.steps.signs import sign_for_all
 
 DRAWN = 24  # sets of numbers for the symbols
 LITTLE = Rational(1, 10**12)
@@ -32,7 +32,7 @@ def is_out_of_range(unknown: Expr, value: Expr) -> bool:
     """Whether the value is outside the possible values of the unknown."""
     ends = ends_within(unknown)
     beyond = (value - ends[1], ends[0] - value) if ends else ()
-    return any(end.is_finite is not False and sign_by_factors(tidied(end)) in (0, 1) for end in beyond)
+    return any(end.is_finite is not False and sign_for_all(tidied(end)) in (0, 1) for end in beyond)
 
 
 def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:

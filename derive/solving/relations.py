@@ -14,7 +14,7 @@ from derive.solving.attainable import reached
 from derive.solving.isolation import isolated
 from derive.solving.presentation import presented
 from derive.solving.unknowns import left_over, mark_for, unknown_of, with_unknown, without_factors_beside
-from derive.steps.known_numbers import sign_known
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity
 
 TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}

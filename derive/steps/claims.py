@@ -22,9 +22,10 @@ from derive.algebra.expressions import Relation, explicit
 from derive.algebra.ranges import fulfilling, range_of, strict_sign_within
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
 from derive.steps.rule import Judged, Naming, Predicate
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 

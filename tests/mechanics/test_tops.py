@@ -28,8 +28,8 @@ from derive.mechanics import (
 from derive.mechanics.answers import quadratics
 from derive.mechanics.lagrange import kept_momentum
 from derive.mechanics.rest import stable_where as border
-from derive.steps.known_numbers import sign_known
 from derive.steps.record import Run, recorded
+from derive.steps.signs import sign_known
 from tests.mechanics.spinning_top import S, a, g, m, motion_of, rates_of, sleeping
 from tests.mechanics.verbs import verbs_as_imported
 

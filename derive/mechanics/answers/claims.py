@@ -43,9 +43,10 @@ from derive.steps.claims import (
     turned,
     value_of_role,
 )
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
 from derive.steps.rule import Judged, Predicate, handed_on_by
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 TRIED, LITTLE = 8, 1e-12

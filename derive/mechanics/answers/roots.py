@@ -34,6 +34,7 @@ from derive.mechanics.answers.quadratics import roots_together
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Symbols, in_results
 from derive.solving.attainable import is_out_of_range
+from derive.solving.divisors import may_vanish
 from derive.solving.presentation import presented
 from derive.solving.root_of_factor import FOUR, RootOf
 from derive.solving.unknowns import (
@@ -50,8 +51,9 @@ from derive.solving.unknowns import (
 )
 from derive.solving.zeros import within_one
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import sign_known
 from derive.steps.step import Level, Quantity, is_zero
 
 __all__ = ["roots"]

@@ -25,8 +25,9 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, seed_of, val
 from derive.algebra.tidy import tidied
 from derive.mechanics.motion.facts import ByEnergy, Steady
 from derive.steps.claims import holds_at, points_as_assumed, same_equation, sign_is, value_of_role
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 

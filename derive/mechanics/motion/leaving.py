@@ -16,7 +16,6 @@ from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import ByEnergy
 from derive.mechanics.motion.turning_points import condition_to_reach, part_of_the_way, squared_by_energy
 from derive.solving.relations import conditions_told, divided_out, existence, number_of, solved_for_unknown, unsolvable
-from derive.solving.signs import of_the_size
 from derive.solving.unknowns import (
     left_over,
     letter_of,
@@ -28,8 +27,9 @@ from derive.solving.unknowns import (
 )
 from derive.solving.zeros import positive
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import of_the_size, sign_known
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["leaves_contact"]

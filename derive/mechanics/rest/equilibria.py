@@ -53,12 +53,12 @@ from derive.mechanics.rest.sides import (
     sides_of,
 )
 from derive.solving.attainable import lies_within
-from derive.solving.signs import sign_by_factors
+from derive.solving.divisors import may_vanish
 from derive.solving.zeros import Unsolved, Zero, factors_of, zeros_of
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import may_vanish
 from derive.steps.record import changes, given_letters
 from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, Route, compared_with, is_zero, require_kind
 from derive.witness.facts import Rest
 
@@ -283,7 +283,7 @@ def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> 
     if len(held) < 2 or len(held) != len(forces):
         return None
     matrix = ImmutableDenseMatrix([[derivative(force, q) for q in held] for force in forces])
-    if matrix.has(*held) or sign_by_factors(tidied(matrix.det(method="berkowitz"))) in (None, 0):
+    if matrix.has(*held) or sign_for_all(tidied(matrix.det(method="berkowitz"))) in (None, 0):
         return None
     at_zero = ImmutableDenseMatrix([-force.xreplace(dict.fromkeys(held, ZERO)) for force in forces])
     values = matrix.adjugate() * at_zero / matrix.det(method="berkowitz")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, sqrt
+from sympy import Dummy, ImmutableDenseMatrix, Integer, Rational, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
@@ -14,9 +14,9 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rest import claims
 from derive.mechanics.rest.facts import StableWhere
-from derive.solving.signs import SIGNS_OF, sign_by_factors
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import holds, sign_for_all
 from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["stable_where"]
@@ -63,8 +63,8 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         says, is_so = [Integer(1)], [Integer(1)]
         for side in (1, -1) if border is not None else ():
             there = found.right * (1 + u) ** side
-            sign = sign_by_factors(tidied(explicit(of.value).subs(found.left, there)))
-            says.append(Integer(int(side in SIGNS_OF[found.operator])))
+            sign = sign_for_all(tidied(explicit(of.value).subs(found.left, there)))
+            says.append(Integer(holds(side, found.operator)))
             is_so.append(Integer(int(sign == 1)) if sign is not None else Integer(7))
         return ImmutableDenseMatrix(says), ImmutableDenseMatrix(is_so)
 
@@ -101,8 +101,8 @@ def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -
                 bound = value_at(found.right, point)
                 cases = [{**point, found.left: bound * f} for f in (Rational(5, 4), Rational(4, 5))]
             for case in cases:
-                holds = _sign(value_at(found.residual, case)) in SIGNS_OF[found.operator]
-                if holds != bool(known.lifted(case) > 0):
+                is_true = holds(value_at(found.residual, case), found.operator)
+                if is_true != bool(known.lifted(case) > 0):
                     where = tuple((str(s), str(x)) for s, x in case.items())
                     return Verdict(Grade.REFUTED, "the energy near the place contradicts it", where)
         except (Undefined, NoNumber, TypeError):
@@ -111,7 +111,3 @@ def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -
         if seen == TRIALS:
             break
     return Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "nothing could be tried")
-
-
-def _sign(value: Expr) -> int:
-    return 0 if value == 0 else 1 if value > 0 else -1

@@ -12,9 +12,9 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.principal import PrincipalOf, lone_moment
 from derive.solving.isolation import isolated
-from derive.solving.signs import of_the_size
 from derive.steps.establish import Lines, establish
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import of_the_size
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["isotropic_where"]

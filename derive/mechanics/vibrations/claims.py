@@ -45,8 +45,8 @@ from derive.steps.claims import (
     sign_where_it_exists,
     turned,
 )
-from derive.steps.known_numbers import sign_known
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 
