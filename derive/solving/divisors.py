@@ -10,7 +10,7 @@ from derive.algebra.expressions import Relation
 from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.solving.zeros import positive
+from derive.solving.relations import positive
 from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 

@@ -34,11 +34,11 @@ from sympy import (
 )
 from sympy.polys.polyerrors import PolynomialError
 
-from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
-from derive.algebra.ranges import never_vanishes_within, strict_sign_within, without_abs
+from derive.algebra.ranges import never_vanishes_within, without_abs
 from derive.algebra.tidy import tidied
-from derive.solving.isolation import isolated
+from derive.solving.attainable import within_one
+from derive.solving.relations import positive
 from derive.steps.record import assume
 from derive.steps.signs import sign_for_all
 
@@ -179,52 +179,6 @@ def _with_sine(value: Expr) -> list[Zero]:
     return [Zero(asin(value), exists), Zero(other, exists)]
 
 
-def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, if one is needed, and whether it is impossible."""
-    sign = sign_for_all(value)
-    room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
-    known = sign_for_all(room)
-    if known is not None:
-        return None, known != 1
-    return positive(room), False
-
-
-def positive(value: Expr, letter: Symbol | None = None) -> Relation:
-    """The condition v > 0 without positive factors, solved for a symbol if that is possible.
-
-    Positive terms are on one side, negative terms on the other: R omega^2 > g.
-    """
-    above, below = tidied(value).as_numer_denom()
-    open_ = (f for part in (above, below) for f in Mul.make_args(part) if strict_sign_within(f) != 1)
-    core = expand(Mul(*open_))  # a quotient has the sign of the product
-    chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
-    if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
-        return solved
-    terms = Add.make_args(core)
-    less = [-t for t in terms if t.could_extract_minus_sign()]
-    more = [t for t in terms if not t.could_extract_minus_sign()]
-    if len(less) == 1 and len(more) == 1 or not less:
-        return Relation(spread(Add(*more)), ">", spread(Add(*less)))
-    return Relation(_in_factors(core), ">", 0)
-
-
-def _in_factors(core: Expr) -> Expr:
-    """The sum as a product, (k - m w^2) (c - m w^2), if it is one."""
-    if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
-        return tidied(core)
-    number, factors = factor_list(core)
-    sums = [(factor, times) for factor, times in factors if isinstance(factor, Add)]
-    return tidied(core) if len(sums) < 2 else number * Mul(*(tidied(factor) ** times for factor, times in factors))
-
-
-def _solved(core: Expr, letter: Symbol) -> Relation | None:
-    found = isolated(core, letter)
-    sign = sign_for_all(found.leading) if found is not None and found.value != 0 else None
-    if found is None or sign is None or found.power % 2 == 0 and found.power != 2:
-        return None
-    return Relation(letter**found.power, ">" if sign == 1 else "<", spread(tidied(found.value)))
-
-
 def _roots(factor: Expr, x: Expr) -> list[Expr]:
     """The real roots of a polynomial of first or second degree in x."""
     polynomial = factor.as_poly(x)
@@ -352,17 +306,3 @@ def _is_size(below: Expr) -> bool:
     """Whether a denominator, which does not vanish, is positive: c^2, or |c|."""
     parts = (f.as_base_exp() for f in Mul.make_args(below) if not f.is_positive)
     return all(isinstance(base, Abs) or bool(base.is_real and power.is_even) for base, power in parts)
-
-
-def border_of(condition: Relation) -> Relation | None:
-    """The symbol of a condition and its value at the boundary."""
-    left, right = condition.sides
-    if isinstance(left, Symbol):
-        return Relation(left, "=", right)
-    if isinstance(left, Pow) and left.exp == 2 and isinstance(left.base, Symbol) and right.is_positive:
-        return Relation(left.base, "=", sqrt(right))
-    for one, other in ((left, right), (right, left)):
-        for s in sorted(one.free_symbols - other.free_symbols, key=str):
-            if s.is_positive and one.as_poly(s) is not None and (one / s).cancel().has(s) is False:
-                return Relation(s, "=", tidied(other * s / one))
-    return None

@@ -24,6 +24,7 @@ from derive.algebra.expressions import TIME, Relation, explicit, rate
 from derive.algebra.normal_form import vanishes
 from derive.algebra.order import Contradiction, in_order, known_order
 from derive.algebra.ranges import sign_within, strict_sign_within, take_as_positive, taken_as_positive
+from derive.algebra.relation import sides_without_minus
 from derive.algebra.tidy import tidied
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assume, assumed, named_coordinates
@@ -125,9 +126,9 @@ def taken_positive(value: Expr) -> int | None:
         return sign
     open_factors = [factor for factor in _odd_factors(tidied(value)) if sign_known(factor) != 1]
     for each in open_factors if len(open_factors) == 1 else [Mul(*open_factors)]:
-        away = Add(*(-term for term in Add.make_args(each) if term.could_extract_minus_sign()))
+        more, less = sides_without_minus(each)
         take_as_positive(each)
-        assume(Relation(each + away, ">", away))
+        assume(Relation(more, ">", less))
     take_as_positive(tidied(value))
     return 1
 
@@ -154,9 +155,7 @@ def undecided(value: Any) -> Doubt:
     for each in [*sizes, *factors]:
         is_constant = isinstance(each, Add) and moving.isdisjoint(each.free_symbols)
         if is_constant and each.count_ops() <= SHORT and sign_known(each) is None:
-            away = [-term for term in each.args if term.could_extract_minus_sign()]
-            sides = Add(*away), Add(*(term for term in each.args if -term not in away))
-            relation = " < ".join(sorted(map(str, sides), key=lambda side: (len(side), side)))
+            relation = " < ".join(sorted(map(str, sides_without_minus(each)), key=lambda side: (len(side), side)))
             return Doubt(f"whether {relation} is not known", f"{DECIDES} {relation}")
     return Doubt("numerically the result does not always agree with the sentence")
 

@@ -34,7 +34,8 @@ from derive.mechanics import (
 from derive.mechanics.rest import equilibria as equilibria_module
 from derive.mechanics.rest import stability as minima
 from derive.solving.divisors import different_from_zero
-from derive.solving.zeros import Unsolved, Zero, positive, zeros_of
+from derive.solving.relations import positive
+from derive.solving.zeros import Unsolved, Zero, zeros_of
 from derive.steps.record import recorded
 from derive.steps.signs import sign_where
 from derive.steps.step import Quantity

@@ -18,16 +18,9 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Value, in_results
+from derive.solving.attainable import existence
 from derive.solving.divisors import may_vanish
-from derive.solving.relations import (
-    TURNED,
-    conditions_told,
-    divided_out,
-    existence,
-    number_of,
-    solved_for_unknown,
-    unsolvable,
-)
+from derive.solving.relations import TURNED, conditions_told, divided_out, number_of, solved_for_unknown, unsolvable
 from derive.solving.unknowns import unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import with_numbers
@@ -100,11 +93,11 @@ def where(
     sign = sign_for_all(difference)
     if sign is not None:
         return _of_known_sign(of, mark, bound, difference, sign, key)
-    unknown, (alone, solved, turned) = _solved_for_one_of(of, difference, mark, letter)
+    unknown, result = _solved_for_one_of(of, difference, mark, letter)
+    alone, solved = result.sides
     if _settled_by_its_letter(alone, solved):
-        return _of_known_sign(of, mark, bound, difference, 1 if turned == mark else -1, key)
-    result = Relation(alone, turned, solved)
-    existing, excluded = existence(of, alone, turned, solved), _excluded(difference, result)
+        return _of_known_sign(of, mark, bound, difference, 1 if result.operator == mark else -1, key)
+    existing, excluded = existence(of, result), _excluded(difference, result)
 
     def same_truth(found: Relation) -> Verdict:
         return _same_truth(found, difference, mark, unknown)
@@ -166,7 +159,7 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
     )
 
 
-def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, tuple[Expr, Expr, str]]:
+def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, Relation]:
     """Solve for the unknown; or, if an expression was given for a letter, 2b for R, for the first possible letter."""
     given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
     if not isinstance(given, Add | Mul):

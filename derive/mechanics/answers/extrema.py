@@ -6,21 +6,23 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
+from sympy import Abs, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR8
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import At, Relation, explicit, scalar
-from derive.algebra.ranges import range_of, strict_sign_within
+from derive.algebra.ranges import range_of
+from derive.algebra.relation import sides_without_minus
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.answers import claims
 from derive.mechanics.in_results import Ends, Letter, in_results
 from derive.solving.presentation import presented
+from derive.solving.relations import positive
 from derive.solving.unknowns import coordinates_of, kind_of_unknown, letter_of, unknown_of
-from derive.solving.zeros import Unsolved, positive, zeros_of
+from derive.solving.zeros import Unsolved, zeros_of
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
@@ -194,11 +196,8 @@ def _sign_of_distance(ahead: Expr, width: Expr) -> int | None:
 def _apart(condition: Relation) -> Relation:
     """Write (k m - b^2/2)/m^2 > 0 as b^2 < 2 k m: subtracted terms move to the other side."""
     above, below = condition.left.as_numer_denom()
-    terms = Add.make_args((above / abs(above.as_content_primitive()[0])).expand())
-    away = [-term for term in terms if term.could_extract_minus_sign()]
-    if not below.is_positive or not away or len(away) == len(terms):
-        return condition
-    return Relation(Add(*away), "<", Add(*(term for term in terms if -term not in away)))
+    more, less = sides_without_minus((above / abs(above.as_content_primitive()[0])).expand())
+    return Relation(less, "<", more) if below.is_positive and more != 0 and less != 0 else condition
 
 
 def _root_of(inside: Expr) -> Expr:
@@ -266,12 +265,12 @@ def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]
         a, b, c = coefficients
         if b == 0:
             inside = presented(-c / a, in_sums=False)
-            condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
+            condition = None if sign_for_all(inside) == 1 else Relation(inside, ">", 0)
             return [] if sign_known(inside) == -1 else [(sign * _root_of(inside), condition) for sign in (1, -1)]
         inside = tidied(b**2 - 4 * a * c)
         if sign_known(inside) == -1:
             return []
-        condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
+        condition = None if sign_for_all(inside) == 1 else Relation(inside, ">", 0)
         return [(presented((-b + sign * sqrt(inside)) / (2 * a)), condition) for sign in (1, -1)]
     return []
 

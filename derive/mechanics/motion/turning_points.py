@@ -11,8 +11,8 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.motion.facts import ByEnergy
+from derive.solving.relations import positive
 from derive.solving.unknowns import left_over, letter_of, mark_for, meaning, with_unknown
-from derive.solving.zeros import positive
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assume, assumed
 from derive.steps.signs import sign_known

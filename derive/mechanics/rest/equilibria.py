@@ -30,6 +30,7 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.length import length
 from derive.algebra.ranges import range_of
+from derive.algebra.relation import sides_without_minus
 from derive.algebra.taylor import coefficient_along, slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -381,8 +382,8 @@ def _level_where(force: Expr, q: Symbol) -> Relation | None:
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
     if left is None or not left.left.is_Add:
         return left
-    away = [-term for term in left.left.args if term.could_extract_minus_sign()]
-    return Relation(left.left + Add(*away), left.operator, Add(*away))
+    more, less = sides_without_minus(left.left)
+    return Relation(more, left.operator, less)
 
 
 def _by_terms_if_shorter(value: Expr) -> Expr:

@@ -10,7 +10,8 @@ from sympy import Abs, Expr, Mul, Symbol
 
 from derive.algebra.expressions import Relation
 from derive.algebra.tidy import tidied
-from derive.solving.zeros import Unsolved, positive
+from derive.solving.relations import positive
+from derive.solving.zeros import Unsolved
 from derive.steps.record import assumed, assumed_in_words
 from derive.steps.signs import sign_for_all, sign_where
 

@@ -18,7 +18,6 @@ from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.definite import sign_of_form
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
-from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
@@ -30,7 +29,7 @@ from derive.mechanics.rest.facts import Shape, StableWhere, matter_behind
 from derive.mechanics.rest.mass_matrix import check_regular, has_positive_inertia
 from derive.mechanics.rest.potentials import slope
 from derive.mechanics.rest.sides import on_known_sides
-from derive.solving.zeros import border_of, positive
+from derive.solving.relations import border_of, positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule
@@ -398,7 +397,7 @@ def _way_down(matrix: MatrixBase) -> MatrixBase | None:
             continue
         for column in share.nullspace(iszerofunc=is_zero):
             way = ImmutableDenseMatrix(column.applyfunc(tidied))
-            if strict_sign_within(tidied((way.T * matrix * way)[0])) == -1:
+            if sign_for_all(tidied((way.T * matrix * way)[0])) == -1:
                 return way
     return None
 

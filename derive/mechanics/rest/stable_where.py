@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Dummy, ImmutableDenseMatrix, Integer, Rational, sqrt
+from sympy import Dummy, ImmutableDenseMatrix, Integer, Rational
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
@@ -14,6 +14,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rest import claims
 from derive.mechanics.rest.facts import StableWhere
+from derive.solving.relations import without_square
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.rule import CHECK, Rule
 from derive.steps.signs import holds, sign_for_all
@@ -51,11 +52,9 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         message = f"`stable_where`: `{of.key}` has no condition for one coordinate"
         raise Rejected(Complaint("no-condition", message, help="`stability` states whether the equilibrium is stable"))
     left, right = known.condition.sides
-    mark = known.condition.operator + ("=" if known.stable_there else "")
-    squared = Relation(left, mark, right)
-    alone = left.base if left.is_Pow and left.exp == 2 and left.base.is_positive and right.is_positive else left
-    result = Relation(alone, mark, tidied(sqrt(right))) if alone != left else squared
-    border = known.border if known.border is not None and alone == known.border.left else None
+    squared = Relation(left, known.condition.operator + ("=" if known.stable_there else ""), right)
+    result = without_square(squared)
+    border = known.border if known.border is not None and result.left == known.border.left else None
 
     def beside(found: Relation) -> tuple[Any, Any]:
         """Compare the relation above and below its boundary with the sign of the second derivative there."""

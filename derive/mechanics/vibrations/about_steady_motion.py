@@ -25,8 +25,8 @@ from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.about_motion import About, determinant_about, letter_of_value
 from derive.mechanics.vibrations.facts import SquareOf
 from derive.mechanics.vibrations.oscillations import frequency
-from derive.solving.isolation import solved_for_letter
 from derive.solving.presentation import presented
+from derive.solving.relations import solved_for_letter
 from derive.steps.claims import sign_where_it_exists
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.rule import ROUTE, Rule

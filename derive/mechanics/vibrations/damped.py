@@ -22,7 +22,7 @@ from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.facts import Linear
 from derive.mechanics.vibrations.gyroscopic import outcome_data
 from derive.mechanics.vibrations.linearised import factors_of_amplitudes, with_motion
-from derive.solving.zeros import positive
+from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter, require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule

@@ -15,7 +15,7 @@ from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
-from derive.solving.zeros import positive
+from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assume

@@ -16,7 +16,7 @@ from derive.mechanics.kinematics.coordinates import OfCoordinate, T
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.facts import Linear, SquareOf
 from derive.solving.characteristic import root_of
-from derive.solving.zeros import positive
+from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.level import Manner
 from derive.steps.record import require_constant
