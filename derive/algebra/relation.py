@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Expr, Integer
+from sympy import Add, Expr, Integer
 from sympy.core.symbol import Str
 
 from derive.algebra.dimensions import Dimension
@@ -60,6 +60,12 @@ class Relation(Node):
 
     def __str__(self) -> str:
         return f"{self.left} {self.operator} {self.right}"
+
+
+def sides_without_minus(total: Expr) -> tuple[Expr, Expr]:
+    """The terms of a sum on two sides: a + b and c for a + b - c."""
+    away = [-term for term in Add.make_args(total) if term.could_extract_minus_sign()]
+    return Add(*(term for term in Add.make_args(total) if not term.could_extract_minus_sign())), Add(*away)
 
 
 def sympify_number(value: Any) -> Any:

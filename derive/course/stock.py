@@ -26,7 +26,7 @@ from derive.course.given import Given, Measured, NumbersAsLetters
 from derive.course.schema import Record, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import DeriveError, Faults, Place, Spelled, rejected
-from derive.steps.known_numbers import DECIDES
+from derive.steps.signs import DECIDES
 
 T = TypeVar("T")
 NOWHERE: Mapping[str, Place] = MappingProxyType({})

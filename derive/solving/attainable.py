@@ -10,11 +10,23 @@ from derive.algebra.expressions import Relation
 from derive.algebra.ranges import Range, ends_within, range_of
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
-from derive.solving.signs import sign_by_factors
-from derive.solving.zeros import within_one
+from derive.errors import Complaint, Rejected
+from derive.solving.relations import positive
+from derive.steps.signs import sign_for_all
+from derive.steps.step import Quantity
 
 DRAWN = 24  # sets of numbers for the symbols
 LITTLE = Rational(1, 10**12)
+
+
+def within_one(value: Expr) -> tuple[Relation | None, bool]:
+    """The condition for -1 < v < 1, if one is needed, and whether it is impossible."""
+    sign = sign_for_all(value)
+    room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
+    known = sign_for_all(room)
+    if known is not None:
+        return None, known != 1
+    return positive(room), False
 
 
 def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
@@ -32,7 +44,7 @@ def is_out_of_range(unknown: Expr, value: Expr) -> bool:
     """Whether the value is outside the possible values of the unknown."""
     ends = ends_within(unknown)
     beyond = (value - ends[1], ends[0] - value) if ends else ()
-    return any(end.is_finite is not False and sign_by_factors(tidied(end)) in (0, 1) for end in beyond)
+    return any(end.is_finite is not False and sign_for_all(tidied(end)) in (0, 1) for end in beyond)
 
 
 def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:
@@ -58,3 +70,14 @@ def _is_inside(number: Expr, known: Range) -> bool:
     return all(
         bool(abs(end) < LITTLE and closed or end > LITTLE) for end, closed in zip(ends, known.closed, strict=True)
     )
+
+
+def existence(of: Quantity, solution: Relation) -> Relation | None:
+    """The condition under which a solution of an equation exists; an inequality holds or fails without one."""
+    alone, solved = solution.sides
+    exists, never = reached(alone, solved) if solution.operator == "=" else (None, False)
+    if never:
+        letters = ", ".join(sorted(s.name for s in alone.free_symbols))
+        message = f"the condition on `{of.key}` requires {alone} = {solved}, but no value of {letters} gives this"
+        raise Rejected(Complaint("no-condition", message))
+    return exists

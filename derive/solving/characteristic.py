@@ -51,8 +51,7 @@ from derive.algebra.ranges import fulfilling
 from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
-from derive.solving.signs import sign_by_factors
-from derive.solving.zeros import sign_where
+from derive.steps.signs import sign_for_all, sign_where
 from derive.steps.step import is_zero
 
 LARGEST, LETTERS = 12, 40  # coordinates; coordinates times symbols of the matrices
@@ -154,7 +153,7 @@ class Pencil:
     def _are_positive(self, coefficients: Sequence[Expr]) -> bool:
         """Whether all roots of that factor are positive. They are real if M is positive definite; by Descartes' rule,
         no real root is negative or zero if the signs of the coefficients alternate."""
-        signs = [sign_by_factors(tidied(each)) for each in coefficients]
+        signs = [sign_for_all(tidied(each)) for each in coefficients]
         alternate = None not in signs and 0 not in signs and all(u == -v for u, v in pairwise(signs))  # type: ignore[operator]
         return alternate and self._has_positive_minors(self.mass)
 
@@ -183,7 +182,7 @@ class Pencil:
     @staticmethod
     def _has_positive_minors(matrix: MatrixBase) -> bool:
         minors = (determinant_of(matrix[:n, :n]) for n in range(1, matrix.shape[0] + 1))
-        return all(sign_by_factors(tidied(minor)) == 1 for minor in minors)
+        return all(sign_for_all(tidied(minor)) == 1 for minor in minors)
 
 
 _LAMBDA = Dummy("lambda")
@@ -219,14 +218,14 @@ def _roots_of(part: Poly) -> list[Expr] | None:
 
 def _of_plain_sign(value: Expr) -> Expr:
     """Replace cos^2 by sin^2, or the reverse, if that shows a sign: M + m sin^2 a, not M + m - m cos^2 a."""
-    if sign_by_factors(value) is not None:
+    if sign_for_all(value) is not None:
         return value
     above, below = fraction(together(value))
     if not value.has(sin, cos):
         form = above / with_squares(below)
-        return form if sign_by_factors(form) is not None else value
+        return form if sign_for_all(form) is not None else value
     forms = [factor(expand(turned(expand(above)))) / factor(expand(turned(expand(below)))) for turned in (TR5, TR6)]
-    return next((form for form in forms if sign_by_factors(form) is not None), value)
+    return next((form for form in forms if sign_for_all(form) is not None), value)
 
 
 def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:

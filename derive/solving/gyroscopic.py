@@ -20,8 +20,7 @@ from derive.algebra.expressions import Relation, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.solving.characteristic import is_irrational, root_of
-from derive.solving.signs import sign_by_factors
-from derive.solving.zeros import sign_where
+from derive.steps.signs import sign_for_all, sign_where
 from derive.steps.step import is_zero
 
 LARGEST = 4  # coordinates
@@ -46,7 +45,7 @@ class Part:
         """From the highest power of omega or omega^2 to the lowest, with the first positive if its sign is known."""
         found = self.polynomial.all_coeffs()
         found = found if self.mirrored else found[::2]
-        return tuple(-c for c in found) if sign_by_factors(found[0]) == -1 else tuple(found)
+        return tuple(-c for c in found) if sign_for_all(found[0]) == -1 else tuple(found)
 
     @cached_property
     def needs(self) -> tuple[Expr, ...]:
@@ -132,7 +131,7 @@ class GyroscopicPencil:
     def _forwards(self, part: Poly) -> Poly:
         """Of two mirror images, the one whose roots have a positive sum, if this is known."""
         a, b = part.all_coeffs()[:2]
-        return Poly(part.as_expr().subs(OMEGA, -OMEGA), OMEGA) if sign_by_factors(tidied(b / a)) == 1 else part
+        return Poly(part.as_expr().subs(OMEGA, -OMEGA), OMEGA) if sign_for_all(tidied(b / a)) == 1 else part
 
     @cached_property
     def is_minimum(self) -> bool:

@@ -36,6 +36,7 @@ from derive.steps.step import Quantity
 
 DISTANCES = ((Rational(1, 10**8), Rational(1, 10**9)), (Rational(1, 40), Rational(1, 80)))
 POINTS = 4
+SLOWEST = Rational(1, 6)  # the least power of the distance with which a remainder must vanish: some are fractional
 
 
 def entries_of(value: Any) -> list[Expr]:
@@ -125,9 +126,10 @@ def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
 
 
 def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rational) -> Verdict:
-    """Compare the remainder at two distances: divided by the last power kept, it must shrink by at least a half.
+    """Compare the remainder at two distances: divided by the last power kept, it must shrink with the distance.
 
-    Both sides of a place are tested, except at the end of a range: |m - M| has two leading terms at m = M.
+    The next power may be fractional, a + b x^(1/4), so it need not shrink as much as the distance. Both sides of a
+    place are tested, except at the end of a range: |m - M| has two leading terms at m = M.
     """
     for before, after in zip(entries_of(value), entries_of(found), strict=True):
         for side in _sides(x, place):
@@ -148,15 +150,16 @@ def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
 
 
 def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int) -> Verdict:
-    """Compare close to the place, or farther away if the remainder is zero there numerically, as for exp(-1/x)."""
+    """Compare close to the place, or farther away if the remainder has no number there."""
     seen = 0
     letters = (letters_of(value) | letters_of(found) | letters_of(place)) - {x}
     for point in islice(points(letters, seed_of(value)), POINTS):
-        sizes = next(filter(None, (_sizes(value, found, x, place, power, side, point, d) for d in DISTANCES)), None)
-        if sizes is None:
+        tried = (_shrinks(value, found, x, place, power, side, point, distances) for distances in DISTANCES)
+        shrinks = next((each for each in tried if each is not None), None)
+        if shrinks is None:
             continue
         seen += 1
-        if sizes[1] > sizes[0] * Rational(1, 2):
+        if not shrinks:
             where = tuple((str(name), str(number)) for name, number in point.items())
             return Verdict(Grade.REFUTED, f"the remainder does not vanish to order {power}", where)
     if not seen:
@@ -164,10 +167,11 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
     return Verdict(Grade.APPROXIMATION, "numerically")
 
 
-def _sizes(
+def _shrinks(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
-) -> list[Expr] | None:
-    """The remainder over that power of the small quantity, at both distances; None if it has no value."""
+) -> bool | None:
+    """Whether the remainder over that power of the small quantity shrinks from one distance to the other; None if it
+    has no value."""
     sizes = []
     for near in distances:
         there = {**point, x: _at(place, near, point, side)}
@@ -176,7 +180,8 @@ def _sizes(
         except (Undefined, NoNumber):
             return None
         sizes.append(abs((rest / abs(small) ** power).evalf(20)))
-    return sizes
+    farther, closer = distances
+    return bool(sizes[1] <= sizes[0] * (closer / farther) ** SLOWEST)
 
 
 def _at(place: Expr, near: Rational, point: Any, side: int) -> Expr:

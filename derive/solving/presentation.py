@@ -30,6 +30,7 @@ from derive.algebra.expressions import explicit
 from derive.algebra.length import length, shortest
 from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
+from derive.steps.signs import sign_for_all
 
 ZERO = Integer(0)
 LARGEST = 2500  # number of operations up to which an expression is multiplied out and factored
@@ -58,6 +59,15 @@ def presented(value: Expr, *, in_sums: bool = True) -> Expr:
     apart = shortest(forms)
     product = factored(tidy) if size <= LARGEST else tidy
     return product if length(product) < length(apart) else apart  # a^2 - b^2 is kept
+
+
+def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:
+    """The factors that decide the sign of a value: without those that are positive for all values of the letters.
+
+    in_equation     the factors that decide whether it vanishes: also without a number
+    """
+    factors = (f for f in Mul.make_args(value) if not (in_equation and f.is_Rational and f.is_nonzero))
+    return Mul(*(f for f in factors if sign_for_all(f) != 1))
 
 
 def without_sine_below(value: Expr) -> Expr:

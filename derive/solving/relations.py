@@ -1,32 +1,119 @@
-"""Solve a relation, v > 0 or v = 0, for one symbol; find its possible values and the divisors that must not vanish."""
+"""Solve a relation, v > 0, v < 0 or v = 0, for one letter or another unknown."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
-from sympy import Expr, Mul, sqrt
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, expand, factor_list, sqrt
 
+from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
-from derive.algebra.ranges import strict_sign_within
+from derive.algebra.relation import sides_without_minus
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.solving.attainable import reached
-from derive.solving.isolation import isolated
-from derive.solving.presentation import presented
+from derive.solving.presentation import presented, without_positive
 from derive.solving.unknowns import left_over, mark_for, unknown_of, with_unknown, without_factors_beside
-from derive.steps.known_numbers import sign_known
+from derive.steps.signs import sign_for_all, sign_known
 from derive.steps.step import Quantity
 
 TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
+LARGEST_PRODUCT = 60  # number of operations of a sum that is tested for being a product
+
+
+class Isolated(NamedTuple):
+    """An expression a (x^n - v): the value v of x^n where it vanishes, n, and the factor a."""
+
+    value: Expr
+    power: int
+    factor: Expr
+
+
+def mark_between(mark: str, sign: int | None) -> str | None:
+    """The mark between x^n and v that is equivalent to that between a (x^n - v) and zero, by the sign of a; None if an
+    inequality would be divided by a factor of unknown sign."""
+    return mark if mark in ("=", "!=") else {1: mark, -1: TURNED[mark]}.get(sign or 0)
+
+
+def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
+    """The expression as a (x^n - v); None where its numerator is not of the form a x^n + b."""
+    above, below = expr.as_numer_denom()
+    polynomial = above.as_poly(letter)
+    terms = polynomial.terms() if polynomial is not None else []
+    if len(terms) not in (1, 2) or terms[0][0] == (0,) or terms[1:] and terms[1][0] != (0,):
+        return None
+    (((power,), leading), *others) = terms
+    rest = others[0][1] if others else Integer(0)
+    return Isolated(-rest / leading, int(power), leading / below)
+
+
+def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
+    """The value of a letter at which the expression vanishes, if that is one value other than zero.
+
+    The letter occurs in the first power alone, or in the second if it is positive.
+    """
+    found = isolated(expr, letter)
+    if found is None or found.value == 0 or found.power > (2 if letter.is_positive else 1):
+        return None
+    value = tidied(found.value)
+    return value if found.power == 1 else tidied(sqrt(value))
+
+
+def positive(value: Expr, letter: Symbol | None = None) -> Relation:
+    """The condition v > 0 without positive factors, solved for a symbol if that is possible.
+
+    Positive terms are on one side, negative terms on the other: R omega^2 > g.
+    """
+    above, below = tidied(value).as_numer_denom()
+    core = expand(without_positive(above) * without_positive(below))  # a quotient has the sign of the product
+    chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
+    if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
+        return solved
+    more, less = sides_without_minus(core)
+    if less == 0 or not (more == 0 or more.is_Add or less.is_Add):
+        return Relation(spread(more), ">", spread(less))
+    return Relation(_in_factors(core), ">", 0)
+
+
+def _in_factors(core: Expr) -> Expr:
+    """The sum as a product, (k - m w^2) (c - m w^2), if it is one."""
+    if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
+        return tidied(core)
+    number, factors = factor_list(core)
+    sums = [(factor, times) for factor, times in factors if isinstance(factor, Add)]
+    return tidied(core) if len(sums) < 2 else number * Mul(*(tidied(factor) ** times for factor, times in factors))
+
+
+def _solved(core: Expr, letter: Symbol) -> Relation | None:
+    found = isolated(core, letter)
+    if found is None or found.value == 0 or found.power % 2 == 0 and found.power != 2:
+        return None
+    mark = mark_between(">", sign_for_all(found.factor))
+    return Relation(letter**found.power, mark, spread(tidied(found.value))) if mark is not None else None
+
+
+def border_of(condition: Relation) -> Relation | None:
+    """The symbol of a condition and its value at the boundary."""
+    left, right = condition.sides
+    if isinstance(left, Symbol):
+        return Relation(left, "=", right)
+    if isinstance(left, Pow) and left.exp == 2 and isinstance(left.base, Symbol) and right.is_positive:
+        return Relation(left.base, "=", sqrt(right))
+    for one, other in ((left, right), (right, left)):
+        for s in sorted(one.free_symbols - other.free_symbols, key=str):
+            if s.is_positive and one.as_poly(s) is not None and (one / s).cancel().has(s) is False:
+                return Relation(s, "=", tidied(other * s / one))
+    return None
+
+
+# --- another unknown ---
 
 
 def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
     """The relation between a value and zero, solved for a symbol; None if that is not possible without numbers."""
     try:
-        alone, solved, turned = solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
+        return solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
     except Rejected:
         return None
-    return Relation(alone, turned, solved)
 
 
 def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
@@ -38,45 +125,37 @@ def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, 
     }
 
 
-def existence(of: Quantity, alone: Expr, mark: str, solved: Expr) -> Relation | None:
-    """The condition under which a solution of an equation exists; an inequality holds or fails without one."""
-    exists, never = reached(alone, solved) if mark == "=" else (None, False)
-    if never:
-        letters = ", ".join(sorted(s.name for s in alone.free_symbols))
-        message = f"the condition on `{of.key}` requires {alone} = {solved}, but no value of {letters} gives this"
-        raise Rejected(Complaint("no-condition", message))
-    return exists
-
-
 def number_of(of: Quantity) -> Expr:
     if not isinstance(of.value, Expr) or isinstance(of.value, Relation):
         raise Rejected(Complaint("wrong-argument", f"`{of.key}` is not a number, so it cannot be compared"))
     return of.value
 
 
-def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[Expr, Expr, str]:
-    """The left side, which is the unknown or its square; its bound, and the mark between them."""
+def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> Relation:
+    """The relation between a difference and zero, solved for an unknown, or for its square if it may be negative."""
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
     if left_over(written, unknown):
         raise unsolvable(of, unknown)
     factors = Mul.make_args(written)
-    core = Mul(*(f for f in factors if f.has(u) and strict_sign_within(f.xreplace({u: unknown})) != 1))
+    core = Mul(*(f for f in factors if f.has(u) and sign_for_all(f.xreplace({u: unknown})) != 1))
     outside = Mul(written / core, *beside).xreplace({u: unknown})
-    found, below = isolated(core, u), core.as_numer_denom()[1]
-    if found is None or found.power > 2 or below.has(u):
+    found = isolated(core, u)
+    if found is None or found.power > 2 or found.factor.has(u):
         raise unsolvable(of, unknown)
-    divided = found.leading * outside / below
-    rising = sign_known(divided)
-    if not rising and mark not in ("=", "!="):
-        raise unsolvable(of, unknown, _without_sign(divided))
-    solved = presented(found.value)
-    turned = mark if rising != -1 else TURNED[mark]
-    if found.power == 1:
-        return unknown, solved, turned
-    if unknown.is_nonnegative and solved.is_nonnegative:
-        return unknown, presented(sqrt(solved)), turned
-    return unknown**2, solved, turned
+    turned = mark_between(mark, sign_known(found.factor * outside))
+    if turned is None:
+        raise unsolvable(of, unknown, _without_sign(found.factor * outside))
+    solved = Relation(unknown**found.power, turned, presented(found.value))
+    return without_square(solved) if found.power == 2 else solved
+
+
+def without_square(condition: Relation) -> Relation:
+    """The condition x > sqrt(v) for x^2 > v, if neither x nor v is negative; any other condition unchanged."""
+    left, right = condition.sides
+    if not (left.is_Pow and left.exp == 2 and left.base.is_nonnegative and right.is_nonnegative):
+        return condition
+    return Relation(left.base, condition.operator, presented(sqrt(right)))
 
 
 def _without_sign(value: Expr) -> Expr | None:

@@ -34,16 +34,13 @@ from sympy import (
 )
 from sympy.polys.polyerrors import PolynomialError
 
-from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
-from derive.algebra.ranges import never_vanishes_within, strict_sign_within, without_abs
+from derive.algebra.ranges import never_vanishes_within, without_abs
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
-from derive.solving.isolation import isolated
-from derive.solving.signs import sign_by_factors
-from derive.steps.known_numbers import sign_known
+from derive.solving.attainable import within_one
+from derive.solving.relations import positive
 from derive.steps.record import assume
-from derive.steps.step import is_zero
+from derive.steps.signs import sign_for_all
 
 HIGHEST = 6  # highest power of a coordinate
 LARGEST_PRODUCT = 60  # number of operations of a sum that is tested for being a product
@@ -161,7 +158,7 @@ def _of_angle(factor: Expr, u: Expr) -> list[Zero]:
     terms = dict(polynomial.terms())
     if set(terms) == {(1, 0), (0, 1)}:
         place = atan(tidied(-terms[0, 1] / terms[1, 0]))
-        return [Zero(place), Zero(place + pi if sign_by_factors(place) == -1 else place - pi)]
+        return [Zero(place), Zero(place + pi if sign_for_all(place) == -1 else place - pi)]
     raise Unsolved(factor)
 
 
@@ -178,62 +175,8 @@ def _with_sine(value: Expr) -> list[Zero]:
     exists, never = within_one(value)
     if never:
         return []
-    other = pi - asin(value) if sign_by_factors(value) != -1 else -pi - asin(value)
+    other = pi - asin(value) if sign_for_all(value) != -1 else -pi - asin(value)
     return [Zero(asin(value), exists), Zero(other, exists)]
-
-
-def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, if one is needed, and whether it is impossible."""
-    sign = sign_by_factors(value)
-    room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
-    known = sign_by_factors(room)
-    if known is not None:
-        return None, known != 1
-    return positive(room), False
-
-
-def positive(value: Expr, letter: Symbol | None = None) -> Relation:
-    """The condition v > 0 without positive factors, solved for a symbol if that is possible.
-
-    Positive terms are on one side, negative terms on the other: R omega^2 > g.
-    """
-    above, below = tidied(value).as_numer_denom()
-    open_ = (f for part in (above, below) for f in Mul.make_args(part) if strict_sign_within(f) != 1)
-    core = expand(Mul(*open_))  # a quotient has the sign of the product
-    chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
-    if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
-        return solved
-    terms = Add.make_args(core)
-    less = [-t for t in terms if t.could_extract_minus_sign()]
-    more = [t for t in terms if not t.could_extract_minus_sign()]
-    if len(less) == 1 and len(more) == 1 or not less:
-        return Relation(spread(Add(*more)), ">", spread(Add(*less)))
-    return Relation(_in_factors(core), ">", 0)
-
-
-def _in_factors(core: Expr) -> Expr:
-    """The sum as a product, (k - m w^2) (c - m w^2), if it is one."""
-    if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
-        return tidied(core)
-    number, factors = factor_list(core)
-    sums = [(factor, times) for factor, times in factors if isinstance(factor, Add)]
-    return tidied(core) if len(sums) < 2 else number * Mul(*(tidied(factor) ** times for factor, times in factors))
-
-
-def different_from_zero(value: Expr) -> Relation | None:
-    """The condition that a divisor does not vanish, omega^2 != k/m; None if its sign is known."""
-    if sign_known(value) is not None:
-        return None
-    condition = positive(tidied(value).as_numer_denom()[0])
-    return Relation(condition.left, "!=", condition.right)
-
-
-def _solved(core: Expr, letter: Symbol) -> Relation | None:
-    found = isolated(core, letter)
-    sign = sign_by_factors(found.leading) if found is not None and found.value != 0 else None
-    if found is None or sign is None or found.power % 2 == 0 and found.power != 2:
-        return None
-    return Relation(letter**found.power, ">" if sign == 1 else "<", spread(tidied(found.value)))
 
 
 def _roots(factor: Expr, x: Expr) -> list[Expr]:
@@ -246,7 +189,7 @@ def _roots(factor: Expr, x: Expr) -> list[Expr]:
         return [tidied(-b / a)]
     a, b, c = polynomial.all_coeffs()
     inside = tidied(b**2 - 4 * a * c)
-    sign = sign_by_factors(inside)
+    sign = sign_for_all(inside)
     if sign is None:
         raise Unsolved(factor)
     if sign == -1:
@@ -286,7 +229,7 @@ def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
     (one, a), (other, b) = terms.items()
     apart = tidied(one - other)
     value = tidied(-b / a)
-    sign = 1 if _is_square_of_letters(value) else sign_by_factors(value)
+    sign = 1 if _is_square_of_letters(value) else sign_for_all(value)
     if sign is None or not never_vanishes_within(apart):
         raise Unsolved(factor)
     if apart.could_extract_minus_sign():
@@ -302,7 +245,7 @@ def _exponent(product: Expr, q: Symbol) -> Expr:
 
 def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
     """The real roots of q^n = v."""
-    sign = 1 if _is_square_of_letters(value) else sign_by_factors(value)
+    sign = 1 if _is_square_of_letters(value) else sign_for_all(value)
     if sign is None:
         raise Unsolved(factor)
     if n % 2:
@@ -320,7 +263,7 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
     if a.has(q) or b.has(q):
         raise Unsolved(factor)
     size = tidied(-b / a)
-    sign = sign_by_factors(size)
+    sign = sign_for_all(size)
     if sign is None:
         raise Unsolved(factor)
     if sign == -1:
@@ -329,7 +272,7 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
     if inside is None or inside.degree() != 2 or inside.coeff_monomial(q) != 0:
         raise Unsolved(factor)
     square = tidied(-inside.coeff_monomial(1) / inside.LC())
-    sign = sign_by_factors(square)
+    sign = sign_for_all(square)
     if sign == -1:
         return []
     exists = positive(square) if sign is None else None
@@ -341,7 +284,7 @@ def _allowed(value: Expr, q: Symbol) -> list[Zero]:
     """The zero, without values that are not positive if the coordinate is positive."""
     if not q.is_positive:
         return [Zero(value)]
-    sign = sign_by_factors(value)
+    sign = sign_for_all(value)
     if sign is None and (_is_square_of_letters(value) or _is_square_of_letters(-value)):
         return [Zero(value)] if _is_square_of_letters(value) else []
     return [] if sign in (0, -1) else [Zero(value, positive(value) if sign is None else None)]
@@ -363,37 +306,3 @@ def _is_size(below: Expr) -> bool:
     """Whether a denominator, which does not vanish, is positive: c^2, or |c|."""
     parts = (f.as_base_exp() for f in Mul.make_args(below) if not f.is_positive)
     return all(isinstance(base, Abs) or bool(base.is_real and power.is_even) for base, power in parts)
-
-
-def sign_where(value: Expr, exists: Relation | None) -> int | None:
-    """The sign of a value if a condition of existence holds: a symbol of the condition is put beyond its boundary."""
-    own = sign_by_factors(value)
-    border = border_of(exists) if own is None and exists is not None else None
-    if border is None or exists is None:
-        return own
-    beyond = Symbol("u_beyond", positive=True)
-    more = exists.operator == ">"
-    size = border.right * (sqrt(1 + beyond) if exists.left.is_Pow else 1 + beyond) ** (1 if more else -1)
-    return sign_by_factors(tidied(value.subs(border.left, size)))
-
-
-def border_of(condition: Relation) -> Relation | None:
-    """The symbol of a condition and its value at the boundary."""
-    left, right = condition.sides
-    if isinstance(left, Symbol):
-        return Relation(left, "=", right)
-    if isinstance(left, Pow) and left.exp == 2 and isinstance(left.base, Symbol) and right.is_positive:
-        return Relation(left.base, "=", sqrt(right))
-    for one, other in ((left, right), (right, left)):
-        for s in sorted(one.free_symbols - other.free_symbols, key=str):
-            if s.is_positive and one.as_poly(s) is not None and (one / s).cancel().has(s) is False:
-                return Relation(s, "=", tidied(other * s / one))
-    return None
-
-
-def check_no_resonance(stiffness: Expr) -> None:
-    """Reject a driving frequency for which c - a w^2 vanishes with the given numbers: the result then has no value."""
-    if not is_zero(stiffness) and sign_known(stiffness) == 0:
-        message = f"with the given numbers {stiffness} vanishes: this motion is at resonance"
-        help_line = "write the driving frequency in symbols, such as `sqrt(k/m)`"
-        raise Rejected(Complaint("resonance", message, help=help_line))

@@ -17,8 +17,9 @@ from derive.algebra.expressions import explicit
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Judged, Naming, Predicate
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 from derive.steps.trial_numbers import Point, everywhere, holds_at, sign_at, signs_of, trial_points
 

@@ -39,9 +39,9 @@ from derive.steps.chain import (
     short,
     without_repeats,
 )
-from derive.steps.known_numbers import undecided
 from derive.steps.record import coordinates_in
 from derive.steps.rule import GENERIC, ZERO, Doubt, Judged, Rule, wrongly_handed_on
+from derive.steps.signs import undecided
 from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, Witness, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
 from derive.steps.symbols import check_symbol

@@ -6,7 +6,7 @@ import pytest
 from sympy import Matrix, diag, symbols
 
 from derive.algebra.definite import is_positive_definite, leading_minors, principal_minors, sign_of_form
-from derive.solving.signs import sign_by_factors
+from derive.steps.signs import sign_for_all
 
 k = symbols("k", positive=True)
 c = symbols("c", real=True)
@@ -26,8 +26,8 @@ c = symbols("c", real=True)
     ],
 )
 def test_the_least_sign_of_a_form_is_found_by_all_minors(matrix: Matrix, sign: int | None) -> None:
-    assert sign_of_form(matrix, sign_by_factors) == sign
-    assert is_positive_definite(matrix, sign_by_factors) is (sign == 1)
+    assert sign_of_form(matrix, sign_for_all) == sign
+    assert is_positive_definite(matrix, sign_for_all) is (sign == 1)
 
 
 def test_leading_minors_are_those_of_the_first_rows_and_columns() -> None:

@@ -636,7 +636,11 @@ def test_a_wrong_root_and_a_wrong_bound_are_refused(monkeypatch: pytest.MonkeyPa
 
     x = along()
     right = conditions.solved_for_unknown
-    monkeypatch.setattr(conditions, "solved_for_unknown", lambda *a: (right(*a)[0], -right(*a)[1], right(*a)[2]))
+    monkeypatch.setattr(
+        conditions,
+        "solved_for_unknown",
+        lambda *a: Relation(right(*a).left, right(*a).operator, -right(*a).right),
+    )
     with pytest.raises(Unverified):
         where(given(c - h), ">", 0, c)
     monkeypatch.setattr(RootOf, "value", property(lambda self: R / 3))

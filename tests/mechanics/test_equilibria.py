@@ -33,8 +33,11 @@ from derive.mechanics import (
 )
 from derive.mechanics.rest import equilibria as equilibria_module
 from derive.mechanics.rest import stability as minima
-from derive.solving.zeros import Unsolved, Zero, different_from_zero, positive, sign_where, zeros_of
+from derive.solving.divisors import different_from_zero
+from derive.solving.relations import positive
+from derive.solving.zeros import Unsolved, Zero, zeros_of
 from derive.steps.record import recorded
+from derive.steps.signs import sign_where
 from derive.steps.step import Quantity
 from derive.witness.facts import Rest
 

@@ -58,6 +58,7 @@ def given(value: Any, key: str = "f", **more: Any) -> Quantity:
         (M * (R**2 / 4 + h**2 / 3), h / R, 0, M * R**2 / 4, "finite"),  # a disc
         (M * (R**2 / 4 + h**2 / 3), h / R, oo, M * h**2 / 3, "diverges"),  # a rod
         (sqrt(R + h) - sqrt(R), h, oo, sqrt(h), "diverges"),  # half a power, which no series has
+        (M + m * (h / R) ** Rational(1, 4), h, 0, M, "finite"),  # the rest falls by a quarter of a power
         (5 * m * a, a, 0, Integer(0), "finite"),  # of one power the limit says more than itself
         (5 * m * a, a, oo, 5 * m * a, "exact"),
     ],

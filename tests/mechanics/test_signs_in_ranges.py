@@ -118,7 +118,10 @@ def test_what_is_positive_in_the_range_is_positive_always() -> None:
 @pytest.mark.parametrize("mark", ["=", "<"])
 def test_a_bound_of_the_wrong_function_is_refused(monkeypatch: pytest.MonkeyPatch, mark: str) -> None:
     right = conditions.solved_for_unknown
-    monkeypatch.setattr(conditions, "solved_for_unknown", lambda *a: (right(*a)[0], m / cos(alpha), right(*a)[2]))
+    wrong = m / cos(alpha)
+    monkeypatch.setattr(
+        conditions, "solved_for_unknown", lambda *a: Relation(right(*a).left, right(*a).operator, wrong)
+    )
     with pytest.raises(Unverified):
         where(given(g * (M * sin(alpha) - m)), mark, 0, M)
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 from sympy import Expr, Rational, cos, pi, sin, sqrt, symbols
 
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.record import Run, recorded
+from derive.steps.signs import sign_known
 
 a, b = symbols("a b", positive=True)
 x = symbols("x", real=True)

@@ -16,9 +16,9 @@ from derive.algebra.ranges import Range, take_as_positive, taken_as_positive, wi
 from derive.errors import Rejected
 from derive.mechanics import Cuboid, Particle, System, coordinate, inertia_tensor, lagrangian, point, weight
 from derive.steps.establish import Scope
-from derive.steps.known_numbers import sign_known
 from derive.steps.memory import Memory
 from derive.steps.record import Run, assume, current_run, established, free_letter, given_letters, recorded
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity
 from tests.steps.test_record import named
 

@@ -38,9 +38,10 @@ from derive.steps.claims import (
     same_equation,
     value_of_role,
 )
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
 from derive.steps.rule import Judged, Predicate, handed_on_by
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 from derive.steps.trial_numbers import (
     ALLOWED,

@@ -18,20 +18,14 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Value, in_results
-from derive.solving.relations import (
-    TURNED,
-    conditions_told,
-    divided_out,
-    existence,
-    number_of,
-    solved_for_unknown,
-    unsolvable,
-)
-from derive.solving.signs import SIGNS_OF, sign_by_factors
+from derive.solving.attainable import existence
+from derive.solving.divisors import may_vanish
+from derive.solving.relations import TURNED, conditions_told, divided_out, number_of, solved_for_unknown, unsolvable
 from derive.solving.unknowns import unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import holds, sign_for_all, sign_known
 from derive.steps.step import Form, Level, Quantity, value_behind
 
 __all__ = ["where"]
@@ -96,14 +90,14 @@ def where(
         raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
     bound = Integer(bound) if isinstance(bound, int) else bound
     difference = tidied(explicit(number_of(of)) - explicit(value_behind(bound)))
-    sign = sign_by_factors(difference)
+    sign = sign_for_all(difference)
     if sign is not None:
         return _of_known_sign(of, mark, bound, difference, sign, key)
-    unknown, (alone, solved, turned) = _solved_for_one_of(of, difference, mark, letter)
+    unknown, result = _solved_for_one_of(of, difference, mark, letter)
+    alone, solved = result.sides
     if _settled_by_its_letter(alone, solved):
-        return _of_known_sign(of, mark, bound, difference, 1 if turned == mark else -1, key)
-    result = Relation(alone, turned, solved)
-    existing, excluded = existence(of, alone, turned, solved), _excluded(difference, result)
+        return _of_known_sign(of, mark, bound, difference, 1 if result.operator == mark else -1, key)
+    existing, excluded = existence(of, result), _excluded(difference, result)
 
     def same_truth(found: Relation) -> Verdict:
         return _same_truth(found, difference, mark, unknown)
@@ -145,8 +139,8 @@ def _by_way_of(criterion: Relation, stands_for: Sequence[Quantity], difference: 
 
 def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: Expr, sign: int, key: str) -> Quantity:
     """Return the true relation, if it holds for all values of the letters or for none."""
-    holds = sign in SIGNS_OF[mark]
-    fact = mark if holds else {1: ">", -1: "<", 0: "="}[sign]
+    is_true = holds(sign, mark)
+    fact = mark if is_true else {1: ">", -1: "<", 0: "="}[sign]
     return establish(
         WHERE,
         None,
@@ -156,7 +150,7 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
         routes={
             "points": lambda found: _same_truth(Relation(Integer(1), "=", 1), found.residual, found.operator, None)
         },
-        outcome="always" if holds else "never" if sign else "equal",
+        outcome="always" if is_true else "never" if sign else "equal",
         phrase_data=PhraseData(
             words={"comparison": WORDS[mark]},
             outcome_data={"difference": difference, "sign": Integer(sign), "mark": Str(mark)},
@@ -165,7 +159,7 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
     )
 
 
-def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, tuple[Expr, Expr, str]]:
+def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, Relation]:
     """Solve for the unknown; or, if an expression was given for a letter, 2b for R, for the first possible letter."""
     given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
     if not isinstance(given, Add | Mul):
@@ -216,18 +210,14 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     sign = sign_known(above)
     if sign is None:
         return at_place, Integer(0)
-    says = [Integer(_truth(found.operator, side)) for side in (1, 0, -1)]
-    is_so = [Integer(_truth(mark, side * sign)) for side in (1, 0, -1)]  # it changes its sign at the bound
+    says = [Integer(holds(side, found.operator)) for side in (1, 0, -1)]
+    is_so = [Integer(holds(side * sign, mark)) for side in (1, 0, -1)]  # it changes its sign at the bound
     there, expected = [at_place, above, *says], [Integer(0), sign * Abs(above), *is_so]
     return ImmutableDenseMatrix(there), ImmutableDenseMatrix(expected)
 
 
 def _nth(value: Expr, power: int) -> Expr:
     return value if power == 1 else sqrt(value)
-
-
-def _truth(mark: str, sign: int) -> int:
-    return int(sign in SIGNS_OF[mark])
 
 
 def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | None) -> Verdict:
@@ -237,22 +227,17 @@ def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | No
     letters = letters_of(difference) | letters_of(residual)
     for point in islice(points(letters, seed_of(difference)), POINTS):
         try:
-            here = _sign_of_number(value_at(difference, point))
-            there = _sign_of_number(value_at(residual, point)) if unknown is not None else 0
+            here = holds(value_at(difference, point), mark)
+            there = holds(value_at(residual, point), found.operator) if unknown is not None else True
         except (Undefined, NoNumber, TypeError):
             continue
         seen += 1
-        solved = there in SIGNS_OF[found.operator] if unknown is not None else True
-        if (here in SIGNS_OF[mark]) != solved:
+        if here != there:
             where_apart = tuple((str(name), str(value)) for name, value in point.items())
             return Verdict(Grade.REFUTED, "one of the relations holds and the other does not", where_apart)
     if not seen:
         return Verdict(Grade.REFUTED, "undefined wherever it was tried")
     return Verdict(Grade.SAMPLED, f"{seen} points")
-
-
-def _sign_of_number(value: Expr) -> int:
-    return 0 if value == 0 else 1 if value > 0 else -1
 
 
 @in_results(

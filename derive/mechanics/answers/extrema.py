@@ -6,26 +6,28 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
+from sympy import Abs, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR8
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import At, Relation, explicit, scalar
-from derive.algebra.normal_form import vanishes
-from derive.algebra.ranges import ends_within, range_of, strict_sign_within
+from derive.algebra.ranges import range_of
+from derive.algebra.relation import sides_without_minus
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.answers import claims
 from derive.mechanics.in_results import Ends, Letter, in_results
 from derive.solving.presentation import presented
+from derive.solving.relations import positive
 from derive.solving.unknowns import coordinates_of, kind_of_unknown, letter_of, unknown_of
-from derive.solving.zeros import Unsolved, positive, zeros_of
+from derive.solving.zeros import Unsolved, zeros_of
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import holds, sign_for_all, sign_known
 from derive.steps.step import Level, Quantity
 
 __all__ = ["maximum", "minimum"]
@@ -177,7 +179,7 @@ def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol
     low, high = within or (Integer(0), None)
     found = []
     for ahead in (place - low, *([] if high is None else [high - place])):
-        sure = _sign_by_letters(ahead, Integer(1) if high is None else high - low)
+        sure = _sign_of_distance(ahead, Integer(1) if high is None else high - low)
         if sure in (0, -1) or sure is None and sign_known(ahead) in (0, -1):
             return None
         if sure is None:
@@ -185,28 +187,17 @@ def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol
     return found
 
 
-def _sign_by_letters(ahead: Expr, width: Expr) -> int | None:
-    """Return the sign of a distance from an end, by the letters only; the interval has a positive width."""
-    share = tidied(ahead / width)
-    for part in (tidied(ahead), share):
-        if vanishes(part):
-            return 0
-        ends, sign = ends_within(part), strict_sign_within(part)
-        if sign is None and ends is not None:
-            sign = 1 if ends[0].is_nonnegative else -1 if ends[1].is_nonpositive else None
-        if sign is not None:
-            return sign
-    return None
+def _sign_of_distance(ahead: Expr, width: Expr) -> int | None:
+    """Return the sign of a distance from an end for all letters; the interval has a positive width."""
+    signs = (sign_for_all(tidied(part)) for part in (ahead, ahead / width))
+    return next((sign for sign in signs if sign is not None), None)
 
 
 def _apart(condition: Relation) -> Relation:
     """Write (k m - b^2/2)/m^2 > 0 as b^2 < 2 k m: subtracted terms move to the other side."""
     above, below = condition.left.as_numer_denom()
-    terms = Add.make_args((above / abs(above.as_content_primitive()[0])).expand())
-    away = [-term for term in terms if term.could_extract_minus_sign()]
-    if not below.is_positive or not away or len(away) == len(terms):
-        return condition
-    return Relation(Add(*away), "<", Add(*(term for term in terms if -term not in away)))
+    more, less = sides_without_minus((above / abs(above.as_content_primitive()[0])).expand())
+    return Relation(less, "<", more) if below.is_positive and more != 0 and less != 0 else condition
 
 
 def _root_of(inside: Expr) -> Expr:
@@ -274,12 +265,12 @@ def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]
         a, b, c = coefficients
         if b == 0:
             inside = presented(-c / a, in_sums=False)
-            condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
+            condition = None if sign_for_all(inside) == 1 else Relation(inside, ">", 0)
             return [] if sign_known(inside) == -1 else [(sign * _root_of(inside), condition) for sign in (1, -1)]
         inside = tidied(b**2 - 4 * a * c)
         if sign_known(inside) == -1:
             return []
-        condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
+        condition = None if sign_for_all(inside) == 1 else Relation(inside, ">", 0)
         return [(presented((-b + sign * sqrt(inside)) / (2 * a)), condition) for sign in (1, -1)]
     return []
 
@@ -309,13 +300,6 @@ def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:
 # --- the second routes ---
 
 
-def _holds(condition: Relation, point: Any) -> bool:
-    size = value_at(with_numbers(condition.residual), point)
-    return bool(
-        size != 0 if condition.operator == "!=" else size < 0 if condition.operator in {"<", "<="} else size > 0
-    )
-
-
 def _not_exceeded(
     value: Expr,
     x: Symbol,
@@ -333,7 +317,7 @@ def _not_exceeded(
     seen = 0
     for point in islice(points(letters, seed_of(value)), 60):
         try:
-            if not all(_holds(each, point) for each in conditions):
+            if not all(holds(value_at(with_numbers(each.residual), point), each.operator) for each in conditions):
                 continue
             best, centre = value_at(top, point), value_at(place, point)
             ends = [value_at(with_numbers(e), point) for e in within] if within else [centre / 2, centre * 2]

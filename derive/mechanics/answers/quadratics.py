@@ -16,14 +16,16 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
 from derive.mechanics.answers.conditions import where
+from derive.solving.divisors import may_vanish
 from derive.solving.presentation import presented
 from derive.solving.relations import solved_in_letters
 from derive.solving.unknowns import coordinates_of, kind_of_unknown
 from derive.steps.claims import sign_is
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.level import Manner
 from derive.steps.rule import CHECK, Rule, Shown
+from derive.steps.signs import sign_known
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 

@@ -26,15 +26,15 @@ from sympy import (
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import RATES, Relation, Terms, explicit, scalar
-from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.answers import claims
 from derive.mechanics.answers.quadratics import roots_together
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Symbols, in_results
-from derive.solving.attainable import is_out_of_range
-from derive.solving.presentation import presented
+from derive.solving.attainable import is_out_of_range, within_one
+from derive.solving.divisors import may_vanish
+from derive.solving.presentation import presented, without_positive
 from derive.solving.root_of_factor import FOUR, RootOf
 from derive.solving.unknowns import (
     ValueOf,
@@ -48,10 +48,10 @@ from derive.solving.unknowns import (
     residual_of,
     unknown_of,
 )
-from derive.solving.zeros import within_one
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import may_vanish, sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import sign_for_all, sign_known
 from derive.steps.step import Level, Quantity, is_zero
 
 __all__ = ["roots"]
@@ -98,7 +98,7 @@ def roots(
     real = [root for root in every if len(root.coefficients) == 2 or sign_known(root.discriminant) != -1]
     if not real:
         return (_no_root(equation, unknown, every, False, none),)
-    kept = [root for root in real if _sign(root) not in ((-1, 0) if strict_sign_within(unknown) == 1 else ())]
+    kept = [root for root in real if _sign(root) not in ((-1, 0) if sign_for_all(unknown) == 1 else ())]
     if not kept:
         return (_no_root(equation, unknown, real, True, none),)
     kept = [root for root in kept if not _is_out_of_reach(root, unknown)]
@@ -199,7 +199,7 @@ def _step(
             outcome_data={
                 "polynomial": polynomial.as_expr(),
                 "gen": polynomial.gen,
-                "positive": Integer(strict_sign_within(unknown) == 1),
+                "positive": Integer(sign_for_all(unknown) == 1),
                 "place": Integer(i),
                 "roots": tuple(each.value for each in kept),
                 "count": Integer(len(kept)),
@@ -385,11 +385,11 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Return the condition for the root to be real, or positive if required."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        lost = sign_known(c) or strict_sign_within(unknown) == 1  # no root of a x^2 + c if a = 0; or it is 0
+        lost = sign_known(c) or sign_for_all(unknown) == 1  # no root of a x^2 + c if a = 0; or it is 0
         mark = ">" if b == 0 and lost else ">="
-        return Relation(presented(_without_positive(root.discriminant)), mark, ZERO)
-    if strict_sign_within(unknown) == 1 and _sign(root) is None:
-        return Relation(presented(_without_positive(root.value)), ">", ZERO)
+        return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
+    if sign_for_all(unknown) == 1 and _sign(root) is None:
+        return Relation(presented(without_positive(tidied(root.value))), ">", ZERO)
     return None
 
 
@@ -397,13 +397,6 @@ def _sum_of_squares(root: RootOf) -> bool:
     """Whether the discriminant b^2 - 4 a c is positive, since the product of the roots is negative."""
     a, _, c = root.coefficients
     return sign_known(a * c) == -1
-
-
-def _without_positive(value: Expr) -> Expr:
-    """Return the factors that decide the sign of a value."""
-    value = tidied(value)
-    kept = [f for f in Mul.make_args(value) if not f.is_positive]
-    return Mul(*kept)
 
 
 def _ascending(found: list[RootOf]) -> list[RootOf]:

@@ -13,6 +13,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letters, in_results
+from derive.solving.divisors import may_vanish
 from derive.solving.presentation import presented
 from derive.solving.unknowns import (
     coordinates_of,
@@ -25,7 +26,6 @@ from derive.solving.unknowns import (
 )
 from derive.steps.claims import says_what_it_divides_by
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.known_numbers import may_vanish
 from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import EVERYTHING

@@ -7,11 +7,10 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Symbol
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
-from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, Spelled, did_you_mean
 from derive.mechanics.answers import claims
 from derive.mechanics.arguments import checked
@@ -22,11 +21,12 @@ from derive.mechanics.lagrange.facts import FromLagrangian, KeptMomentum, WithMo
 from derive.mechanics.motion.facts import ByEnergy
 from derive.mechanics.motion.turning_points import assume_reached, condition_to_reach
 from derive.solving.defined import check_defined
-from derive.solving.presentation import presented
+from derive.solving.presentation import presented, without_positive
 from derive.solving.unknowns import ValueOf, coordinates_of, left_over, letter_of, meaning, unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in, named_coordinates
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import sign_for_all
 from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
@@ -321,8 +321,7 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
     if value.free_symbols & fast:
         return Relation(by_accelerations(value.left, moving), value.operator, Integer(0))
     left = presented(value.left)
-    kept = [f for f in Mul.make_args(left) if strict_sign_within(f) != 1]
-    core = Mul(*kept) if kept else left
+    core = without_positive(left) if sign_for_all(left) != 1 else left
     if value.operator == "=" and all(term.could_extract_minus_sign() for term in Add.make_args(core)):
         core = -core  # x = 0, not -x = 0
     return Relation(presented(core), value.operator, Integer(0))

@@ -30,10 +30,10 @@ from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.bodies.regions import Point, Region, no_such_coordinates
 from derive.steps.claims import lasts
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.known_numbers import sign_known
 from derive.steps.level import Manner
 from derive.steps.record import free_letter
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown
+from derive.steps.signs import sign_known
 from derive.steps.step import Form, Level, Quantity, is_zero
 from derive.steps.subject import Subject
 

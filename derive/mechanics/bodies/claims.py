@@ -19,8 +19,8 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.mapping import inside
-from derive.steps.known_numbers import sign_known
 from derive.steps.rule import Judged, Predicate, handed_on_by
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 
 

@@ -20,7 +20,7 @@ from derive.algebra.expressions import explicit
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.charts import CLOSE, Chart, Place, draws
 from derive.mechanics.bodies.regions import Bounds
-from derive.steps.known_numbers import sign_known
+from derive.steps.signs import sign_known
 
 POINTS, TWINS = 40, 6  # points of a part, and pairs of values for a map
 APART = 1e-3  # fraction of a variable's range by which two values of it differ

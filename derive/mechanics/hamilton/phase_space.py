@@ -27,10 +27,10 @@ from derive.mechanics.hamilton import claims
 from derive.mechanics.hamilton.inverted_momenta import by_quadratic_form
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.lagrange.energy_forms import squared_below_roots
+from derive.solving.divisors import told_of_divisors
 from derive.solving.presentation import by_one_square
 from derive.steps.claims import says_what_it_divides_by
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.known_numbers import told_of_divisors
 from derive.steps.level import Manner
 from derive.steps.rule import CHECK, Rule, Shown
 from derive.steps.step import Quantity, lettered

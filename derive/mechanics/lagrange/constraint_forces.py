@@ -26,9 +26,9 @@ from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Matter, Reaction
 from derive.mechanics.model.gradients import gradient_length
 from derive.mechanics.model.rigid import by_squares
+from derive.solving.divisors import told_of_divisors
 from derive.steps.claims import lasts, says_what_it_divides_by, vanishes
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import told_of_divisors
 from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown

@@ -25,8 +25,8 @@ from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.dalembert import Load, MassPoint, Matter, Reaction
 from derive.mechanics.model.described import Described, described
 from derive.mechanics.model.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
-from derive.steps.known_numbers import taken_positive
 from derive.steps.record import assume, coordinates_in, require_constant
+from derive.steps.signs import taken_positive
 from derive.steps.step import Fact, Quantity, is_zero
 from derive.witness import description as plain
 

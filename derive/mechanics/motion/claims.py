@@ -22,8 +22,9 @@ from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.mechanics.motion.facts import ByEnergy, Steady
 from derive.steps.claims import same_equation, sign_is, value_of_role
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 from derive.steps.trial_numbers import (
     Point,

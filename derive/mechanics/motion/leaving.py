@@ -15,8 +15,8 @@ from derive.mechanics.in_results import Letter, Value, in_results
 from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import ByEnergy
 from derive.mechanics.motion.turning_points import condition_to_reach, part_of_the_way, squared_by_energy
-from derive.solving.relations import conditions_told, divided_out, existence, number_of, solved_for_unknown, unsolvable
-from derive.solving.signs import of_the_size
+from derive.solving.attainable import existence
+from derive.solving.relations import conditions_told, divided_out, number_of, positive, solved_for_unknown, unsolvable
 from derive.solving.unknowns import (
     left_over,
     letter_of,
@@ -26,10 +26,10 @@ from derive.solving.unknowns import (
     with_unknown,
     without_factors_beside,
 )
-from derive.solving.zeros import positive
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import of_the_size, sign_known
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["leaves_contact"]
@@ -100,9 +100,10 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     if sign_known(at_start) != 1:
         message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
         raise Rejected(Complaint("no-contact", message, help="give the value at which the surfaces touch"))
-    alone, solved, _ = solved_for_unknown(force, pushing, "=", unknown)
-    if alone != unknown:
+    result = solved_for_unknown(force, pushing, "=", unknown)
+    if result.left != unknown:
         raise unsolvable(force, unknown)
+    solved = result.right
     speed = _speed_behind(force, unknown)
     if speed is not None:
         _check_starts_there(force, speed, unknown, begin)
@@ -111,8 +112,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     if squared is not None and there is not None and sign_known(there) in (0, -1):
         return _turns_back(force, unknown, (begin, solved), squared, key)
     reached = None if speed is None else condition_to_reach(force, speed, unknown, solved)
-    result = Relation(unknown, "=", solved)
-    existing = existence(force, unknown, "=", solved)
+    existing = existence(force, result)
 
     def on_both_sides(found: Relation) -> tuple[object, object]:
         """Compare N at the place, and between the start and the place, without the factor that stays positive."""

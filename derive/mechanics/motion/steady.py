@@ -14,7 +14,7 @@ from sympy import Add, Dummy, Expr, Integer, Mul, Symbol
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, Partial, Relation, as_expr, bound, explicit, rate
-from derive.algebra.ranges import never_vanishes_within, strict_sign_within
+from derive.algebra.ranges import never_vanishes_within
 from derive.algebra.taylor import slope
 from derive.errors import Complaint, Rejected
 from derive.mechanics.arguments import checked
@@ -26,7 +26,7 @@ from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import Steady
-from derive.solving.presentation import presented
+from derive.solving.presentation import presented, without_positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
 from derive.steps.rule import ROUTE, Rule
@@ -110,7 +110,7 @@ def _of_equation(
     still = {letter: value for letter, value in motion.items() if letter not in {rate(s) for s in turning}}
     matter = steady.lagrangian.needed(Matter)
     left = _rates_first(presented(bound(equation.value.left, still)), steady)
-    core = _without_positive(left)
+    core = without_positive(left, in_equation=True)
     if core.is_nonzero:
         raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
@@ -163,7 +163,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
     """
     of, matter = steady.lagrangian, steady.lagrangian.needed(Matter)
     force = bound(derivative(explicit(of.value), q.symbol), motion)
-    core = _without_positive(_rates_first(presented(-force), steady))
+    core = without_positive(_rates_first(presented(-force), steady), in_equation=True)
     if core.is_nonzero or core != 0 and never_vanishes_within(core):
         raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
@@ -195,12 +195,6 @@ def _rates_first(value: Expr, steady: Steady) -> Expr:
             if each.is_Add and polynomial is not None and polynomial.degree() > 1:
                 return presented(-value) if polynomial.LC().could_extract_minus_sign() else value
     return value
-
-
-def _without_positive(value: Expr) -> Expr:
-    return Mul(
-        *(f for f in Mul.make_args(value) if strict_sign_within(f) != 1 and not (f.is_Rational and f.is_nonzero))
-    )
 
 
 def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:

@@ -11,10 +11,11 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.motion.facts import ByEnergy
+from derive.solving.relations import positive
 from derive.solving.unknowns import left_over, letter_of, mark_for, meaning, with_unknown
-from derive.solving.zeros import positive
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assume, assumed
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity
 
 TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # of the way to a place

@@ -48,10 +48,10 @@ from derive.steps.claims import (
     value_of_role,
     vanishes,
 )
-from derive.steps.known_numbers import sign_known
 from derive.steps.numeric import Extreme
 from derive.steps.record import assumed, assumed_in_words
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 from derive.steps.trial_numbers import (
     Point,

@@ -24,9 +24,9 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.system import System
 from derive.mechanics.rest import claims
-from derive.solving.signs import sign_by_factors
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.rule import ROUTE, Rule
+from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
 
 __all__: list[str] = []
@@ -155,7 +155,7 @@ class OnConstraints:
         """
         allowed = _allowed(self.potential, self.constraints, self.place)
         minors = list(leading_minors(allowed.matrix))
-        sign = sign_of_form(allowed.matrix, sign_by_factors)
+        sign = sign_of_form(allowed.matrix, sign_for_all)
         names = [scalar(f"D_{n + 1}") for n in range(len(minors))]
         alone = len(minors) == 1
         state = Relation(Amplitudes(*allowed.coordinates), "=", Amplitudes(*allowed.place.values()))

@@ -30,6 +30,7 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.length import length
 from derive.algebra.ranges import range_of
+from derive.algebra.relation import sides_without_minus
 from derive.algebra.taylor import coefficient_along, slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -53,12 +54,12 @@ from derive.mechanics.rest.sides import (
     sides_of,
 )
 from derive.solving.attainable import lies_within
-from derive.solving.signs import sign_by_factors
+from derive.solving.divisors import may_vanish
 from derive.solving.zeros import Unsolved, Zero, factors_of, zeros_of
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import may_vanish
 from derive.steps.record import changes, given_letters
 from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, Route, compared_with, is_zero, require_kind
 from derive.witness.facts import Rest
 
@@ -283,7 +284,7 @@ def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> 
     if len(held) < 2 or len(held) != len(forces):
         return None
     matrix = ImmutableDenseMatrix([[derivative(force, q) for q in held] for force in forces])
-    if matrix.has(*held) or sign_by_factors(tidied(matrix.det(method="berkowitz"))) in (None, 0):
+    if matrix.has(*held) or sign_for_all(tidied(matrix.det(method="berkowitz"))) in (None, 0):
         return None
     at_zero = ImmutableDenseMatrix([-force.xreplace(dict.fromkeys(held, ZERO)) for force in forces])
     values = matrix.adjugate() * at_zero / matrix.det(method="berkowitz")
@@ -381,8 +382,8 @@ def _level_where(force: Expr, q: Symbol) -> Relation | None:
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
     if left is None or not left.left.is_Add:
         return left
-    away = [-term for term in left.left.args if term.could_extract_minus_sign()]
-    return Relation(left.left + Add(*away), left.operator, Add(*away))
+    more, less = sides_without_minus(left.left)
+    return Relation(more, left.operator, less)
 
 
 def _by_terms_if_shorter(value: Expr) -> Expr:

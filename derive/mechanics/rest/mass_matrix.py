@@ -21,7 +21,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.lagrange.facts import Varied
 from derive.mechanics.model.dalembert import Matter
-from derive.steps.known_numbers import taken_positive
+from derive.steps.signs import taken_positive
 from derive.steps.step import is_zero
 
 DIGITS = 40

@@ -10,9 +10,10 @@ from sympy import Abs, Expr, Mul, Symbol
 
 from derive.algebra.expressions import Relation
 from derive.algebra.tidy import tidied
-from derive.solving.signs import sign_by_factors
-from derive.solving.zeros import Unsolved, positive, sign_where
+from derive.solving.relations import positive
+from derive.solving.zeros import Unsolved
 from derive.steps.record import assumed, assumed_in_words
+from derive.steps.signs import sign_for_all, sign_where
 
 MOST = 4  # the most distances for which both sides are tried
 
@@ -46,7 +47,7 @@ def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
     """Return the state with the condition that all these lengths are positive there; None if one never is."""
     for each in lengths:
         there = tidied(each.xreplace(dict(state.values)))
-        sign = sign_by_factors(there)
+        sign = sign_for_all(there)
         if sign in (-1, 0):
             return None
         if sign is None:
@@ -60,7 +61,7 @@ def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
 def keeps_sides(state: State) -> bool:
     """Whether no distance that the page assumes to be positive is negative or zero there."""
     lengths = [each.residual for each in _sides_taken(tuple(state.values))]
-    return all(sign_by_factors(tidied(u.xreplace(dict(state.values)))) not in (-1, 0) for u in lengths)
+    return all(sign_for_all(tidied(u.xreplace(dict(state.values)))) not in (-1, 0) for u in lengths)
 
 
 def how_sides_are_taken(coordinates: Sequence[Symbol]) -> str:

@@ -18,7 +18,6 @@ from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.definite import sign_of_form
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
-from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
@@ -30,11 +29,11 @@ from derive.mechanics.rest.facts import Shape, StableWhere, matter_behind
 from derive.mechanics.rest.mass_matrix import check_regular, has_positive_inertia
 from derive.mechanics.rest.potentials import slope
 from derive.mechanics.rest.sides import on_known_sides
-from derive.solving.signs import sign_by_factors
-from derive.solving.zeros import border_of, positive, sign_where
+from derive.solving.relations import border_of, positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.signs import sign_for_all, sign_where
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
 from derive.witness.facts import Rest
 
@@ -279,7 +278,7 @@ def _by_higher_order(place: Place, energy: Expr) -> str:
     order = _order(energy, place)
     if order == 0:
         return "flat"
-    sign = sign_by_factors(tidied(derivative(energy, q, order).xreplace({q: place.values[q]})))
+    sign = sign_for_all(tidied(derivative(energy, q, order).xreplace({q: place.values[q]})))
     if order % 2 or sign == -1:
         return "unstable_by_higher_order"
     return "stable_by_higher_order" if sign == 1 else "flat"
@@ -332,7 +331,7 @@ def _of_several(place: Place, key: str) -> Quantity:
     told: dict[str, tuple[Any, Any]] = {}
     named: dict[str, Any] = {"state": _state(place)}
     way = _way_down(matrix) if outcome == "depends" else None
-    if outcome == "unstable" and not any(sign_by_factors(value) == -1 for value in values):
+    if outcome == "unstable" and not any(sign_for_all(value) == -1 for value in values):
         way = _plain_way_down(matrix, [place.potential.coordinates[q] for q in moving])
     if way is not None:
         outcome = "unstable_along"
@@ -382,9 +381,9 @@ def _minor(matrix: MatrixBase, n: int) -> Expr:
 
 
 def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
-    if all(sign_by_factors(value) == 1 for value in minors):
+    if all(sign_for_all(value) == 1 for value in minors):
         return "stable"
-    return {1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign_of_form(matrix, sign_by_factors)]
+    return {1: "stable", 0: "level", -1: "unstable", None: "depends"}[sign_of_form(matrix, sign_for_all)]
 
 
 def _way_down(matrix: MatrixBase) -> MatrixBase | None:
@@ -398,7 +397,7 @@ def _way_down(matrix: MatrixBase) -> MatrixBase | None:
             continue
         for column in share.nullspace(iszerofunc=is_zero):
             way = ImmutableDenseMatrix(column.applyfunc(tidied))
-            if strict_sign_within(tidied((way.T * matrix * way)[0])) == -1:
+            if sign_for_all(tidied((way.T * matrix * way)[0])) == -1:
                 return way
     return None
 
@@ -412,7 +411,7 @@ def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | No
     for way in sorted(ways, key=lambda each: (sum(map(abs, each)), [-n for n in each])):
         if len({kind for kind, n in zip(kinds, way, strict=True) if n}) == 1:
             column = ImmutableDenseMatrix(way)
-            if sign_by_factors(tidied((column.T * matrix * column)[0])) == -1:
+            if sign_for_all(tidied((column.T * matrix * column)[0])) == -1:
                 return column
     return None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, sqrt
+from sympy import Dummy, ImmutableDenseMatrix, Integer, Rational
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
@@ -14,9 +14,10 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rest import claims
 from derive.mechanics.rest.facts import StableWhere
-from derive.solving.signs import SIGNS_OF, sign_by_factors
+from derive.solving.relations import without_square
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import holds, sign_for_all
 from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["stable_where"]
@@ -51,11 +52,9 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         message = f"`stable_where`: `{of.key}` has no condition for one coordinate"
         raise Rejected(Complaint("no-condition", message, help="`stability` states whether the equilibrium is stable"))
     left, right = known.condition.sides
-    mark = known.condition.operator + ("=" if known.stable_there else "")
-    squared = Relation(left, mark, right)
-    alone = left.base if left.is_Pow and left.exp == 2 and left.base.is_positive and right.is_positive else left
-    result = Relation(alone, mark, tidied(sqrt(right))) if alone != left else squared
-    border = known.border if known.border is not None and alone == known.border.left else None
+    squared = Relation(left, known.condition.operator + ("=" if known.stable_there else ""), right)
+    result = without_square(squared)
+    border = known.border if known.border is not None and result.left == known.border.left else None
 
     def beside(found: Relation) -> tuple[Any, Any]:
         """Compare the relation above and below its boundary with the sign of the second derivative there."""
@@ -63,8 +62,8 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         says, is_so = [Integer(1)], [Integer(1)]
         for side in (1, -1) if border is not None else ():
             there = found.right * (1 + u) ** side
-            sign = sign_by_factors(tidied(explicit(of.value).subs(found.left, there)))
-            says.append(Integer(int(side in SIGNS_OF[found.operator])))
+            sign = sign_for_all(tidied(explicit(of.value).subs(found.left, there)))
+            says.append(Integer(holds(side, found.operator)))
             is_so.append(Integer(int(sign == 1)) if sign is not None else Integer(7))
         return ImmutableDenseMatrix(says), ImmutableDenseMatrix(is_so)
 
@@ -101,8 +100,8 @@ def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -
                 bound = value_at(found.right, point)
                 cases = [{**point, found.left: bound * f} for f in (Rational(5, 4), Rational(4, 5))]
             for case in cases:
-                holds = _sign(value_at(found.residual, case)) in SIGNS_OF[found.operator]
-                if holds != bool(known.lifted(case) > 0):
+                is_true = holds(value_at(found.residual, case), found.operator)
+                if is_true != bool(known.lifted(case) > 0):
                     where = tuple((str(s), str(x)) for s, x in case.items())
                     return Verdict(Grade.REFUTED, "the energy near the place contradicts it", where)
         except (Undefined, NoNumber, TypeError):
@@ -111,7 +110,3 @@ def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -
         if seen == TRIALS:
             break
     return Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "nothing could be tried")
-
-
-def _sign(value: Expr) -> int:
-    return 0 if value == 0 else 1 if value > 0 else -1

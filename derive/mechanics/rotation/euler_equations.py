@@ -47,9 +47,9 @@ from derive.mechanics.theorems import ROTATING_AXES
 from derive.solving.highest_rates import highest_rates
 from derive.steps.claims import vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.known_numbers import sign_known
 from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, ROUTE, Quote, Rule
+from derive.steps.signs import sign_known
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject
 

@@ -11,10 +11,10 @@ from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.principal import PrincipalOf, lone_moment
-from derive.solving.isolation import isolated
-from derive.solving.signs import of_the_size
+from derive.solving.relations import isolated
 from derive.steps.establish import Lines, establish
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import of_the_size
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["isotropic_where"]

@@ -16,8 +16,8 @@ from derive.algebra.taylor import slope
 from derive.errors import Complaint, Rejected
 from derive.mechanics.hamilton.facts import ReducedMatter
 from derive.mechanics.model.dalembert import Matter
-from derive.solving.isolation import solved_for_letter
 from derive.solving.presentation import presented
+from derive.solving.relations import solved_for_letter
 from derive.steps.step import Quantity, is_zero
 
 ZERO = Integer(0)

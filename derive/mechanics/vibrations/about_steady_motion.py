@@ -25,14 +25,12 @@ from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.about_motion import About, determinant_about, letter_of_value
 from derive.mechanics.vibrations.facts import SquareOf
 from derive.mechanics.vibrations.oscillations import frequency
-from derive.solving.isolation import solved_for_letter
 from derive.solving.presentation import presented
-from derive.solving.signs import sign_by_factors
-from derive.solving.zeros import sign_where
+from derive.solving.relations import solved_for_letter
 from derive.steps.claims import sign_where_it_exists
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import sign_known
 from derive.steps.rule import ROUTE, Rule
+from derive.steps.signs import sign_for_all, sign_known, sign_where
 from derive.steps.step import Quantity, is_zero
 from derive.witness.facts import Rest
 
@@ -122,7 +120,7 @@ def _of_plain_sign(value: Expr) -> Expr:
     def shown(part: Expr) -> Expr:
         base, power = part.as_base_exp()
         forms = [base, *(way(base).expand() for way in (TR5, TR6))] if base.has(sin, cos) else [base]
-        return min(forms, key=lambda f: (sign_by_factors(f) is None, length(f), str(f))) ** power
+        return min(forms, key=lambda f: (sign_for_all(f) is None, length(f), str(f))) ** power
 
     forms = [Mul(*map(shown, Mul.make_args(form))) for form in (value, factor(value))]
     return min(forms, key=lambda f: (sign_known(f) is None, length(f), str(f)))

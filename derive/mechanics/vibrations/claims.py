@@ -38,8 +38,8 @@ from derive.steps.claims import (
     same_equation,
     sign_where_it_exists,
 )
-from derive.steps.known_numbers import sign_known
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 from derive.steps.trial_numbers import (
     TRIED,

@@ -22,11 +22,11 @@ from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.facts import Linear
 from derive.mechanics.vibrations.gyroscopic import outcome_data
 from derive.mechanics.vibrations.linearised import factors_of_amplitudes, with_motion
-from derive.solving.signs import sign_by_factors
-from derive.solving.zeros import positive
+from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter, require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
 
 __all__: list[str] = []
@@ -102,7 +102,7 @@ def _factors(together: Linear) -> list[tuple[Poly, int]]:
         )
         help_line = "the modes separate if masses, springs and drags are equal, or drag is proportional to mass"
         raise Rejected(Complaint("no-closed-form", f"{message}not factor", help=help_line))
-    plain = [(-part if sign_by_factors(part.LC()) == -1 else part, times) for part, times in found]
+    plain = [(-part if sign_for_all(part.LC()) == -1 else part, times) for part, times in found]
     return sorted(plain, key=lambda each: (not is_zero(each[0].eval(0)), each[0].degree(), len(str(each[0].as_expr()))))
 
 
@@ -200,7 +200,7 @@ def _rate(characteristic: Quantity, together: Linear, part: Poly, number: str, s
         root = sqrt(found**2 - coefficients[2] / coefficients[0]) if twice else 0
         return _remainder_at(characteristic, letter, -found, root), 0
 
-    outcome = "oscillator" if twice else "growth" if sign_by_factors(value) == -1 else "decay"
+    outcome = "oscillator" if twice else "growth" if sign_for_all(value) == -1 else "decay"
     return establish(
         DAMPED_RATE,
         scalar(free_letter(f"beta{number}")),
@@ -245,7 +245,7 @@ def _frequency(
     """
     a, b, c = (tidied(each) for each in part.all_coeffs())
     square = spread(c / a) - spread(b**2 / (4 * a**2))
-    sign = sign_by_factors(tidied(4 * a * c - b**2))
+    sign = sign_for_all(tidied(4 * a * c - b**2))
     turned = -1 if sign == -1 else 1
     condition = positive(tidied(4 * a * c - b**2)) if sign is None else None
     name = free_letter(f"{'gamma' if turned < 0 else 'omega'}{number}")
@@ -336,7 +336,7 @@ def _shape(
         values = [each.rem(factor).as_expr() for each in rest]
         return ImmutableDenseMatrix(values), ImmutableDenseMatrix([0 * value for value in values])
 
-    sign = sign_by_factors(tidied(column[0] * column[1])) if len(column) == 2 else None
+    sign = sign_for_all(tidied(column[0] * column[1])) if len(column) == 2 else None
     return establish(
         DAMPED_SHAPE,
         MatrixSymbol(f"a_{number}", len(column), 1),

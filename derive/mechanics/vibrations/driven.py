@@ -13,12 +13,14 @@ from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
+from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
-from derive.solving.zeros import check_no_resonance, different_from_zero, positive
+from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assume
 from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.signs import sign_known
 from derive.steps.step import Level, Quantity
 
 __all__ = ["quality_factor", "steady_amplitude"]

@@ -36,7 +36,7 @@ from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.facts import Linear
 from derive.mechanics.vibrations.linearised import with_motion
 from derive.solving.gyroscopic import OMEGA, GyroscopicPencil, Swing, factored
-from derive.solving.zeros import positive
+from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule

@@ -22,7 +22,7 @@ from derive.mechanics.vibrations.gyroscopic import (
     require_turning,
 )
 from derive.solving.gyroscopic import GyroscopicPencil, Part
-from derive.solving.zeros import border_of, positive
+from derive.solving.relations import border_of, positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Form, Level, Quantity, is_zero

@@ -43,14 +43,14 @@ from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
+from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
 from derive.solving.unknowns import coordinates_of, is_number, residual_of
-from derive.solving.zeros import check_no_resonance, different_from_zero
 from derive.steps.claims import as_told
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume, changes, require_constant
 from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import sign_known
 from derive.steps.step import Level, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["solution"]

@@ -28,8 +28,8 @@ from derive.mechanics.rest.mass_matrix import check_regular
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.facts import Linear
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.known_numbers import sign_known
 from derive.steps.rule import ROUTE, Rule
+from derive.steps.signs import sign_known
 from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
 from derive.witness.facts import Around, Rest
 

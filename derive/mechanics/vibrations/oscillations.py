@@ -16,12 +16,12 @@ from derive.mechanics.kinematics.coordinates import OfCoordinate, T
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.facts import Linear, SquareOf
 from derive.solving.characteristic import root_of
-from derive.solving.signs import sign_by_factors
-from derive.solving.zeros import positive, sign_where
+from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.level import Manner
 from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, Rule, Shown
+from derive.steps.signs import sign_for_all, sign_where
 from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["frequency", "frequency_and_growth", "frequency_squared"]
@@ -118,7 +118,7 @@ def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -
         return "neutral"
     sign = strict_sign_within(value) or sign_where(value, exists)
     if sign is None:
-        sign = 1 if all(sign_by_factors(tidied(each)) == 1 for each in entries) else None
+        sign = 1 if all(sign_for_all(tidied(each)) == 1 for each in entries) else None
     return {1: "stable", -1: "unstable"}.get(sign or 0, "conditional")
 
 

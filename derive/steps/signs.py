@@ -1,0 +1,173 @@
+"""The sign of an expression: one decision for the whole engine.
+
+The means are used in this order; the first that decides is taken:
+
+    exact zero         the normal form of the expression
+    factors            each factor by the assumptions on its letters, as it is written and multiplied out
+    ranges, relations  each factor by the ranges of its letters and by the assumed relations between them
+    squares, roots     even powers that do not vanish, sums that are positive by the geometric mean, and roots
+    numbers            the numbers that the problem gives for the letters, only in `sign_known`
+
+`derive.algebra.ranges` decides by ranges and relations. A derivation stays symbolic, so numbers decide only between
+cases, such as whether a top spins fast enough.
+"""
+
+from __future__ import annotations
+
+from math import prod
+from typing import Any
+
+from sympy import Abs, Add, Expr, Integer, Mul, factor_list, nan
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.normal_form import vanishes
+from derive.algebra.order import Contradiction, in_order, known_order
+from derive.algebra.ranges import sign_within, strict_sign_within, take_as_positive, taken_as_positive
+from derive.algebra.relation import sides_without_minus
+from derive.algebra.tidy import tidied
+from derive.steps.known_numbers import with_numbers
+from derive.steps.record import assume, assumed, named_coordinates
+from derive.steps.rule import Doubt
+from derive.steps.step import is_zero
+
+DIGITS, SHORT = 30, 20
+SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
+DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is unknown
+
+
+def sign_for_all(value: Expr) -> int | None:
+    """The sign for all allowed values of the letters, whatever numbers the problem gives: 1, -1, 0; None if unknown."""
+    return _sign_of_product(value, by_numbers=False)
+
+
+def sign_known(value: Expr) -> int | None:
+    """The sign for the numbers that the problem gives, used where the letters do not decide: 1, -1, 0; None if
+    unknown."""
+    return _sign_of_product(tidied(value), by_numbers=True)
+
+
+def sign_where(value: Expr, exists: Relation | None) -> int | None:
+    """The sign for all values of the letters for which the condition holds."""
+    own = sign_for_all(value)
+    if own is not None or exists is None:
+        return own
+    difference = exists.residual if exists.operator[0] == ">" else -exists.residual
+    try:
+        order = known_order().with_relation(difference, not exists.operator.endswith("="), sign_within)
+    except Contradiction:
+        return None
+    with in_order(order):
+        return sign_for_all(value)
+
+
+def _sign_of_product(value: Expr, by_numbers: bool) -> int | None:
+    if is_zero(value):
+        return 0
+    signs = [_sign_of_factor(factor, by_numbers) for factor in Mul.make_args(value)]
+    if 0 in signs:
+        return 0
+    return None if None in signs else prod(sign for sign in signs if sign)
+
+
+def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
+    base, power = factor.as_base_exp()
+    forms = (factor, factor.expand()) if not power.is_Integer else (base**power, base.expand() ** power)
+    if any(form.is_positive or form.is_negative for form in forms):
+        return -1 if any(form.is_negative for form in forms) else 1
+    if (ranged := strict_sign_within(factor)) is not None:
+        return ranged
+    if _is_square_that_lasts(base, power) or _is_positive_by_means(forms[-1]):
+        return 1
+    if not power.is_Integer and power.is_real and _sign_of_product(base, by_numbers) == 1:
+        return 1
+    return _sign_by_numbers(factor) if by_numbers else None
+
+
+def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
+    """Whether it is an even power of a real symbol in a denominator, or of one that is assumed not to vanish."""
+    lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
+    return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
+
+
+def _is_positive_by_means(total: Expr) -> bool:
+    """Whether each negative term is at most twice the geometric mean of two positive terms: a^2 - 2 a b + b^2 + c.
+
+    Each positive term is used at most once, and at least one must be left over.
+    """
+    terms = Add.make_args(total)
+    above = [term for term in terms if term.is_positive]
+    below = [term for term in terms if term.is_negative]
+    if len(above) + len(below) < len(terms) or not 0 < len(below) < len(terms) / 2:
+        return False
+    for term in below:
+        pairs = ((a, b) for i, a in enumerate(above) for b in above[i + 1 :])
+        pair = next((pair for pair in pairs if (4 * Mul(*pair) / term**2 - 1).is_nonnegative), None)
+        if pair is None:
+            return False
+        above = [each for each in above if each not in pair]
+    return bool(above)
+
+
+def _sign_by_numbers(expr: Expr) -> int | None:
+    """Return the sign of an expression at the given numbers; None if a letter has none, or if it is not real there."""
+    value = with_numbers(expr)
+    if value.free_symbols or not value.is_real:
+        return None
+    if vanishes(value):
+        return 0
+    return 1 if value.evalf(DIGITS) > 0 else -1
+
+
+def taken_positive(value: Expr) -> int | None:
+    """The sign of a value; if it is unknown, take the value to be positive, and let the page state this."""
+    sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
+    if sign is not None:
+        return sign
+    open_factors = [factor for factor in _odd_factors(tidied(value)) if sign_known(factor) != 1]
+    for each in open_factors if len(open_factors) == 1 else [Mul(*open_factors)]:
+        more, less = sides_without_minus(each)
+        take_as_positive(each)
+        assume(Relation(more, ">", less))
+    take_as_positive(tidied(value))
+    return 1
+
+
+def _odd_factors(value: Expr) -> list[Expr]:
+    """The factors without numbers and even powers; their product keeps the sign of the value."""
+    try:
+        number, found = factor_list(value)
+    except PolynomialError:
+        return list(Mul.make_args(value))
+    factors = [base for base, power in found if power % 2]
+    if number.is_negative and factors:
+        factors[0] = -factors[0]
+    return factors or [Integer(1)]
+
+
+def undecided(value: Any) -> Doubt:
+    """Return the reason: the unknown order of two terms in the value, l < r_0; else that numbers contradict it."""
+    parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
+    exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
+    sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]
+    factors = [f.as_base_exp()[0] for expr in exprs for part in expr.as_numer_denom() for f in Mul.make_args(part)]
+    moving = {s for q in named_coordinates() for s in (q, rate(q), rate(q, 2))} | {TIME}
+    for each in [*sizes, *factors]:
+        is_constant = isinstance(each, Add) and moving.isdisjoint(each.free_symbols)
+        if is_constant and each.count_ops() <= SHORT and sign_known(each) is None:
+            relation = " < ".join(sorted(map(str, sides_without_minus(each)), key=lambda side: (len(side), side)))
+            return Doubt(f"whether {relation} is not known", f"{DECIDES} {relation}")
+    return Doubt("numerically the result does not always agree with the sentence")
+
+
+# --- numbers ---
+
+
+def holds(number: Expr | int, mark: str) -> bool:
+    """Whether the relation between a number and zero is true."""
+    return (0 if number == 0 else 1 if number > 0 else -1) in SIGNS_OF[mark]
+
+
+def of_the_size(value: Expr, mark: str) -> Expr:
+    """The difference expected if the mark is right: the size of the value with the sign that the mark requires."""
+    return {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}.get(mark, nan)
