@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from derive.course.problem import Problem, load_problem, solving
 from derive.course.script import run
@@ -69,15 +68,9 @@ def _meaning(name: str, problem: Problem) -> str:
         return f"a result, computed from {', '.join(f'`{each}`' for each in uses)}" if uses else "a result"
     if not isinstance(problem.script, StockScript):
         return "an answer of the script"
-    prefixes = [name.replace(" ", "_") for name in _bodies(problem)]
+    prefixes = problem.described.several if problem.described is not None else ()
     own = next((prefix for prefix in prefixes if name.startswith(f"{prefix}_")), None)
     return f"{meaning_of(name.removeprefix(f'{own}_'))}, of the {own}" if own else meaning_of(name)
-
-
-def _bodies(problem: Problem) -> list[str]:
-    """Return the names of several bodies, which precede the names of their answers."""
-    several: Any = getattr(problem.described, "bodies", ())
-    return [one.described.called for one in several if one.described.called]
 
 
 def _on_the_way(step: Step, leading: str, words: Phrases) -> str:

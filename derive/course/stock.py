@@ -39,6 +39,7 @@ class Described:
     letters   those that it introduces itself, coordinates and their rates
     chosen    those that stand for its numbers, which are `measured`
     told      values other than letters that prose may mention by their keys
+    several   names of bodies, each of which precedes the names of the answers of that body
     made      results computed from answers, by their names, with the names of the answers that each uses
     without   keys on which some answers do not depend, with the names of these answers
     assumed   relations between letters that are assumed to hold
@@ -48,6 +49,7 @@ class Described:
     chosen: Mapping[str, Declared] = field(default_factory=dict)
     measured: tuple[Measured, ...] = ()
     told: tuple[Given, ...] = ()
+    several: tuple[str, ...] = ()
     made: Mapping[Word, tuple[Word, ...]] = field(default_factory=dict, repr=False, compare=False)
     without: tuple[tuple[Word, Collection[str]], ...] = field(default=(), repr=False, compare=False)
     assumed: tuple[Assumed, ...] = ()
@@ -113,6 +115,12 @@ class InLetters:
     def __init__(self, letters: Mapping[str, Declared]):
         self.letters = {TIME.name: Declared(TIME.name, TIME, "time"), **letters}
         self.numbers = NumbersAsLetters(self.letters)
+
+    def also(self, letters: Mapping[str, Declared]) -> InLetters:
+        """Return a reader that has these letters too; equal numbers still share one letter."""
+        found = InLetters({**self.letters, **letters})
+        found.numbers = self.numbers
+        return found
 
     @property
     def chosen(self) -> dict[str, Declared]:
@@ -186,6 +194,13 @@ def each(readings: Iterable[Callable[[], T]]) -> list[T]:
             found.append(reading())
     faults.stop()
     return found
+
+
+def attempted(faults: Faults, reading: Callable[..., T], *of: Any) -> T | None:
+    """Return what a reading yields; None after an error, which `faults` collects."""
+    with faults:
+        return reading(*of)
+    return None
 
 
 def _text(node: Tree) -> str:

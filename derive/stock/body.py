@@ -86,6 +86,11 @@ class Asked:
     direction: Axis | None = None
     turns: tuple[tuple[str, Expr], ...] = ()
 
+    @property
+    def prefix(self) -> str:
+        """Return what precedes the names of its answers, if there are several bodies."""
+        return f"{self.described.called.replace(' ', '_')}_" if self.described.called else ""
+
 
 @dataclass(frozen=True)
 class DescribedBodies(Described):
@@ -107,6 +112,7 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
         without=_without(written),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
+        several=tuple(one.prefix.removesuffix("_") for one in found if one.prefix),
         bodies=tuple(found),
         results=made,
     )
@@ -324,8 +330,7 @@ def solve(described: DescribedBodies, asked: Sequence[Word]) -> dict[str, object
 
 def _answers(described: DescribedBodies) -> dict[str, Answers]:
     """Return the answers of each body, by the prefix of their names."""
-    called = {one.described.called.replace(" ", "_"): one for one in described.bodies}
-    return {f"{name}_" if name else "": Answers(one) for name, one in called.items()}
+    return {one.prefix: Answers(one) for one in described.bodies}
 
 
 def _by_name(described: DescribedBodies, of: Mapping[str, Answers]) -> ByName:

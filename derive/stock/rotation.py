@@ -149,10 +149,8 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
             with told_at(written.places["moments"]):
                 RigidBody(moments=found["moments"])
     found["moments"] = found.get("moments") or None
-    with_components = InLetters(
-        {**{name: Declared(name, letter, "angular speed") for name, letter in MOVING}, **symbols}
-    )
-    with_components.numbers = known.numbers
+    components = {name: Declared(name, letter, "angular speed") for name, letter in MOVING}
+    with_components = known.also({**components, **symbols})
     found["results"] = tuple(
         r for name, keys in written.results.items() if (r := read_result(keys, name, with_components, faults))
     )

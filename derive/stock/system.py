@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import partial
+from itertools import chain
 from typing import Any
 
 from sympy import Expr, Symbol
@@ -14,12 +15,13 @@ from derive.algebra.ranges import Range
 from derive.course.assumed import Assumed, read_assumed
 from derive.course.expression import Declared
 from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of, one_or_more
-from derive.course.stock import Described, InLetters, Stock, each, told_at
+from derive.course.stock import Described, InLetters, Stock, attempted, each, told_at
 from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
 from derive.errors import DeriveError, Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
+from derive.mechanics import potential
 from derive.mechanics.kinematics.coordinates import kind_of_rate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import kind_of_momentum
@@ -27,6 +29,7 @@ from derive.steps.step import Quantity
 from derive.stock.answering.moments import started, struck
 from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
+from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.formulas import FoundLetter
 from derive.stock.keys.lagrangians import read_lagrangian
 from derive.stock.keys.parts import (
@@ -42,7 +45,6 @@ from derive.stock.keys.parts import (
     ConstraintKeys,
     DampingKeys,
     ForceKeys,
-    Part,
     ParticleKeys,
     SpringKeys,
 )
@@ -122,10 +124,22 @@ class SystemKeys(Record):
 
 @dataclass(frozen=True)
 class DescribedSystem(Described):
-    """A system in symbols; `brought` are those of constraint forces and constant momenta, with their places."""
+    """A system in symbols.
+
+    coordinates   the name of each, its kind, and whether it is positive
+    particles, bodies, rolling, acting   its parts, in the order of the file; `acting` is everything else
+    conserved     symbols of constant momenta by coordinates; `kept` are constant momenta with given values
+    at, at_rest   the state about which motions are small, by values or by the name of an equilibrium
+    brought       symbols of constraint forces and constant momenta, with their places
+    named         the places that have names
+    given         a Lagrangian that replaces all bodies, and its kind
+    """
 
     coordinates: tuple[tuple[str, str, bool], ...] = ()
-    parts: tuple[Part, ...] = ()
+    particles: Mapping[str, Deferred[Any]] = field(default_factory=dict)
+    bodies: Mapping[str, Deferred[Any]] = field(default_factory=dict)
+    rolling: tuple[Deferred[tuple[Any, ...]], ...] = ()
+    acting: tuple[Deferred[Any], ...] = ()
     gravity: Expr | None = None
     conserved: tuple[tuple[str, Symbol], ...] = ()
     kept: tuple[tuple[str, Expr], ...] = ()
@@ -140,73 +154,36 @@ class DescribedSystem(Described):
 
 
 def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
-    """Return the description in the declared symbols and the coordinates."""
+    """Return the description in the declared symbols and the coordinates.
+
+    The order of the readings is that in which numbers get their letters.
+    """
     letters = coordinate_letters(written.coordinates, symbols, faults)
     known = InLetters({**symbols, **letters})
     places = Places(written.points, written.axes, known, {name: one.at for name, one in written.particles.items()})
-    parts: list[Part] = []
-    named: dict[str, Location] = {}
-    with faults:
-        named = places.all_named()
-    sorts: tuple[Sequence[Any], ...] = (
-        written.springs,
-        written.central,
-        written.charges,
-        written.constraints,
-    )
-    with faults:
-        made = each([partial(one.part, places, known) for one in written.particles.values()])
-        parts += [replace(p, named=(("name", str(n)),)) for p, n in zip(made, written.particles, strict=True)]
-    for described in sorts:
-        with faults:
-            parts += each([partial(one.part, places, known) for one in described])
-    with faults:
-        alone = len(written.bodies) == 1
-        found = each([partial(body.part, name, alone, places, known) for name, body in written.bodies.items()])
-        parts += [replace(part, name=str(name)) for part, name in zip(found, written.bodies, strict=True)]
-    with faults:
-        names = {str(name) for name in written.bodies}
-        parts += each([partial(one.part, places, known, names) for one in written.rolling])
-    with faults:  # friction is proportional to the constraint force
-        with_multipliers = InLetters({**known.letters, **_multipliers(parts)})
-        with_multipliers.numbers = known.numbers
-        acting: list[Any] = [*written.forces, *written.damping]
-        names = {str(name) for name in (*written.bodies, *written.particles)}
-        parts += each([partial(one.part, places, with_multipliers, names) for one in acting])
-    given: tuple[Expr, str | None] | None = None
-    with faults:
-        given = read_lagrangian(written, known)
-    rest = written.at.word if isinstance(written.at, Scalar) and not written.at.empty else None
-    gravity = _value(written.gravity, "gravity", "acceleration", known, faults)
-    energy = _value(written.potential, "potential", "energy", known, faults)
+    named = attempted(faults, places.all_named) or {}
+    parts = _parts(written, places, known, faults)
+    given = attempted(faults, read_lagrangian, written, known)
+    gravity = attempted(faults, _value, known.value, written.gravity, "gravity", "acceleration")
+    energy = attempted(faults, _value, known.of_kind, written.potential, "potential", "energy")
     if energy is not None:
-        parts.append(Part("potential", (energy,), place=written.values_at["potential"]))
+        parts["acting"] += (Deferred(potential, (energy,), place=written.values_at["potential"]),)
     brought = letters_at(written)
-    with faults:
-        _check_different(brought)
-    kept: list[tuple[str, Expr]] = []
-    with faults:
-        kept = _kept(written.conserved, letters, known)
-    forces = _multipliers(parts)
+    attempted(faults, _check_different, brought)
+    kept = attempted(faults, _kept, written.conserved, letters, known) or ()
+    forces = _multipliers([*parts["acting"], *parts["rolling"]])
     own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
-    blow: DescribedBlow | None = None
-    with faults:
-        blow = written.blow.read(letters, forces, places, known) if written.blow else None
+    blow = attempted(faults, written.blow.read, letters, forces, places, known) if written.blow else None
     own |= blow.letters if blow else {}
-    with faults:
-        own |= _steady_rates(written, letters, known)
-    kind_of_lagrangian = given[1] if given is not None else "energy"
-    with_own = InLetters({**_momenta(written.coordinates, letters, kind_of_lagrangian), **symbols, **own})
-    with_own.numbers = known.numbers
+    own |= attempted(faults, _steady_rates, written, letters, known) or {}
+    momenta = _momenta(written.coordinates, letters, given[1] if given is not None else "energy")
+    with_own = known.also({**momenta, **symbols, **own})
     results = tuple(r for name, keys in written.results.items() if (r := read_result(keys, name, with_own, faults)))
-    assumed: list[Assumed] = []
     constants = {name: letter for name, letter in {**symbols, **own}.items() if name not in {*letters, *forces}}
-    with faults:
-        nodes = written.assume.items if isinstance(written.assume, Listed) else (written.assume,)
-        entries = each([partial(read_assumed, node, constants, letters) for node in nodes if node is not None])
-        assumed += [relation for entry in entries for relation in entry]
+    assumed = attempted(faults, _assumed, written.assume, constants, letters) or ()
+    rest = written.at.word if isinstance(written.at, Scalar) and not written.at.empty else None
     return DescribedSystem(
-        assumed=tuple(assumed),
+        assumed=assumed,
         letters=own,
         made={result.name: result.uses for result in results},
         without=_without(written, [*own], [*blow.letters] if blow else []),
@@ -215,14 +192,14 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         coordinates=tuple(
             (str(n), letters[n].kind, bool(letters[n].symbol.is_positive)) for n in written.coordinates if n in letters
         ),
-        parts=tuple(parts),
+        **parts,
         gravity=gravity,
         conserved=tuple(
             (str(q), own[name].symbol)
             for q, word in _words(written.conserved).items()
             if (name := _letter(word)[0]) in own
         ),
-        kept=tuple(kept),
+        kept=kept,
         at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
         at_rest=rest,
         results=results,
@@ -232,6 +209,27 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         named=tuple(named.values()),
         given=given,
     )
+
+
+def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
+    """Return the bodies of the system and what acts on them, by the fields of its description."""
+
+    def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
+        return attempted(faults, each, [partial(one.part, *more) for one in keys]) or []
+
+    def by_name(keys: Mapping[Word, Any], *more: Any) -> dict[str, Any]:
+        found = attempted(faults, each, [partial(one.part, name, *more) for name, one in keys.items()]) or []
+        return {str(name): one for name, one in zip(keys, found, strict=False)}
+
+    particles = by_name(written.particles, places, known)
+    several: list[Sequence[Any]] = [written.springs, written.central, written.charges, written.constraints]
+    acting = [*chain(*(of_each(keys, places, known) for keys in several))]
+    bodies = by_name(written.bodies, len(written.bodies) == 1, places, known)
+    rolling = of_each(written.rolling, places, known, {str(name) for name in written.bodies})
+    names = {str(name) for name in (*written.bodies, *written.particles)}
+    with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
+    acting += of_each([*written.forces, *written.damping], places, with_friction, names)
+    return {"particles": particles, "bodies": bodies, "rolling": tuple(rolling), "acting": tuple(acting)}
 
 
 def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
@@ -251,11 +249,16 @@ def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str])
     )
 
 
-def _value(node: Tree | None, name: str, kind: str, letters: InLetters, faults: Faults) -> Expr | None:
-    if node is not None:
-        with faults:
-            return letters.value(node, name, kind) if kind != "energy" else letters.of_kind(node, name, kind)
-    return None
+def _value(reading: Callable[..., Expr], node: Tree | None, name: str, kind: str) -> Expr | None:
+    return reading(node, name, kind) if node is not None else None
+
+
+def _assumed(
+    written: Tree | None, constants: Mapping[str, Declared], coordinates: Mapping[str, Declared]
+) -> tuple[Assumed, ...]:
+    nodes = written.items if isinstance(written, Listed) else (written,)
+    entries = each([partial(read_assumed, node, constants, coordinates) for node in nodes if node is not None])
+    return tuple(chain(*entries))
 
 
 def _momenta(
@@ -266,10 +269,9 @@ def _momenta(
     return {name: Declared(name, scalar(name), kind) for name, kind in kinds.items() if kind is not None}
 
 
-def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:
-    """Return the symbols of constraint forces, for which results may be solved."""
-    makers = ("constraint", "rolling")
-    names = [dict(part.named)["force"] for part in parts if part.maker in makers and "force" in dict(part.named)]
+def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
+    """Return the symbols of the forces that keep constraints and rolling, for which results may be solved."""
+    names = [one.named["force"] for one in keeping if "force" in one.named]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
 
@@ -326,7 +328,9 @@ def _constants(
     return found
 
 
-def _kept(written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters) -> list[tuple[str, Expr]]:
+def _kept(
+    written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters
+) -> tuple[tuple[str, Expr], ...]:
     """Return the values of constant momenta that are given by an expression, `psi: C*s`."""
     found = []
     for q, node in written.items():
@@ -334,7 +338,7 @@ def _kept(written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: 
             continue
         kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
         found.append((str(q), known.of_kind(node, f"the momentum of {q}", kind)))
-    return found
+    return tuple(found)
 
 
 def _letter(word: Word) -> tuple[str, bool]:
@@ -375,7 +379,7 @@ def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object
     of = Answers(described)
     if described.given is None:
         with told_at(described.place):
-            start, blow = started(described.results, of.system), struck(described.blow, of.system)
+            start, blow = started(described.results, of.system), struck(of.blow)
             sketch(SYSTEM, of.system, named=described.named, start=start, blow=blow)
     answers = of.by_name.answers(asked)
     of.check_letters()

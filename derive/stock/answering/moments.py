@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from sympy import Expr, Integer, Symbol
 
+from derive.algebra.expressions import rate
 from derive.figures.velocities import Moment
-from derive.mechanics import System
+from derive.mechanics import Blow, System
+from derive.mechanics.impacts.impact import Collision, Impulse
 from derive.mechanics.kinematics.places import Location
-from derive.stock.keys.blows import DescribedBlow
 from derive.stock.keys.results import Result
 
 SOLUTION = "solution"
@@ -28,17 +29,11 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
     return Moment(at, rates) if rates else None
 
 
-def struck(blow: DescribedBlow | None, system: System) -> Moment | None:
+def struck(blow: Blow | None) -> Moment | None:
     """Return what acts in a blow, and where."""
     if blow is None:
         return None
-    by_name: Mapping[str, Symbol] = {q.name: q for q in system.coordinates}
-    at, rates = ({by_name[name]: value for name, value in known} for known in (blow.at, blow.before))
-    pushes, meeting = [], []
-    for act in blow.acts:
-        if act.maker == "impulse":
-            components, place = act.of
-            pushes.append((Location(tuple(components)), place))
-        elif act.maker == "collision":
-            meeting += [place for place in act.of[:2] if place is not None]
-    return Moment(at, rates, tuple(pushes), tuple(meeting))
+    pushes = [act for act in blow.acts if isinstance(act, Impulse) and len(act.at) > 1]  # not the angular ones
+    meeting = [place for act in blow.acts if isinstance(act, Collision) for place in (act.start, act.end) if place]
+    rates = {q: blow.before[rate(q)] for q in blow.moving}
+    return Moment(blow.at, rates, [(Location(push.components), Location(push.at)) for push in pushes], meeting)

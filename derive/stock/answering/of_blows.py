@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from functools import cached_property, partial
 from typing import Any
 
-from derive.course.stock import told_at
 from derive.mechanics import (
     Blow,
     Coordinate,
@@ -17,9 +16,9 @@ from derive.mechanics import (
     rates_after,
     work_of_impulses,
 )
-from derive.mechanics.model.acted_on import ActsOnNothing
 from derive.steps.step import Quantity
 from derive.stock.keys.blows import DescribedBlow
+from derive.stock.keys.deferred import told_at_part
 
 
 class BlowAnswers:
@@ -46,13 +45,8 @@ class BlowAnswers:
         acts = [act.made(self._bodies()) for act in self.described.acts]
         at = {self.coordinates[name]: value for name, value in self.described.at}
         before = {self.coordinates[name]: value for name, value in self.described.before}
-        with told_at(self.described.place):
-            try:
-                return Blow(self._system(), *acts, at=at, before=before)
-            except ActsOnNothing as error:
-                pairs = zip(self.described.acts, acts, strict=True)
-                with told_at(next((act.place for act, made in pairs if made is error.part), None)):
-                    raise
+        with told_at_part(self.described.acts, acts, self.described.place):
+            return Blow(self._system(), *acts, at=at, before=before)
 
     @property
     def moving(self) -> list[str]:

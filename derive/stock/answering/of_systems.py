@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
+from itertools import chain
 from typing import Any, Protocol
 
 from sympy import Expr, Integer, Symbol
@@ -13,6 +14,7 @@ from derive.course.stock import told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected, did_you_mean, rejected
 from derive.mechanics import (
+    Blow,
     Coordinate,
     System,
     accelerations,
@@ -41,7 +43,7 @@ from derive.mechanics import (
     stability,
     weight,
 )
-from derive.mechanics.model.acted_on import ActsOnNothing, check_ground
+from derive.mechanics.model.acted_on import check_ground
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
@@ -49,8 +51,7 @@ from derive.stock.answering.by_name import ByName
 from derive.stock.answering.held_rest import rest_with_forces
 from derive.stock.answering.of_blows import BlowAnswers
 from derive.stock.keys.blows import DescribedBlow
-from derive.stock.keys.parts import Part
-from derive.stock.keys.placed import put, rolls
+from derive.stock.keys.deferred import Deferred, told_at_part
 from derive.stock.keys.results import Result
 from derive.witness.facts import Rest
 
@@ -61,7 +62,13 @@ class OfSystem(Protocol):
     @property
     def coordinates(self) -> tuple[tuple[str, str, bool], ...]: ...
     @property
-    def parts(self) -> tuple[Part, ...]: ...
+    def particles(self) -> Mapping[str, Deferred[Any]]: ...
+    @property
+    def bodies(self) -> Mapping[str, Deferred[Any]]: ...
+    @property
+    def rolling(self) -> tuple[Deferred[tuple[Any, ...]], ...]: ...
+    @property
+    def acting(self) -> tuple[Deferred[Any], ...]: ...
     @property
     def gravity(self) -> Expr | None: ...
     @property
@@ -106,26 +113,24 @@ class Answers:
         if described.given is not None:
             message = "this needs bodies and forces, but the Lagrangian is given in place of them"
             raise Rejected(Complaint("given-lagrangian", message))
-        others = [part for part in described.parts if part.maker not in ("body", "rolling", "particle")]
-        made = [part.made(self.parts_by_name) for part in others]
+        acting = [part.made(self.parts_by_name) for part in described.acting]
         weights = [weight(described.gravity)] if described.gravity is not None else []
-        with told_at(described.place):
-            try:
-                system = System(*self.bodies.values(), *self.particles.values(), *made, *weights, *self.rolling)
-            except ActsOnNothing as error:
-                place = next((p.place for p, part in zip(others, made, strict=True) if part is error.part), None)
-                with told_at(place):
-                    raise
-        for part in (each for each in described.parts if each.maker == "rolling"):
-            with told_at(part.place):
-                check_ground(system, part.of[2])
+        with told_at_part(described.acting, acting, described.place):
+            system = System(*self.bodies.values(), *self.particles.values(), *acting, *weights, *self.rolling)
+        for rolling in described.rolling:
+            with told_at(rolling.place):
+                check_ground(system, rolling.named["ground"])
         return system
 
     @cached_property
     def particles(self) -> dict[str, Any]:
         """Return the particles by name."""
-        own = [part for part in self.described.parts if part.maker == "particle"]
-        return {str(dict(part.named)["name"]): part.made() for part in own}
+        return {name: particle.made({}) for name, particle in self.described.particles.items()}
+
+    @cached_property
+    def bodies(self) -> dict[str, Any]:
+        """Return the bodies with a position, by name."""
+        return {name: body.made({}) for name, body in self.described.bodies.items()}
 
     @property
     def parts_by_name(self) -> dict[str, Any]:
@@ -133,25 +138,9 @@ class Answers:
         return {**self.particles, **self.bodies}
 
     @cached_property
-    def bodies(self) -> dict[str, Any]:
-        """Return the bodies with a position, by name."""
-        found = {}
-        for part in self.described.parts:
-            if part.maker == "body":
-                with told_at(part.place):
-                    found[part.name] = put(*part.of, **dict(part.named))
-        return found
-
-    @cached_property
     def rolling(self) -> tuple[Any, ...]:
         """Return the conditions of rolling without slipping."""
-        found: list[Any] = []
-        for part in self.described.parts:
-            if part.maker == "rolling":
-                name, at, ground = part.of
-                with told_at(part.place):
-                    found += rolls(self.bodies[name], at, ground, **dict(part.named))
-        return tuple(found)
+        return tuple(chain(*(one.made(self.bodies) for one in self.described.rolling)))
 
     @cached_property
     def kinetic_energy(self) -> Quantity:
@@ -167,7 +156,7 @@ class Answers:
             return lagrangian(self.system)
         function, kind = self.described.given
         with told_at(self.described.place):
-            return given_lagrangian(function, *(part.made() for part in self.described.parts), kind=kind)
+            return given_lagrangian(function, *(part.made({}) for part in self.described.acting), kind=kind)
 
     @cached_property
     def cyclic(self) -> dict[str, Quantity]:
@@ -409,6 +398,11 @@ class Answers:
                 lambda: self.parts_by_name,
             )
         return self._blow
+
+    @property
+    def blow(self) -> Blow | None:
+        """Return the blow on this system, if one is described."""
+        return self.blow_of(self.described.blow).blow if self.described.blow is not None else None
 
     def check_letters(self) -> None:
         """Check that a symbol of the description and steps with the same symbol are of one kind."""

@@ -13,34 +13,18 @@ from sympy import Expr, Integer
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
 from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of, one_or_more, record_of
-from derive.course.stock import InLetters, each, told_at
+from derive.course.stock import InLetters, each
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
 from derive.errors import Place, did_you_mean, rejected
 from derive.mechanics import angular_impulse, collision, impulse
+from derive.mechanics.impacts.impact import Collision, Impulse
 from derive.mechanics.kinematics.coordinates import kind_of_rate
-from derive.stock.keys.parts import list_of_parts
+from derive.stock.keys.deferred import Deferred
+from derive.stock.keys.parts import components_of, list_of_parts
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
 
 RATE = "_dot"
-MAKERS = {"impulse": impulse, "angular": angular_impulse, "collision": collision}
-
-
-@dataclass(frozen=True)
-class Act:
-    """One impulse or collision: the verb that makes it, its arguments, and where it was described."""
-
-    maker: str
-    of: tuple[Any, ...]
-    place: Place | None = field(default=None, repr=False, compare=False)
-    bodies: tuple[str, ...] = ()
-
-    def made(self, known: Mapping[str, Any]) -> Any:
-        """Make it by its verb; `known` are the bodies and particles of the system by name."""
-        with told_at(self.place):
-            named = [known.get(name, name) for name in self.bodies]
-            more = {"of": named[0] if len(named) == 1 else tuple(named)} if named else {}
-            return MAKERS[self.maker](*self.of, **more)  # type: ignore[operator]
 
 
 @dataclass(frozen=True)
@@ -53,14 +37,14 @@ class ImpulseKeys(Record):
     angular: Tree | None = key("in place of `components` and `at`, an angular impulse", SCALAR)
     on: Tree | None = key("the angle whose rate it changes", SCALAR)
 
-    def act(self, places: Places, letters: InLetters) -> Act:
+    def act(self, places: Places, letters: InLetters) -> Deferred[Impulse]:
         if self.components and self.at and not (self.angular or self.on):
-            found = each([partial(letters.of_kind, node, "a component", "momentum") for node in self.components])
-            bodies = (str(self.of),) if self.of is not None else ()
-            return Act("impulse", (tuple(found), places.at(self.at, "at")), self.places[""], bodies)
+            of = (components_of(self.components, "momentum", letters), places.at(self.at, "at"))
+            bodies = {"of": (str(self.of),)} if self.of is not None else {}
+            return Deferred(impulse, of, bodies=bodies, place=self.places[""])
         if self.angular and self.on and not (self.components or self.at):
             amount = letters.of_kind(self.angular, "angular", "angular momentum")
-            return Act("angular", (amount, letters.of_kind(self.on, "on", "angle")), self.places[""])
+            return Deferred(angular_impulse, (amount, letters.of_kind(self.on, "on", "angle")), place=self.places[""])
         rejected("missing-key", "an impulse needs `components` and `at`, or `angular` and `on`", self.places[""])
 
 
@@ -89,7 +73,7 @@ class CollisionKeys(Record):
         called="impulse",
     )
 
-    def act(self, places: Places, letters: InLetters) -> Act:
+    def act(self, places: Places, letters: InLetters) -> Deferred[Collision]:
         if (self.at is None) == (self.start is None and self.end is None) or (self.start is None) != (self.end is None):
             rejected("missing-key", "a collision needs `from` and `to`, or `at`", self.places[""])
         if self.along and self.restitution is None:
@@ -109,16 +93,17 @@ class CollisionKeys(Record):
         part = found.pop() if self.restitution else Integer(0)
         start = found.pop(0) if self.start else None
         end, *along = found
-        return Act("collision", (start, end, tuple(along), part, self.name), self.places[""], self._bodies())
+        of = (start, end, tuple(along), part, self.name)
+        return Deferred(collision, of, bodies=self._bodies(), place=self.places[""])
 
-    def _bodies(self) -> tuple[str, ...]:
+    def _bodies(self) -> dict[str, tuple[str, ...]]:
         written = self.of.items if isinstance(self.of, Listed) else [self.of] if self.of is not None else []
         found = tuple(" ".join(name.text.split()) for name in written if isinstance(name, Scalar))
         count = 2 if self.start is not None else 1
         if found and len(found) != count:
             wanted = "two names, for `from` and for `to`" if count == 2 else "one name"
             rejected("wrong-length", f"`of` needs {wanted}, not {len(found)}", self.places["of"])
-        return found
+        return {"of": found} if found else {}
 
     @property
     def name(self) -> str:
@@ -167,10 +152,10 @@ class BlowKeys(Record):
         acts, at, before = (
             tuple(found[slice(*ends)]) for ends in pairwise((0, len(both), len(both) + len(self.at), len(found)))
         )
-        sizes = [len(act.of[1].components) for act in acts if act.maker == "collision"]
         brought: list[str] = []
-        for one, size in zip(self.collisions, sizes, strict=True):
-            brought += one.brings(letters, size)
+        for one, act in zip(self.collisions, acts[len(self.impulses) :], strict=True):
+            _, end, *_ = act.of
+            brought += one.brings(letters, len(end.components))
         brought += [letters.unused(Word.at(f"J_{force}", self.places[""]), "use another symbol") for force in forces]
         return DescribedBlow(
             acts=acts,
@@ -200,7 +185,7 @@ def _value(
 class DescribedBlow:
     """A blow in symbols; `letters` are the symbols of its impulses."""
 
-    acts: tuple[Act, ...]
+    acts: tuple[Deferred[Impulse | Collision], ...]
     at: tuple[tuple[str, Expr], ...]
     before: tuple[tuple[str, Expr], ...]
     letters: Mapping[str, Declared] = field(default_factory=dict)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from sympy import Dummy, Integer
+from sympy import Dummy, Expr, Integer
 
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
 from derive.course.schema import (
     SCALAR,
     TEXT,
+    YES_OR_NO,
     Reader,
     Record,
     as_written,
@@ -23,98 +24,68 @@ from derive.course.schema import (
     object_schema,
     record_of,
 )
-from derive.course.stock import InLetters, each, told_at
-from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
-from derive.errors import Faults, Place, did_you_mean, rejected
-from derive.mechanics import Particle, central, charge, constraint, couple, damping, force, potential, spring
+from derive.course.stock import InLetters, each
+from derive.course.yaml_tree import Sequence, Tree, Word
+from derive.errors import Faults, did_you_mean, rejected
+from derive.mechanics import Particle, central, charge, constraint, couple, damping, force, spring
 from derive.mechanics.model.material import GROUND, MASSLESS
+from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
 
 ONE_OR_MORE_COMPONENTS = as_written(
     {"anyOf": [SCALAR.schema, COMPONENTS.schema]}, "an expression, or a list of components"
 )
-MAKERS: Mapping[str, Callable[..., Any]] = {
-    "particle": Particle,
-    "spring": spring,
-    "central": central,
-    "force": force,
-    "couple": couple,
-    "damping": damping,
-    "charge": charge,
-    "constraint": constraint,
-    "potential": potential,
-}
-
-
-@dataclass(frozen=True)
-class Part:
-    """One part of a system: the verb that makes it, its arguments, and where it was described."""
-
-    maker: str
-    of: tuple[Any, ...]
-    named: tuple[tuple[str, Any], ...] = ()
-    place: Place | None = field(default=None, repr=False, compare=False)
-    name: str = ""
-
-    def made(self, bodies: Mapping[str, Any] | None = None) -> Any:
-        """Make it by its verb; `bodies` are the particles and bodies that it may name."""
-        with told_at(self.place):
-            named = {name: bodies[str(value)] if bodies and value in bodies else value for name, value in self.named}
-            return MAKERS[self.maker](*self.of, **named)
 
 
 @dataclass(frozen=True)
 class ParticleKeys(Record):
     """The keys of one of `particles:`."""
 
-    mass: Tree | None = key("its mass", SCALAR, required=True)
-    at: WrittenPlace | None = key("where it is", PLACE, required=True)
+    mass: Tree = key("its mass", SCALAR, required=True)
+    at: WrittenPlace = key("where it is", PLACE, required=True)
 
-    def part(self, places: Places, letters: InLetters) -> Part:
-        return Part(
-            "particle",
-            (letters.value(_there(self.mass), "mass", "mass"), places.at(_there(self.at), "at")),
-            place=self.places[""],
-        )
+    def part(self, name: Word, places: Places, letters: InLetters) -> Deferred[Any]:
+        of = (letters.value(self.mass, "mass", "mass"), places.at(self.at, "at"))
+        return Deferred(Particle, of, {"name": str(name)}, place=self.places[""])
 
 
 @dataclass(frozen=True)
 class SpringKeys(Record):
     """The keys of one of `springs:`."""
 
-    constant: Tree | None = key("its spring constant", SCALAR, required=True)
-    start: WrittenPlace | None = key("where it begins", PLACE, called="from", required=True)
-    end: WrittenPlace | None = key("where it ends", PLACE, called="to", required=True)
+    constant: Tree = key("its spring constant", SCALAR, required=True)
+    start: WrittenPlace = key("where it begins", PLACE, called="from", required=True)
+    end: WrittenPlace = key("where it ends", PLACE, called="to", required=True)
     length: Tree | None = key("its natural length; by default zero", SCALAR)
-    massless: Word | None = key("`true` if it may end at a massless joint", TEXT)
+    massless: bool = key("`true` if it may end at a massless joint", YES_OR_NO)
 
-    def part(self, places: Places, letters: InLetters) -> Part:
+    def part(self, places: Places, letters: InLetters) -> Deferred[Any]:
         length = letters.value(self.length, "length", "length", or_zero=True) if self.length else Integer(0)
-        constant = letters.value(_there(self.constant), "constant", "spring constant")
-        return Part("spring", (constant, *_ends(self, places), length), massless(self.massless), self.places[""])
+        constant = letters.value(self.constant, "constant", "spring constant")
+        of = (constant, *places.ends(self.start, self.end), length)
+        return Deferred(spring, of, {"massless": self.massless}, place=self.places[""])
 
 
 @dataclass(frozen=True)
 class CentralKeys(Record):
     """The keys of one of `central:`, a potential energy that depends on the distance between two places."""
 
-    energy: Tree | None = key("the energy, such as `-G*M*m/d`", SCALAR, required=True)
-    distance: Word | None = key("the symbol for the distance in `energy`", TEXT, required=True)
-    start: WrittenPlace | None = key("one of the places", PLACE, called="from", required=True)
-    end: WrittenPlace | None = key("the other place", PLACE, called="to", required=True)
-    massless: Word | None = key("`true` if one of the places may be a massless joint", TEXT)
+    energy: Tree = key("the energy, such as `-G*M*m/d`", SCALAR, required=True)
+    distance: Word = key("the symbol for the distance in `energy`", TEXT, required=True)
+    start: WrittenPlace = key("one of the places", PLACE, called="from", required=True)
+    end: WrittenPlace = key("the other place", PLACE, called="to", required=True)
+    massless: bool = key("`true` if one of the places may be a massless joint", YES_OR_NO)
 
-    def part(self, places: Places, letters: InLetters) -> Part:
-        name = letters.unused(_there(self.distance), "use another symbol for the distance")
+    def part(self, places: Places, letters: InLetters) -> Deferred[Any]:
+        name = letters.unused(self.distance, "use another symbol for the distance")
         own = Dummy(name, positive=True)
-        with_distance = InLetters({**letters.letters, name: Declared(name, own, "length")})
-        energy = with_distance.of_kind(_there(self.energy), "energy", "energy")
+        energy = letters.also({name: Declared(name, own, "length")}).of_kind(self.energy, "energy", "energy")
         if not energy.has(own):
             message = f"this energy does not depend on the distance `{name}`, so no force acts"
             rejected("unused-key", message, self.places["distance"])
         letter = scalar(name, positive=True)
-        of = (energy.xreplace({own: letter}), letter, *_ends(self, places))
-        return Part("central", of, massless(self.massless), self.places[""])
+        of = (energy.xreplace({own: letter}), letter, *places.ends(self.start, self.end))
+        return Deferred(central, of, {"massless": self.massless}, place=self.places[""])
 
 
 @dataclass(frozen=True)
@@ -136,17 +107,17 @@ class ForceKeys(Record):
     torque: Tree | None = key("in place of `components` and `at`, a torque", SCALAR)
     on: Tree | None = key("the angle that the torque changes", SCALAR)
 
-    def part(self, places: Places, letters: InLetters, bodies: Collection[str] = ()) -> Part:
+    def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
         if self.components and self.at and not (self.torque or self.on):
-            found = each([partial(letters.of_kind, node, "a component", "force") for node in self.components])
-            named = [*named_body("of", self.of, bodies, MASSLESS), *named_body("by", self.by, bodies, GROUND)]
-            return Part("force", (tuple(found), places.at(self.at, "at")), tuple(named), self.places[""])
-        if self.of or self.by:
+            components = components_of(self.components, "force", letters)
+            named = {**named_body("of", self.of, bodies, MASSLESS), **named_body("by", self.by, bodies, GROUND)}
+            return Deferred(force, (components, places.at(self.at, "at")), bodies=named, place=self.places[""])
+        if beside := self.of or self.by:
             message = "`of` and `by` belong to a force at a place, but this is a torque"
-            rejected("unused-key", message, (self.of or self.by).place, "leave them out")  # type: ignore[union-attr]
+            rejected("unused-key", message, beside.place, "leave them out")
         if self.torque and self.on and not (self.components or self.at):
             angle = letters.of_kind(self.on, "on", "angle")
-            return Part("couple", (letters.of_kind(self.torque, "torque", "torque"), angle), place=self.places[""])
+            return Deferred(couple, (letters.of_kind(self.torque, "torque", "torque"), angle), place=self.places[""])
         rejected("missing-key", "a force needs `components` and `at`, or `torque` and `on`", self.places[""])
 
 
@@ -154,74 +125,74 @@ class ForceKeys(Record):
 class DampingKeys(Record):
     """The keys of one of `damping:`."""
 
-    constant: Tree | None = key("its constant, in kg/s at a place or for a length", SCALAR, required=True)
+    constant: Tree = key("its constant, in kg/s at a place or for a length", SCALAR, required=True)
     at: WrittenPlace | None = key("the place whose velocity it opposes", PLACE)
     of: Word | None = key("the body or particle on which it acts, if the place does not move with it", TEXT)
     on: Tree | None = key("in place of `at`, the coordinate whose rate it opposes", SCALAR)
 
-    def part(self, places: Places, letters: InLetters, bodies: Collection[str] = ()) -> Part:
-        if (self.at is None) == (self.on is None):
+    def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
+        if self.at is not None and self.on is None:
+            of = (letters.value(self.constant, "constant", "damping constant"), places.at(self.at, "at"))
+            return Deferred(damping, of, bodies=named_body("of", self.of, bodies, MASSLESS), place=self.places[""])
+        if self.at is not None or self.on is None:
             rejected("missing-key", "damping needs either `at` or `on`", self.places[""])
-        if self.at is not None:
-            constant = letters.value(_there(self.constant), "constant", "damping constant")
-            named = named_body("of", self.of, bodies, MASSLESS)
-            return Part("damping", (constant, places.at(self.at, "at")), tuple(named), self.places[""])
         if self.of is not None:
             message = "`of` belongs to drag at a place, but this acts on a coordinate"
             rejected("unused-key", message, self.of.place, "leave it out")
-        constant, on = (
-            letters.read(_there(node), name)[0] for node, name in ((self.constant, "constant"), (self.on, "on"))
-        )
-        return Part("damping", (constant, on), place=self.places[""])
+        of = (letters.read(self.constant, "constant")[0], letters.read(self.on, "on")[0])
+        return Deferred(damping, of, place=self.places[""])
 
 
 @dataclass(frozen=True)
 class ChargeKeys(Record):
     """The keys of one of `charges:`."""
 
-    charge: Tree | None = key("its charge", SCALAR, required=True)
-    at: WrittenPlace | None = key("where it is", PLACE, required=True)
+    charge: Tree = key("its charge", SCALAR, required=True)
+    at: WrittenPlace = key("where it is", PLACE, required=True)
     electric: tuple[Tree, ...] = key("components of the uniform electric field", COMPONENTS)
     magnetic: Tree | None = key(
         "components of the uniform magnetic field; in a plane the perpendicular one", ONE_OR_MORE_COMPONENTS
     )
 
-    def part(self, places: Places, letters: InLetters) -> Part:
-        fields: list[tuple[str, Any]] = []
+    def part(self, places: Places, letters: InLetters) -> Deferred[Any]:
+        fields: dict[str, Any] = {}
         if self.electric:
-            fields.append(("E", tuple(letters.of_kind(node, "electric", "electric field") for node in self.electric)))
-        if isinstance(self.magnetic, Sequence):
-            three = tuple(letters.constant(node, "magnetic", "magnetic field") for node in self.magnetic.items)
-            fields.append(("B", three))
-        elif isinstance(self.magnetic, Scalar):
-            fields.append(("B", letters.constant(self.magnetic, "magnetic", "magnetic field")))
-        amount = letters.constant(_there(self.charge), "charge", "charge")
-        at = places.at(_there(self.at), "at")
+            fields["E"] = tuple(letters.of_kind(node, "electric", "electric field") for node in self.electric)
+        if self.magnetic is not None:
+            several = isinstance(self.magnetic, Sequence)
+            nodes = self.magnetic.items if isinstance(self.magnetic, Sequence) else (self.magnetic,)
+            found = tuple(letters.constant(node, "magnetic", "magnetic field") for node in nodes)
+            fields["B"] = found if several else found[0]
+        of = (letters.constant(self.charge, "charge", "charge"), places.at(self.at, "at"))
         if not fields:
             message = "a charge without a field has no effect"
             rejected("missing-key", message, self.places[""], "give it `electric` or `magnetic`")
-        return Part("charge", (amount, at), tuple(fields), self.places[""])
+        return Deferred(charge, of, fields, place=self.places[""])
 
 
 @dataclass(frozen=True)
 class ConstraintKeys(Record):
     """The keys of one of `constraints:`, which a force keeps."""
 
-    condition: Tree | None = key(
-        "a formula of the coordinates, or one that is linear in their rates", SCALAR, required=True
-    )
+    condition: Tree = key("a formula of the coordinates, or one that is linear in their rates", SCALAR, required=True)
     equals: Tree | None = key("its value; by default zero", SCALAR)
     force: Word | None = key("the symbol of the constraint force, a multiplier; by default `lambda`", TEXT)
 
-    def part(self, places: Places, letters: InLetters) -> Part:
-        condition, dimension = letters.read(_there(self.condition), "condition")
-        equals = Integer(0)
+    def part(self, places: Places, letters: InLetters) -> Deferred[Any]:
+        condition, dimension = letters.read(self.condition, "condition")
+        equals: Expr = Integer(0)
         if self.equals is not None:
             equals, other = letters.read(self.equals, "equals")
             if other != dimension and not equals.is_zero:
                 message = "`condition` and `equals` have different dimensions"
                 rejected("dimension", message, self.values_at["equals"])
-        return Part("constraint", (condition, equals), (("force", force_letter(self.force, letters)),), self.places[""])
+        named = {"force": force_letter(self.force, letters)}
+        return Deferred(constraint, (condition, equals), named, place=self.places[""])
+
+
+def components_of(nodes: Collection[Tree], kind: str, letters: InLetters) -> tuple[Expr, ...]:
+    """Return the components of a vector of this kind."""
+    return tuple(each([partial(letters.of_kind, node, "a component", kind) for node in nodes]))
 
 
 def force_letter(name: Word | None, letters: InLetters) -> str:
@@ -233,23 +204,14 @@ def force_letter(name: Word | None, letters: InLetters) -> str:
     return letters.unused(name, "leave it out of `symbols`, or give the force another symbol")
 
 
-def named_body(key_name: str, name: Word | None, bodies: Collection[str], otherwise: str) -> list[tuple[str, str]]:
+def named_body(key_name: str, name: Word | None, bodies: Collection[str], otherwise: str) -> dict[str, tuple[str, ...]]:
     """Return the body or particle that a key names, or the word for none."""
     if name is None:
-        return []
+        return {}
     if name not in bodies and name != otherwise:
         help_line = did_you_mean(name, [*bodies, otherwise]) or f"or write `{key_name}: {otherwise}`"
         rejected("no-such-body", f"`{name}` is not a body or particle of this system", name.place, help_line)
-    return [(key_name, str(name))]
-
-
-def massless(word: Word | None) -> tuple[tuple[str, bool], ...]:
-    """Return whether a joint without mass is allowed."""
-    if word is None:
-        return ()
-    if word not in ("true", "false"):
-        rejected("wrong-type", f"`massless` must be `true` or `false`, not `{word}`", word.place)
-    return (("massless", word == "true"),)
+    return {key_name: (str(name),)}
 
 
 def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:
@@ -270,14 +232,3 @@ PARTICLES = mapping_of(record_of(ParticleKeys, "a particle", "a mapping with `ma
 SPRINGS, CENTRAL = list_of_parts(SpringKeys, "a spring"), list_of_parts(CentralKeys, "a central force")
 FORCES, DAMPING = list_of_parts(ForceKeys, "a force"), list_of_parts(DampingKeys, "damping")
 CHARGES, CONSTRAINTS = list_of_parts(ChargeKeys, "a charge"), list_of_parts(ConstraintKeys, "a constraint")
-
-
-def _ends(written: SpringKeys | CentralKeys, places: Places) -> list[Any]:
-    ends = ((written.start, "from"), (written.end, "to"))
-    return each([partial(places.at, _there(end), name) for end, name in ends])
-
-
-def _there(value: Any) -> Any:
-    """Return the value of a required key: a record without it was rejected before."""
-    assert value is not None
-    return value

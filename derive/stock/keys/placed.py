@@ -16,7 +16,8 @@ from derive.errors import Faults, did_you_mean, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
-from derive.stock.keys.parts import Part, force_letter, list_of_parts
+from derive.stock.keys.deferred import Deferred
+from derive.stock.keys.parts import force_letter, list_of_parts
 from derive.stock.keys.places import PLACE, Places, WrittenPlace
 
 POINT = as_written(
@@ -50,7 +51,7 @@ class MovingBodyKeys(BodyKeys):
         "in a plane, the axis of the body that is perpendicular to the plane", one_of(("x", "y", "z"))
     )
 
-    def part(self, name: Word, alone: bool, places: Places, letters: InLetters) -> Part:
+    def part(self, name: Word, alone: bool, places: Places, letters: InLetters) -> Deferred[Any]:
         called = "" if alone else str(name).replace("_", " ")
         if self.centre is None and self.held is None:
             rejected("missing-key", "a body needs either `centre` or `held`, which says where it is", self.places[""])
@@ -64,13 +65,12 @@ class MovingBodyKeys(BodyKeys):
             self._by_moments(called, letters) if self.moments else Bodies(letters).body(self, called)
         )
         turned = self._turned(self.turned, places, letters)
-        named: list[tuple[str, Any]] = [("across", self.across)]
+        named: dict[str, Any] = {"across": self.across}
         if self.centre is not None:
-            named.append(("centre", places.at(self.centre, "centre")))
-        else:
-            named.append(("held", self._point(letters, body)))
-            named.append(("on", places.at(self.on, "on") if self.on else None))
-        return Part("body", (body, turned), tuple(named), self.places[""])
+            return Deferred(placed, (body, turned, places.at(self.centre, "centre")), named, place=self.places[""])
+        point = self._point(letters, body)
+        named["on"] = places.at(self.on, "on") if self.on else None
+        return Deferred(held, (body, turned, point), named, place=self.places[""])
 
     def _check_used(self) -> None:
         """Check that each key has an effect together with the others."""
@@ -124,52 +124,54 @@ class MovingBodyKeys(BodyKeys):
 class RollingKeys(Record):
     """The keys of one of `rolling:`, a body that rolls without slipping."""
 
-    body: Word | None = key("the body, by its name", TEXT, required=True)
-    at: WrittenPlace | None = key("the place where it touches the surface", PLACE, required=True)
+    body: Word = key("the body, by its name", TEXT, required=True)
+    at: WrittenPlace = key("the place where it touches the surface", PLACE, required=True)
     ground: WrittenPlace | None = key(
         "a place of the surface, if that moves; or the axes in which the surface is at rest, as for a turntable", PLACE
     )
     force: Word | None = key("the symbol of the force that prevents slipping, if you need that force", TEXT)
 
-    def part(self, places: Places, letters: InLetters, names: Collection[str]) -> Part:
-        assert self.body is not None
-        assert self.at is not None
+    def part(self, places: Places, letters: InLetters, names: Collection[str]) -> Deferred[tuple[Any, ...]]:
         if self.body not in names:
-            rejected(
-                "no-such-body",
-                f"`{self.body}` is not a body of this system",
-                self.body.place,
-                did_you_mean(self.body, names),
-            )
-        ground = self._ground(places) if self.ground else None
-        force = (("force", force_letter(self.force, letters)),) if self.force else ()
-        return Part("rolling", (str(self.body), places.at(self.at, "at"), ground), force, self.places[""])
+            message, help_line = f"`{self.body}` is not a body of this system", did_you_mean(self.body, names)
+            rejected("no-such-body", message, self.body.place, help_line)
+        named: dict[str, Any] = {"ground": _ground(self.ground, places) if self.ground else None}
+        if self.force:
+            named["force"] = force_letter(self.force, letters)
+        bodies = {"body": (str(self.body),)}
+        return Deferred(rolls, (), {"at": places.at(self.at, "at"), **named}, bodies, self.places[""])
 
-    def _ground(self, places: Places) -> Location | Axes:
-        """Return a place of the surface; a place along rotating axes is at rest in these, as on a turntable."""
-        assert self.ground is not None
-        way = self.ground.way
-        if self.ground.name is not None and str(self.ground.name) in {str(name) for name in places.turns}:
-            return places.axes(self.ground.name)
-        if way is not None and way.axes is not None and way.start is None:
-            places.at(self.ground, "ground")
-            return places.axes(way.axes)
-        return places.at(self.ground, "ground")
+
+def _ground(written: WrittenPlace, places: Places) -> Location | Axes:
+    """Return a place of the surface; a place along rotating axes is at rest in these, as on a turntable."""
+    way = written.way
+    if written.name is not None and str(written.name) in {str(name) for name in places.turns}:
+        return places.axes(written.name)
+    if way is not None and way.axes is not None and way.start is None:
+        places.at(written, "ground")
+        return places.axes(way.axes)
+    return places.at(written, "ground")
 
 
 BODIES = mapping_of(record_of(MovingBodyKeys, "a body", "a mapping with `shape` or `moments`", "the body `{}`"))
 ROLLING = list_of_parts(RollingKeys, "rolling")
 
 
-def put(body: DescribedBody | RigidBody, turned: Axes | Expr, **known: Any) -> Any:
-    """Return the body at its position, by its centre of mass or by the point that is held."""
-    made: Any = body.body() if isinstance(body, DescribedBody) else body
-    if known.get("centre") is not None:
-        return made.placed(turned, known["centre"], across=known["across"])
-    return made.held(turned, known["held"], on=known["on"], across=known["across"])
+def placed(body: DescribedBody | RigidBody, turned: Axes | Expr, centre: Location, across: str | None) -> Any:
+    """Return the body at its position, by its centre of mass."""
+    return _made(body).placed(turned, centre, across=across)
 
 
-def rolls(body: Any, at: Any, ground: Any, force: str = "") -> tuple[Any, ...]:
+def held(body: DescribedBody | RigidBody, turned: Axes | Expr, point: Any, on: Location | None, across: Any) -> Any:
+    """Return the body at its position, by the point that is held."""
+    return _made(body).held(turned, point, on=on, across=across)
+
+
+def _made(body: DescribedBody | RigidBody) -> Any:
+    return body.body() if isinstance(body, DescribedBody) else body
+
+
+def rolls(body: Any, at: Location, ground: Any, force: str = "") -> tuple[Any, ...]:
     """Return the conditions of rolling: solved, or kept by forces."""
     if force:
         return rolling_constraint(body, at, force, ground)

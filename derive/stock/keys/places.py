@@ -178,6 +178,10 @@ class Places:
             self._check_size(found, name)
             return self.named(way.start) + found if way.start else found
 
+    def ends(self, start: WrittenPlace, end: WrittenPlace) -> list[Location]:
+        """Return the two places between which something acts."""
+        return each([partial(self.at, start, "from"), partial(self.at, end, "to")])
+
     def axes(self, name: Word) -> Axes:
         """Return the axes of that name, by successive rotations of the axes of space."""
         turns = next((turns for known, turns in self.turns.items() if known == name), None)

@@ -9,7 +9,7 @@ from sympy import cos, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
-from tests.stock.described import PENDULUM, edited, messages, solved
+from tests.stock.described import PENDULUM, edited, loaded, messages, solved
 
 l, m, g, k = symbols("l m g k", positive=True)
 x, x_dot, x_ddot = symbols("x x_dot x_ddot", real=True)
@@ -64,6 +64,30 @@ def test_a_constraint_is_kept_by_a_force(tmp_path: Path) -> None:
         ("equations_of_motion", "multipliers"),
     )
     assert equal(solved(tmp_path, text)["N"].value, m * g)
+
+
+def test_a_constraint_force_may_have_the_name_of_a_particle(tmp_path: Path) -> None:
+    text = edited(
+        PENDULUM,
+        ("{theta: angle}", "{x: length, y: length}"),
+        ("[l*sin(theta), -l*cos(theta)]", "[x, y]"),
+        ("{bob:", "{N:"),
+        ("  gravity: g\n", "  gravity: g\n  constraints: {condition: y, equals: l, force: N}\n"),
+        ("equations_of_motion", "multipliers"),
+    )
+    assert equal(solved(tmp_path, text)["N"].value, m * g)
+
+
+def test_a_number_in_the_energy_of_a_central_force_is_kept(tmp_path: Path) -> None:
+    energy = "central: {energy: (5 N)*d, distance: d, from: [0, -l], to: A}"
+    (force,) = loaded(tmp_path, edited(SLIDER, ("MORE", energy))).measured
+    assert (force.number, force.unit) == (5, "N")
+
+
+def test_a_description_reads_the_same_in_each_process(tmp_path: Path) -> None:
+    """The digest of a problem is that of its text, so an address in it would lose every kept step."""
+    text = repr(loaded(tmp_path, edited(SLIDER, ("MORE", "forces: [{components: [F, 0], at: A}]"))).described)
+    assert "force(" in text and " at 0x" not in text
 
 
 @pytest.mark.parametrize(

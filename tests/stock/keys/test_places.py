@@ -17,7 +17,7 @@ PLACES = "{A: [l*sin(theta), -l*cos(theta)]}"
 def test_a_place_may_be_told_from_another(tmp_path: Path) -> None:
     ways = "{A: {from: B, by: [l, 0]}, B: {from: C, by: [0, l*theta]}, C: [l, l]}"
     described = loaded(tmp_path, edited(PENDULUM, (PLACES, ways))).described
-    assert [str(c) for c in described.parts[0].of[1].components] == ["2*l", "l*theta + l"]  # type: ignore[union-attr]
+    assert [str(c) for c in described.particles["bob"].of[1].components] == ["2*l", "l*theta + l"]  # type: ignore[union-attr]
 
 
 def test_places_along_axes_that_turn(tmp_path: Path) -> None:
@@ -27,7 +27,7 @@ def test_places_along_axes_that_turn(tmp_path: Path) -> None:
         ("at: A", "at: {in: arm, by: [l, 0, 0]}"),
     )
     described = loaded(tmp_path, text).described
-    found = [str(c) for c in described.parts[0].of[1].components]  # type: ignore[union-attr]
+    found = [str(c) for c in described.particles["bob"].of[1].components]  # type: ignore[union-attr]
     assert found == ["l*cos(theta)", "l*sin(theta)", "0"]
 
 

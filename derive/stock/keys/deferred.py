@@ -1,0 +1,59 @@
+"""Nouns of the engine that a description states, but that are made only when an answer needs them.
+
+The verbs that make them check what moves and what is constant. They can do so only on the record of a run, which has
+the coordinates and the numbers of symbols.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, Generic, TypeVar
+
+from derive.course.stock import told_at
+from derive.errors import Place
+from derive.mechanics.model.acted_on import ActsOnNothing
+
+N = TypeVar("N")
+
+
+@dataclass(frozen=True, repr=False)
+class Deferred(Generic[N]):
+    """A noun that is made later.
+
+    make    the class or the verb that makes it
+    of      its arguments
+    named   its arguments by name
+    bodies  argument -> the names of the bodies or particles that it needs; another name is passed on as a word
+    place   where it was described
+    """
+
+    make: Callable[..., N]
+    of: tuple[Any, ...] = ()
+    named: Mapping[str, Any] = field(default_factory=dict)
+    bodies: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    place: Place | None = field(default=None, compare=False)
+
+    def made(self, known: Mapping[str, Any]) -> N:
+        """Make it; `known` are the bodies and particles of the system by name."""
+        meant = {argument: [known.get(name, name) for name in names] for argument, names in self.bodies.items()}
+        bodies = {argument: found[0] if len(found) == 1 else tuple(found) for argument, found in meant.items()}
+        with told_at(self.place):
+            return self.make(*self.of, **self.named, **bodies)
+
+    def __repr__(self) -> str:
+        """Return the same text in each process: the digest of a problem depends on it."""
+        return f"{self.make.__qualname__}{(*self.of, *self.named.items(), *self.bodies.items())!r}"
+
+
+@contextmanager
+def told_at_part(described: Sequence[Deferred[Any]], made: Sequence[Any], otherwise: Place | None) -> Iterator[None]:
+    """Show an error about one of the parts that were made where that part was described; any other at `otherwise`."""
+    with told_at(otherwise):
+        try:
+            yield
+        except ActsOnNothing as error:
+            pairs = zip(described, made, strict=True)
+            with told_at(next((part.place for part, own in pairs if own is error.part), None)):
+                raise
