@@ -170,6 +170,12 @@ def _slips(written: str, meant: str) -> int:
     return sum(max(i2 - i1, j2 - j1) for change, i1, i2, j1, j2 in changes if change != "equal")
 
 
+def with_article(id: str) -> str:
+    """Return the words of a message for an id: `a thick shell` for `thick_shell`, `a half-disc` for `half_disc`."""
+    words = id.replace("half_", "half-").replace("_", " ")
+    return f"{'an' if words[0] in 'aeiou' else 'a'} {words}"
+
+
 def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:
     """Return a help line, or nothing."""
     close = nearest(name, tuple(candidates))

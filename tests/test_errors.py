@@ -17,6 +17,7 @@ from derive.errors import (
     did_you_mean,
     nearest,
     rejected,
+    with_article,
 )
 
 
@@ -98,3 +99,9 @@ def test_a_nearer_word_is_not_hidden_by_a_longer_one() -> None:
 
 def test_among_no_names_none_was_meant() -> None:
     assert nearest("torque", ()) is None
+
+
+def test_an_id_becomes_words_with_an_article() -> None:
+    assert [with_article(id) for id in ("thick_shell", "annulus", "half_disc")] == [
+        "a thick shell", "an annulus", "a half-disc",
+    ]  # fmt: skip

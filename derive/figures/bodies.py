@@ -169,7 +169,7 @@ def _profile(body: RoundBody) -> tuple[tuple[Expr, Expr], ...]:
 
 
 def _words(body: Body) -> dict[str, Any]:
-    return {"name": body.seen_as or body.name, "measures": tuple(body.measures.items())}
+    return {"name": body.id, "measures": tuple(body.measures.items())}
 
 
 def _measures(body: RoundBody, point: Point) -> list[Mark]:
@@ -307,7 +307,7 @@ def semi_axes_of(body: Body) -> tuple[Expr, Expr, Expr] | None:
 def _ellipsoid(body: Body, semi_axes: tuple[Expr, Expr, Expr], point: Point, named: bool) -> list[Mark]:
     """The ellipsoid, with its semi-axes dashed and labelled, and with axes beyond them."""
     centre = point.seen(ORIGIN)
-    words = {**_words(body), "name": Ellipsoid.name, "measures": (("semi-axes", semi_axes),)}
+    words = {**_words(body), "name": Ellipsoid.id, "measures": (("semi_axes", semi_axes),)}
     marks: list[Mark] = [EllipsoidMark(centre, semi_axes, **words)]
     for size, along, name in zip(semi_axes, UNIT, AXES, strict=True) if named else ():
         end = centre + size * along

@@ -72,7 +72,7 @@ def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
     """The cylinder seen along its axis, with the line from the axis to the contact and the angle of this line."""
     centre, contact = column_of(link.start), column_of(link.end)
     outside = _is_outside(system, link, rolling)
-    yield Circle(centre, ACROSS, link.length, outside, name="a fixed cylinder")
+    yield Circle(centre, ACROSS, link.length, outside, name="fixed_cylinder")
     yield PointMark(centre)
     between = _between_axes(system, link, rolling)
     if outside or between is None:

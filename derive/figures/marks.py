@@ -77,8 +77,8 @@ class Mark:
 class Surface(Mark):
     """A mark that hides marks behind it and determines the size of a drawing.
 
-    name       its name, "a circular cone"; empty for a surface that is described together with another
-    measures   its measures in the description: "base radius" and R
+    name       its id in the phrases, "cone"; empty for a surface that is described together with another
+    measures   its measures in the description, by their ids: "base_radius" and R
     """
 
     name: str = ""

@@ -316,7 +316,7 @@ def placed_outline(placed: Any) -> list[Mark]:
     if hasattr(body, "parts"):
         return _of_parts(placed)
     words: dict[str, Any] = {
-        "name": getattr(body, "seen_as", "") or getattr(body, "name", ""),
+        "name": getattr(body, "id", ""),
         "measures": _measures(body) if body is placed.body else (),
     }
     # A shape that represents a body has its centre at the body's centre of mass.

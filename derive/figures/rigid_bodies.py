@@ -12,6 +12,7 @@ from derive.figures.annotations import Arrow, Axis, Line, PointMark
 from derive.figures.bodies import ORIGIN, UNIT
 from derive.figures.marks import Mark
 from derive.figures.surfaces import EllipsoidMark
+from derive.mechanics.rotation.euler_equations import RigidBody
 from derive.steps.step import Quantity
 
 __all__ = ["principal_outline"]
@@ -20,14 +21,14 @@ THICK = Rational(1, 12)  # fraction of the sum of the moments that is added so t
 LONG = Rational(6, 5), Rational(19, 20)  # lengths of arrows, relative to the body
 
 
-def principal_outline(moments: Sequence[Any], *vectors: Quantity, name: str = "a rigid body") -> list[Mark]:
+def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
     """A body with these principal moments about its centre of mass, and its principal axes.
 
     moments   three, about x, y and z
     vectors   quantities: vectors (3) in these axes, drawn from the centre of mass
     """
     sizes = _semi_axes([moment.value if isinstance(moment, Quantity) else moment for moment in moments])
-    marks: list[Mark] = [EllipsoidMark(ORIGIN, sizes, name=name), PointMark(ORIGIN)]
+    marks: list[Mark] = [EllipsoidMark(ORIGIN, sizes, name=RigidBody.id), PointMark(ORIGIN)]
     for size, along, axis in zip(sizes, UNIT, AXES, strict=True):
         marks += [Line(ORIGIN, size * along, "hidden"), Axis(size * along, size * along, along, label=scalar(axis))]
     for vector, size in zip(vectors, LONG, strict=False):

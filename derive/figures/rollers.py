@@ -27,7 +27,7 @@ from derive.steps.step import is_zero
 
 ZERO = Integer(0)
 FAR = Rational(5, 2)  # displacement of a roller in the drawing, relative to its radius
-ROUND = "a round body"
+ROUND = "round_body"
 
 
 @dataclass(frozen=True)

@@ -307,10 +307,12 @@ def _mark(mark: m.Mark, words: Phrases) -> tuple[Inline, ...]:
         return ()
     phrase, names = told
     found = {name: _named(value) for name, value in names.items()}
+    if "name" in names:
+        found["name"] = words.body(names["name"])
     if "measures" in names:
         last, measures = words.labels["and"], names["measures"]
         found["several"] = any(isinstance(value, tuple) for _, value in measures)
-        found["measures"] = joined((_measured(name, value, last) for name, value in measures), last)
+        found["measures"] = joined((_measured(words.size(id), value, last) for id, value in measures), last)
     return filled(words.drawings[phrase], found)
 
 

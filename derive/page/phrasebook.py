@@ -26,6 +26,8 @@ _SHAPE: dict[str, Any] = {
     "setups": {_ANY: _TABLE},
     "clauses": {_ANY: _TABLE},
     "terms": _TABLE,
+    "bodies": _TABLE,
+    "sizes": _TABLE,
     "drawings": _TABLE,
     "grades": _TABLE,
     "labels": {

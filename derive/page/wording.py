@@ -28,7 +28,7 @@ from derive.course.parts import points_text
 from derive.course.problem import Problem
 from derive.course.prose import Mention
 from derive.course.written import ANY_OUTCOME
-from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean
+from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, with_article
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, no_phrase, read_phrases
 from derive.page.template import environment
 from derive.steps.derivation import Derivation
@@ -129,6 +129,8 @@ class Phrases:
     setups: Mapping[str, Mapping[str, str]]
     clauses: Mapping[str, Mapping[str, str]]
     terms: Mapping[str, str]
+    bodies: Mapping[str, str]
+    sizes: Mapping[str, str]
     drawings: Mapping[str, str]
     grades: Mapping[str, str]
     labels: Mapping[str, Any]
@@ -178,6 +180,14 @@ class Phrases:
     def term(self, word: str) -> tuple[Inline, ...]:
         """Return the words for a word of a step or of an input: `diagonal` is "the long diagonal"."""
         return filled(self.terms.get(word, word), AXIS_NAMES)
+
+    def body(self, id: str) -> str:
+        """Return the words for a sort of body: `thick_shell` is "a hollow ball"; for a script's own body, its id."""
+        return self.bodies.get(id) or with_article(id)
+
+    def size(self, id: str) -> str:
+        """Return the words for a size of a body: `base_radius` is "base radius"."""
+        return self.sizes.get(id) or id.replace("_", " ")
 
 
 def phrases(folder: Path) -> Phrases:

@@ -72,7 +72,7 @@ class Spheroid(RoundSolid):
     radius: Expr
     half: Expr
     mass: Expr
-    name: ClassVar[str] = "a spheroid"
+    id: ClassVar[str] = "spheroid"
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -109,7 +109,7 @@ class Pyramid(EdgedBody):
     side: Expr
     height: Expr
     mass: Expr
-    name: ClassVar[str] = "a square pyramid"
+    id: ClassVar[str] = "square_pyramid"
     reference: ClassVar[str] = "base"
 
     @property
@@ -213,7 +213,7 @@ def test_a_body_of_ones_own_is_drawn_anywhere_and_kept() -> None:
         top = sketch("top", System(spinning.held(space.turned(Z, phi).turned(X, theta), at="pivot")))
     solids = [drawing("solid", outline(PYRAMID)), top]
     assert list(drawings_from_data(drawings_to_data(solids))) == solids
-    assert [mark.name for mark in top.marks if isinstance(mark, Surface)] == ["a thin rod", "", "a spheroid"]
+    assert [mark.name for mark in top.marks if isinstance(mark, Surface)] == ["rod", "", "spheroid"]
     assert strokes(pieces_of(top), "edge")
 
 

@@ -32,7 +32,7 @@ def test_a_body_that_turns_about_the_vertical_and_about_itself_has_an_arrow_roun
 
 def test_a_rod_in_pieces_is_told_once_and_a_disc_without_its_thickness() -> None:
     rods = [mark for mark in leaning().marks if isinstance(mark, ThinRod)]
-    assert [rod.name for rod in rods] == ["a thin rod", ""]
+    assert [rod.name for rod in rods] == ["rod", ""]
     assert rods[0].measures == (("length", 2 * a),)
     assert list(rods[0].end) == list(rods[1].start)
     assert [mark.measures for mark in leaning().marks if isinstance(mark, Revolved)] == [(("radius", a / 2),)]

@@ -97,7 +97,7 @@ def test_how_far_a_round_body_has_come_is_told_beside_its_slope() -> None:
     with recorded():
         found = sketch("system", on_a_slope())
         assert found is not None
-        assert [(mark.label, mark.name) for mark in of(found, WheelMark)] == [(R, "a round body")]
+        assert [(mark.label, mark.name) for mark in of(found, WheelMark)] == [(R, "round_body")]
         assert [str(mark.label) for mark in of(found, LengthMark)] == ["s"]
         assert len(of(found, GroundMark)) == 1
 

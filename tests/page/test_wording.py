@@ -29,6 +29,7 @@ from derive.page.wording import (
     told,
 )
 from derive.steps.step import Quantity
+from derive.stock.keys.bodies import shapes
 from tests.courses import ROOT
 from tests.mechanics.block import a, b, c, known_block, omega
 
@@ -147,6 +148,15 @@ def test_every_word_of_a_step_has_its_term() -> None:
     words = {word for quantity in every_step() for _, word in quantity.step.words}
     assert words <= set(WORDS.terms)
     assert {"corner", "centre", "diagonal"} <= words
+
+
+def test_every_body_has_its_words() -> None:
+    assert {id for id in shapes() if id not in WORDS.bodies} == set()
+
+
+def test_a_body_of_ones_own_is_told_by_its_id() -> None:
+    assert (WORDS.body("thick_shell"), WORDS.body("octahedron")) == ("a hollow ball", "an octahedron")
+    assert (WORDS.size("semi_axes"), WORDS.size("wall_thickness")) == ("semi-axes", "wall thickness")
 
 
 def test_an_outcome_without_a_phrase_is_an_error_that_names_both() -> None:

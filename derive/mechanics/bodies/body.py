@@ -58,8 +58,6 @@ class Body(Placeable, OfParticles):
     """
 
     mass: Expr
-    name: ClassVar[str] = "a body"
-    seen_as: ClassVar[str] = ""  # its name in the words for a drawing, if different from its name
     filling: ClassVar[str] = "volume"
     reference: ClassVar[str] = "centre"  # the point at the origin of its body axes
     other_centre: ClassVar[str] = ""  # another point called "centre", if that is not its centre of mass
@@ -130,7 +128,7 @@ class Body(Placeable, OfParticles):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """The lengths that define its size, by their names; several of one sort as a tuple."""
+        """The lengths that define its size, by their ids; several of one sort as a tuple."""
         own: Any = self
         return {each.name: getattr(self, each.name) for each in fields(own) if each.name != "mass"}
 
@@ -302,7 +300,7 @@ class Hollow(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        return {"inner radius": self.inner, "outer radius": self.outer}
+        return {"inner_radius": self.inner, "outer_radius": self.outer}
 
 
 def require_order(body: str, inner: Expr, outer: Expr) -> None:

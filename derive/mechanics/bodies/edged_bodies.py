@@ -57,7 +57,7 @@ class Plate(EdgedBody):
 
     sides: tuple[Expr, Expr]
     mass: Expr
-    name, filling, reference = "a plate", "area", "corner"
+    id, filling, reference = "plate", "area", "corner"
 
     @property
     def measures(self) -> Mapping[str, Any]:
@@ -98,7 +98,7 @@ class Cuboid(EdgedBody):
 
     sides: tuple[Expr, Expr, Expr]
     mass: Expr
-    name, seen_as, reference = "a cuboid", "a block", "corner"
+    id, reference = "cuboid", "corner"
 
     @property
     def extent(self) -> Expr:
@@ -179,7 +179,7 @@ class Triangle(Cornered):
 
     corners_at: tuple[tuple[Expr, Expr], tuple[Expr, Expr], tuple[Expr, Expr]]
     mass: Expr
-    name, seen_as, filling = "a triangle", "a triangular plate", "area"
+    id, filling = "triangle", "area"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -264,7 +264,7 @@ class Tetrahedron(Cornered):
 
     corners_at: tuple[tuple[Any, Any, Any], ...]
     mass: Expr
-    name = "a tetrahedron"
+    id = "tetrahedron"
     faces = (0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)
 
     def __post_init__(self) -> None:
@@ -323,7 +323,7 @@ class Wedge(Cornered):
     face: Triangle
     length: Expr
     mass: Expr
-    name = "a wedge"
+    id = "wedge"
     corners_called = Triangle.corners_called[:3]
     faces = (0, 1, 2), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)
 

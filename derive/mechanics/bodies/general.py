@@ -184,7 +184,7 @@ class Wire(GeneralBody):
     density    mass per length, a formula in the variable; if the mass is given too, the density is proportional to it
     """
 
-    name: ClassVar[str] = "a wire"
+    id: ClassVar[str] = "wire"
     filling: ClassVar[str] = "length"
     count: ClassVar[int] = 1
 
@@ -198,7 +198,7 @@ class Sheet(GeneralBody):
     density    mass per area, a formula in the variables; if the mass is given too, the density is proportional to it
     """
 
-    name: ClassVar[str] = "a sheet"
+    id: ClassVar[str] = "sheet"
     filling: ClassVar[str] = "area"
     count: ClassVar[int] = 2
 
@@ -212,7 +212,7 @@ class Solid(GeneralBody):
     density    mass per volume, a formula in the variables; if the mass is given too, the density is proportional to it
     """
 
-    name: ClassVar[str] = "a solid"
+    id: ClassVar[str] = "solid"
     filling: ClassVar[str] = "volume"
     count: ClassVar[int] = 3
 

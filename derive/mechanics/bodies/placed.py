@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, cos, sin
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import TIME, as_expr, column, explicit
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected, Spelled
+from derive.errors import Complaint, Rejected, Spelled, with_article
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.kinematics.places import Axes, Location, turn_about
 from derive.steps.record import coordinates_in
@@ -98,6 +98,13 @@ def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
 
 class Placeable:
     """A base class of bodies that can have a position and an orientation."""
+
+    id: ClassVar[str] = "body"  # its sort, in files and in phrases: "thick_shell"
+    name: ClassVar[str] = "a body"  # in messages, from its id
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls.name = with_article(cls.id)
 
     def placed(self, turned: Any, centre: Location, across: str | None = None) -> PlacedBody:
         """The body with its centre of mass at a place, oriented by axes, or in a plane by an angle.

@@ -101,11 +101,11 @@ class Cone(OfHeight, RoundSolid):
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
 
-    name, seen_as, reference = "a cone", "a circular cone", "apex"
+    id, reference = "cone", "apex"
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        return {"base radius": self.radius, "height": self.height}
+        return {"base_radius": self.radius, "height": self.height}
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius * z / self.height
@@ -143,7 +143,7 @@ class Cylinder(OfHeight, RoundSolid):
     Points: base (its centre, at the origin), centre.
     """
 
-    name, seen_as, reference = "a cylinder", "a circular cylinder", "base"
+    id, reference = "cylinder", "base"
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius
@@ -164,7 +164,7 @@ class Ball(OfRadius, RoundSolid):
     mass     mass
     """
 
-    name = "a ball"
+    id = "ball"
     part = Rational(4, 3)  # of the cube of the radius, times pi
 
     @property
@@ -195,7 +195,7 @@ class Hemisphere(Ball):
     Points: base (its centre), centre.
     """
 
-    name, seen_as, reference = "a hemisphere", "half of a ball", "base"
+    id, reference = "hemisphere", "base"
     other_centre = "base"
     part = Rational(2, 3)
 
@@ -225,7 +225,7 @@ class Tube(Body):
     outer: Expr
     height: Expr
     mass: Expr
-    name, seen_as, reference, is_round = "a tube", "a hollow cylinder", "base", True
+    id, reference, is_round = "tube", "base", True
 
     def check_sizes(self) -> None:
         super().check_sizes()
@@ -233,7 +233,7 @@ class Tube(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        return {"inner radius": self.inner, "outer radius": self.outer, "height": self.height}
+        return {"inner_radius": self.inner, "outer_radius": self.outer, "height": self.height}
 
     @property
     def extent(self) -> Expr:
@@ -261,7 +261,7 @@ class ThickShell(Hollow):
     mass           mass
     """
 
-    name, seen_as, is_round = "a thick shell", "a hollow ball", True
+    id, is_round = "thick_shell", True
 
     @property
     def extent(self) -> Expr:
@@ -291,7 +291,7 @@ class HalfCylinder(OfHeight):
     Points: circle_centre (of the half-disc at the origin), centre.
     """
 
-    name, reference, is_lopsided = "a half-cylinder", "circle_centre", True
+    id, reference, is_lopsided = "half_cylinder", "circle_centre", True
     other_centre = "circle_centre"
 
     @property
@@ -316,7 +316,7 @@ class Ellipsoid(Body):
 
     semi_axes: tuple[Expr, Expr, Expr]
     mass: Expr
-    name = "an ellipsoid"
+    id = "ellipsoid"
 
     @property
     def extent(self) -> Expr:
@@ -343,7 +343,7 @@ class Torus(Body):
     radius: Expr
     section: Expr
     mass: Expr
-    name, is_round = "a torus", True
+    id, is_round = "torus", True
 
     def check_sizes(self) -> None:
         super().check_sizes()

@@ -51,7 +51,7 @@ class Rod(RoundBody):
 
     length: Expr
     mass: Expr
-    name, seen_as, filling, reference = "a rod", "a thin rod", "length", "end"
+    id, filling, reference = "rod", "length", "end"
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -91,7 +91,7 @@ class Hoop(_Flat):
     mass     mass
     """
 
-    name, filling = "a hoop", "length"
+    id, filling = "hoop", "length"
 
     @property
     def extent(self) -> Expr:
@@ -114,7 +114,7 @@ class Arc(Body):
     radius: Expr
     half_angle: Expr
     mass: Expr
-    name, seen_as, filling, reference = "an arc", "a bent wire", "length", "circle_centre"
+    id, filling, reference = "arc", "length", "circle_centre"
     other_centre = "circle_centre"
     is_lopsided = True
 
@@ -152,7 +152,7 @@ class Disc(_Flat):
     mass     mass
     """
 
-    name, seen_as, filling = "a disc", "a thin disc", "area"
+    id, filling = "disc", "area"
 
     @property
     def extent(self) -> Expr:
@@ -170,7 +170,7 @@ class Annulus(Hollow):
     Points: centre, rim (of the outer circle).
     """
 
-    name, filling, is_round = "an annulus", "area", True
+    id, filling, is_round = "annulus", "area", True
 
     @property
     def extent(self) -> Expr:
@@ -202,7 +202,7 @@ class HalfDisc(OfRadius):
     Points: circle_centre (the middle of the diameter, the origin), centre.
     """
 
-    name, filling, reference, is_lopsided = "a half-disc", "area", "circle_centre", True
+    id, filling, reference, is_lopsided = "half_disc", "area", "circle_centre", True
     other_centre = "circle_centre"
 
     @property
@@ -230,7 +230,7 @@ class SphericalShell(OfRadius, RoundBody):
     mass     mass
     """
 
-    name, seen_as, filling = "a spherical shell", "a thin spherical shell", "area"
+    id, filling = "spherical_shell", "area"
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -259,7 +259,7 @@ class HemisphericalShell(SphericalShell):
     Points: circle_centre (of its rim), centre.
     """
 
-    name, seen_as, reference = "a hemispherical shell", "", "circle_centre"
+    id, reference = "hemispherical_shell", "circle_centre"
     other_centre = "circle_centre"
 
     @property
@@ -287,7 +287,7 @@ class CylindricalShell(OfHeight, RoundBody):
     Points: circle_centre (of its lower rim), centre.
     """
 
-    name, seen_as, filling = "a cylindrical shell", "a thin cylindrical shell", "area"
+    id, filling = "cylindrical_shell", "area"
     reference = "circle_centre"
 
     def radius_at(self, z: Expr) -> Expr:
@@ -311,7 +311,7 @@ class ConicalShell(OfHeight, RoundBody):
     Points: tip (the apex), centre.
     """
 
-    name, seen_as, filling, reference = "a conical shell", "the side of a cone", "area", "tip"
+    id, filling, reference = "conical_shell", "area", "tip"
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius * z / self.height

@@ -64,7 +64,7 @@ class PointMass(Body):
     """
 
     mass: Expr
-    name: ClassVar[str] = "a particle"
+    id: ClassVar[str] = "particle"
 
     def map(self) -> Map:
         return ORIGIN.position, ()
@@ -104,7 +104,7 @@ class Composite(Body):
     Errors: no part; two parts of the same name; a mass that vanishes; parts of different dimensions with one mass.
     """
 
-    name: ClassVar[str] = "a body of several parts"
+    id: ClassVar[str] = "body_of_several_parts"
     reference: ClassVar[str] = "origin"
     other_centre: ClassVar[str] = "origin"
 
@@ -185,9 +185,10 @@ def PointMasses(*masses: tuple[Expr, Sequence[Any]]) -> Composite:
 
 
 def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:
-    """The parts, where each that is not a particle has a name: the given one, or that of its sort."""
+    """The parts, where each that is not a particle has a name: the given one, or its id."""
     found = [
-        part if isinstance(part.body, PointMass) or part.body.called else part.named(_noun(part.body)) for part in parts
+        part if isinstance(part.body, PointMass) or part.body.called else part.named(part.body.id.replace("_", " "))
+        for part in parts
     ]
     names = [part.body.called for part in found if not isinstance(part.body, PointMass)]
     for taken in (names, [name.partition(" ")[0] for name in names]):
@@ -197,11 +198,6 @@ def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:
             help_line = 'give them names whose first words differ: Rod(l, m).named("upper rod")'
             raise Rejected(Complaint("parts", message, help=help_line))
     return tuple(found)
-
-
-def _noun(body: Body) -> str:
-    """The name without its article: "thick shell" for "a thick shell"."""
-    return body.name.partition(" ")[2].replace("-", " ")
 
 
 def _index(part: PlacedPart) -> str:

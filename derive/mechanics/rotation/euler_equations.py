@@ -83,7 +83,7 @@ class RigidBody(Placeable, OfParticles):
     moments: tuple[Expr, Expr, Expr] | Expr = ()
     centre: tuple[Expr, ...] = (Integer(0), Integer(0), Integer(0))
     about: str = ""
-    name: ClassVar[str] = "a rigid body"
+    id: ClassVar[str] = "rigid_body"
     called: str = ""
     look: Any = field(default=None, compare=False)
     across_plane: ClassVar[Quantity | None] = None  # the step that derived the moment across the plane

@@ -51,10 +51,10 @@ OTHER_NAMES = {
 
 @cache
 def shapes() -> dict[str, type[Body]]:
-    """Return every body with sizes, by its name in YAML: `a thick shell` is `thick_shell`."""
+    """Return every body with sizes, by its id, which is its name in YAML: `thick_shell`."""
     offered = (getattr(derive.mechanics, name) for name in dir(derive.mechanics))
     bodies = (each for each in offered if isinstance(each, type) and issubclass(each, Body) and is_dataclass(each))
-    return {body.name.partition(" ")[2].replace(" ", "_").replace("-", "_"): body for body in bodies}
+    return {body.id: body for body in bodies}
 
 
 def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
