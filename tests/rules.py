@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import derive.mechanics
-from derive.steps.rule import CHECK, RULES, Judged, Rule
+from derive.steps.rule import CHECK, RULES, Judged, Rule, Theorem
 
 SOURCE = Path(derive.mechanics.__file__).parents[1]
 
@@ -37,6 +37,11 @@ def bool_of(facts: Judged) -> bool:
 
 def wrongly_named(rule: str, facts: Judged, named: Mapping[str, Any]) -> str | None:
     return RULES[rule].wrongly_named(facts, named)
+
+
+def theorems() -> list[Theorem]:
+    """Every theorem that a rule in the code quotes."""
+    return list({quote.theorem.name: quote.theorem for *_, rule in records() for quote in rule.quotes}.values())
 
 
 def records() -> Iterator[tuple[str, str, Rule]]:

@@ -17,7 +17,7 @@ import pytest
 import derive.mechanics
 import derive.steps.numeric
 from derive.page.wording import AFTER, AND
-from derive.steps.rule import ROUTE, Rule, judged_facts
+from derive.steps.rule import ROUTE, RULES, Rule, judged_facts
 from derive.steps.step import Fact, Quantity
 from tests.courses import ROOT
 from tests.mechanics.block import a, known_block
@@ -125,6 +125,13 @@ def test_imports_point_down(name: str) -> None:
     own = DOORS.get(name, room(name))
     allowed = {other for other in FLOOR if FLOOR[other] < FLOOR[own]} | {own}
     assert {module for module in imported(name) if room(module) not in allowed} == set()
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if room(name) in {"page", "render", "building", "preview"}])
+def test_a_page_names_no_rule(name: str) -> None:
+    """What a page needs to know of a rule is in its record, so a rule of a script is shown in the same way."""
+    chapters = {rule.partition(".")[0] for rule in RULES}
+    assert [each.value for each in strings(name) if re.fullmatch(rf"({'|'.join(chapters)})\.[a-z_]*", each.value)] == []
 
 
 # The chapters of mechanics, from the ground up: each imports from those before it.

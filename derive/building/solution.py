@@ -63,7 +63,7 @@ from derive.steps.derivation import (
 )
 from derive.steps.homogeneity import dimension_table
 from derive.steps.memory import Memory
-from derive.steps.numeric import coefficient_of, comparison_of, is_plain, value_of
+from derive.steps.numeric import COMPARISON, coefficient_of, comparison_of, is_plain, value_of
 from derive.steps.step import Level, Quantity, Step
 from derive.stock.keys.limits import limits_of
 
@@ -297,7 +297,7 @@ def derived(
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
     """Return whether another answer is the same condition: one comparison with the numbers is enough."""
-    return step.rule == "numeric.comparison" and step.chain in [other.chain for other in others]
+    return step.rule == COMPARISON.name and step.chain in [other.chain for other in others]
 
 
 def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> None:

@@ -36,40 +36,36 @@ PARALLEL_AXES = Theorem(
         Terms(scalar("I_ij"), Factors(M, Terms(Factors(r**2, scalar("delta_ij")), -scalar("r_i") * scalar("r_j")))),
     ),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
-    {"total": scalar("J_ij"), "centre": scalar("I_ij"), "way": vector("r")},
+    (("total", scalar("J_ij")), ("centre", scalar("I_ij")), ("way", vector("r"))),
 )
 PERPENDICULAR_AXES = Theorem(
     "perpendicular_axes",
     Relation(scalar("I_zz"), "=", Terms(scalar("I_xx"), scalar("I_yy"))),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
-    {"x": scalar("x"), "y": scalar("y")},
+    (("x", scalar("x")), ("y", scalar("y"))),
 )
 ROTATING_AXES = Theorem(
     "rotating_axes",
     Relation(CarriedRate(G, OMEGA), "=", MatAdd(BodyRate(G), Cross(OMEGA, G))),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9",
-    {"any": G, "turning": OMEGA},
+    (("any", G), ("turning", OMEGA)),
 )
 LAGRANGE = Theorem(
     "lagrange",
     Relation(INERTIA_AND_FORCE, "=", 0),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
-    {"coordinate": q},
+    (("coordinate", q),),
     prepared=True,
 )
 MULTIPLIERS = Theorem(
     "multipliers",
     Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),  # summed over k
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-    {"coordinate": q, "multiplier": MULTIPLIER, "constraint": CONSTRAINT},
-    between=frozenset({"coordinates", "both"}),
+    (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
 )
 MULTIPLIERS_OF_RATES = Theorem(
     "multipliers_of_rates",
     Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),  # such as rolling
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-    {"coordinate": q, "multiplier": MULTIPLIER, "constraint": CONSTRAINT},
-    between=frozenset({"rates", "both"}),
+    (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
 )
-
-THEOREMS = (PARALLEL_AXES, PERPENDICULAR_AXES, ROTATING_AXES, LAGRANGE, MULTIPLIERS, MULTIPLIERS_OF_RATES)

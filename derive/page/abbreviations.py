@@ -1,4 +1,4 @@
-"""Formulas that a page shows once: a long formula that a step named, an equation that is already linear."""
+"""Formulas that a page shows once: symbols of earlier steps replace the formulas that they name."""
 
 from __future__ import annotations
 
@@ -10,9 +10,6 @@ from sympy import Add, Pow
 from derive.algebra.expressions import explicit
 from derive.steps.step import Step, is_zero
 
-ABBREVIATING = "model.distance"  # the rule of a step whose symbol replaces its formula in later steps
-LINEAR = "vibrations.linearised"
-
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
     """Return how a step writes an expression: symbols of earlier steps replace the formulas that they name."""
@@ -20,15 +17,9 @@ def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
     known: dict[str, list[tuple[Any, Any]]] = {}
     for step in steps:
         known[step.key] = list(letters)
-        if step.rule == ABBREVIATING:
+        if step.display.abbreviates:
             letters.append((explicit(step.result).as_base_exp()[0], step.symbol))
     return lambda step, value: _written(value, known.get(step.key, []))
-
-
-def says_again(step: Step) -> str | None:
-    """Return the step whose equation this one repeats: linearising a linear equation leaves nothing out."""
-    roles = dict(step.roles)
-    return str(roles["motion"].name) if step.rule == LINEAR and "as_it_is" in roles else None
 
 
 def _written(value: Any, letters: Sequence[tuple[Any, Any]]) -> Any:

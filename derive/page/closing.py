@@ -18,7 +18,6 @@ from derive.steps.derivation import Derivation
 from derive.steps.rule import ZERO
 from derive.steps.step import Step
 
-PUT_IN = "answers.put_in"  # its sentence names the formula in which values are substituted
 Nodes = tuple[Inline, ...]
 
 
@@ -74,7 +73,7 @@ def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping
 def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:
     """Return the sentence of a step with its result in it; None for a vector or a tensor, which is too tall."""
     last = step.chain[-1]
-    if step.rule == PUT_IN and step.outcome == ZERO:  # its sentence is complete
+    if step.display.names_formula and step.outcome == ZERO:  # its sentence is complete
         said, _ = around_chain(nodes)
         return *said[:-1], Text(said[-1].text.rstrip(" ,")) if isinstance(said[-1], Text) else said[-1]
     if isinstance(last.expr, MatrixBase):
@@ -84,7 +83,7 @@ def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:
 
 def _result(step: Step) -> Nodes:
     last = step.chain[-1]
-    if step.symbol is None or step.rule == PUT_IN:
+    if step.symbol is None or step.display.names_formula:
         return (Math(last.expr),)
     what = dict(step.roles).get(
         "bound", name_before(step)

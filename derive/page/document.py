@@ -22,7 +22,6 @@ from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
-from derive.page.abbreviations import says_again
 from derive.page.assumptions import between_bounds
 from derive.page.chain_lines import ChainWriter, Equations
 from derive.page.checks import checks_of, second_ways_of
@@ -35,7 +34,7 @@ from derive.page.names import page_names
 from derive.page.numbering import Numbering
 from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results, told_by_number
-from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection, needs_no_words
+from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
 from derive.page.theorems import Theorems
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import (
@@ -262,8 +261,8 @@ class _Writer:
         mode = self.problem.show.get(step.key, "")
         if mode == "hidden" and step.key not in self.asked:
             return
-        if step.key not in self.asked and (same := says_again(step)) in self.numbers:
-            self.numbers[step.key] = self.numbers[str(same)]
+        if step.key not in self.asked and step.display.repeats in self.numbers:
+            self.numbers[step.key] = self.numbers[step.display.repeats]
             return
         if (manner := self.selection.manner(step.key)) is not OWN:
             self.clauses.set_aside(step, manner is TOLD)
@@ -313,7 +312,7 @@ class _Writer:
         """Return the step that is shown next in the part, if one sentence may describe both."""
         if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
             return None
-        return self.rest[0] if needs_no_words(self.rest[0]) else None
+        return self.rest[0] if self.rest[0].display.told_along else None
 
     def _completed(self, key: str) -> set[str]:
         """Return the steps that are complete with this one: steps without lines wait for their words."""

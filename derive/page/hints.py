@@ -23,9 +23,8 @@ from derive.page.introduced import expressions_in, letters_in, letters_of, wanti
 from derive.page.tree import Block, Display, Document, Folded, Paragraph, PartPage
 from derive.page.wording import Inline, Math, Phrases
 from derive.steps.derivation import Derivation
-from derive.steps.step import Step
+from derive.steps.step import NUMBERS, Step
 
-OF_NUMBERS = "numeric."  # the rules of steps that only substitute numbers
 TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 
 
@@ -122,7 +121,7 @@ class _Hints:
     def _kept(self, chain: Sequence[ChainLine], step: Step, rung: slice) -> list[ChainLine]:
         """Return the lines for one hint; the first has the left side."""
         lines = [*_law_behind(chain, step), *(line for line in chain if not line.numeric)]
-        if step.rule.startswith(OF_NUMBERS) or lines[0].because != "law":
+        if lines[0].because != "law" or any(form.because in NUMBERS for form in step.chain):
             return []
         told = next(
             i for i, line in enumerate(lines) if line is lines[-1] or self._tells_a_result(line, lines[-1], step)

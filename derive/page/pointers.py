@@ -15,19 +15,15 @@ from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, filled,
 from derive.steps.derivation import Derivation
 from derive.steps.step import Step
 
-BOTH_ROOTS, ENTRIES = "answers.roots_together", {"rotation.entry", "rotation.entry_moved"}
-
 
 def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
     """Return the steps whose lines have the result, one for each of several values; none if a value is in no line."""
-    inputs = [derivation.step(key) for key in step.inputs]
-    if step.rule == "answers.one_of_two" and "sign" in dict(step.words):
-        return tuple(each for each in inputs if each.rule == BOTH_ROOTS)
-    if step.rule == "rotation.principal_moments":
-        entries = {each.result: each for each in reversed(inputs) if each.rule in ENTRIES}
-        values = list(dict.fromkeys(step.result))
-        return tuple(entries[value] for value in values) if entries.keys() >= set(values) else ()
-    return ()
+    inputs = [each for key in step.inputs if (each := derivation.step(key)).rule in step.display.result_in]
+    if not isinstance(step.symbol, MatrixBase):
+        return tuple(inputs)
+    lines = {each.result: each for each in reversed(inputs)}
+    values = list(dict.fromkeys(step.result))
+    return tuple(lines[value] for value in values) if lines.keys() >= set(values) else ()
 
 
 def pointed_out(

@@ -174,11 +174,6 @@ class Selection:
         return tuple(form for form in step.chain[:-1] if level.shows(form.level)) + step.chain[-1:]
 
 
-def needs_no_words(step: Step) -> bool:
-    """Return whether the sentence before a step may describe it too: the step has no condition to state."""
-    return step.display.told_along and dict(step.words).get("seen", "any") == "any"
-
-
 def _is_short(step: Step) -> bool:
     """Return whether the step fits within a sentence: `rho = M/V`."""
     value = step.result

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from derive.mechanics.theorems import THEOREMS
 from derive.page.tree import Block, Document, Folded, Paragraph, PartPage
 from derive.page.wording import Inline, Math, Phrases, ToldIn, ToldOnce, filled
 from derive.steps.rule import Theorem
@@ -46,18 +45,16 @@ class Theorems:
     """
 
     def __init__(self, words: Phrases, level: Level, steps: Iterable[Step] = ()):
-        self._words, self._steps, self._drops_laws = words, tuple(steps), level is Level.STANDARD
-        self._left = [] if level is Level.BRIEF else [t for t in THEOREMS if self._drops_laws or not t.prepared]
-        self._told: list[Theorem] = []
+        self._words, self._steps, self._level = words, tuple(steps), level
+        self._told: set[str] = set()
 
     def before(self, step: Step) -> tuple[Inline, ...]:
         """Return the theorems to state before that step, at the beginning of its sentence."""
-        used = [theorem for theorem in self._left if self._is_told_at(theorem, step)]
-        self._left = [theorem for theorem in self._left if theorem not in used]
-        self._told += used
+        used = [theorem for theorem in self._due(step) if theorem.name not in self._told]
+        self._told |= {theorem.name for theorem in used}
         told: list[Inline] = []
         for theorem in used:
-            letters = {name: Math(letter) for name, letter in theorem.letters.items()}
+            letters = {name: Math(letter) for name, letter in theorem.letters}
             nodes = filled(self._words.theorems[theorem.name], {"formula": Math(theorem.formula), **letters})
             first = ToldIn(self._words.labels["problem"])
             again = filled(self._words.theorems_again[theorem.name], {"problem": first})
@@ -66,17 +63,19 @@ class Theorems:
 
     def without_law(self, step: Step) -> Step:
         """Return the step without the line that repeats a theorem."""
-        said = any(theorem.name in step.law_in for theorem in self._told)
-        if not (said and self._drops_laws and len(step.chain) > 1 and step.chain[0].because == "law"):
+        said = self._level is Level.STANDARD and not self._told.isdisjoint(step.law_in)
+        if not (said and len(step.chain) > 1 and step.chain[0].because == "law"):
             return step
         return replace(step, chain=step.chain[1:])
 
-    def _is_told_at(self, theorem: Theorem, step: Step) -> bool:
-        if not theorem.prepared:
-            return _uses(step, theorem)
-        resting = (other for other in self._steps if step.key in other.inputs)
-        return step.prepares == theorem.name and any(_uses(other, theorem) for other in resting)
+    def _due(self, step: Step) -> list[Theorem]:
+        """Return the theorems that this level states before that step: those that it uses, and one that it prepares."""
+        if self._level is Level.BRIEF:
+            return []
+        own = [theorem for theorem in step.theorems if not theorem.prepared]
+        prepared = step.prepares if self._level is Level.STANDARD else None
+        return [*own, prepared] if prepared is not None and self._is_used_after(step, prepared) else own
 
-
-def _uses(step: Step, theorem: Theorem) -> bool:
-    return theorem.name in step.theorems
+    def _is_used_after(self, step: Step, theorem: Theorem) -> bool:
+        following = (other for other in self._steps if step.key in other.inputs)
+        return any(theorem.name == each.name for other in following for each in other.theorems)

@@ -15,6 +15,7 @@ from derive.algebra.expressions import Relation
 from derive.errors import Complaint, Place, Rejected
 from derive.steps.level import Display, Manner
 from derive.steps.record import Run
+from derive.steps.rule import Theorem
 from derive.steps.step import Form, Level, Quantity, Step
 
 MAX_NESTED, MAX_ANSWERS = 20, 10_000
@@ -176,7 +177,8 @@ def derivation_of(
 # --- JSON ------------------------------------------------------------------------------------------------------------
 
 
-_CLASSES = {each.__name__: each for each in (Derivation, Step, Form, Level, Manner, Display, Evidence, Compared, Grade)}
+_RECORDS = (Derivation, Step, Form, Level, Manner, Display, Theorem, Evidence, Compared, Grade)
+_CLASSES = {each.__name__: each for each in _RECORDS}
 
 
 def to_json(derivation: Derivation) -> str:

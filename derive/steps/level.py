@@ -39,7 +39,12 @@ class Display:
     first_only        whether only the first of several such steps is shown
     result_again      up to this level, a step after one of the same form shows only its result
     each_worked_out   whether the step is written out even if another one of the same form came before
-    unless_long	   whether a long step is left out
+    unless_long       whether a long step is left out
+    abbreviates       whether the symbol of the step replaces its formula in later steps
+    names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
+                      needs no left side
+    repeats           the key of the equation that the step repeats, if any
+    result_in         rules of the inputs whose lines may have the result: below `full`, the sentence points to them
     """
 
     brief: Manner = Manner.OWN
@@ -49,6 +54,10 @@ class Display:
     result_again: Level | None = None
     each_worked_out: bool = False
     unless_long: bool = False
+    abbreviates: bool = False
+    names_formula: bool = False
+    repeats: str = ""
+    result_in: tuple[str, ...] = ()
 
     def manner(self, level: Level) -> Manner:
         return self.brief if level is Level.BRIEF else self.standard
@@ -64,7 +73,10 @@ class Shown:
 
     outcomes      outcome -> the manner at `brief` and at `standard`, where these differ from those of the rule
     told_along    outcomes in which the sentence of the step before may state the result too
+    condition_if  a predicate of the step; if it is true, its sentence has a condition, which no other sentence states
     taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
+    repeats       a function of the step that returns the key of the equation that it repeats, or ""
+    result_in     outcome -> rules of the inputs whose lines may have the result
     The others are those of `Display`.
     """
 
@@ -76,16 +88,30 @@ class Shown:
     result_again: Level | None = None
     each_worked_out: bool = False
     unless_long: bool = False
-    taken_in_if: Callable[[Any], bool] | None = None
+    abbreviates: bool = False
+    names_formula: bool = False
+    condition_if: Callable[[Any], bool] = lambda step: False
+    taken_in_if: Callable[[Any], bool] = lambda step: False
+    repeats: Callable[[Any], str] = lambda step: ""
+    result_in: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def of(self, step: Any) -> Display:
         """Return how this step is shown."""
         brief, standard = self.outcomes.get(step.outcome, (self.brief, self.standard))
-        if self.taken_in_if is not None and self.taken_in_if(step):
+        if self.taken_in_if(step):
             brief = standard = Manner.TAKEN_IN
-        along = step.outcome in self.told_along
         return Display(
-            brief, standard, along, self.first_only, self.result_again, self.each_worked_out, self.unless_long
+            brief=brief,
+            standard=standard,
+            told_along=step.outcome in self.told_along and not self.condition_if(step),
+            first_only=self.first_only,
+            result_again=self.result_again,
+            each_worked_out=self.each_worked_out,
+            unless_long=self.unless_long,
+            abbreviates=self.abbreviates,
+            names_formula=self.names_formula,
+            repeats=self.repeats(step),
+            result_in=self.result_in.get(step.outcome, ()),
         )
 
 

@@ -67,17 +67,15 @@ class Theorem:
     """A theorem in its general form, which a page states by name before the first step that uses it.
 
     formula   its formula
-    letters   other letters that the phrase names
     source    book and section
-    between   the required words `between` of the steps that use it; empty if any word will do
+    letters   other letters that the phrase names, with their names there
     prepared  whether it is stated before a step that prepares those that use it
     """
 
     name: str
     formula: Any
     source: str
-    letters: Mapping[str, Any] = field(default_factory=dict)
-    between: frozenset[str] = frozenset()
+    letters: tuple[tuple[str, Any], ...] = ()
     prepared: bool = False
 
 
@@ -86,16 +84,18 @@ class Quote:
     """The use of a theorem by the steps of a rule.
     outcomes   outcomes that use it; empty for all
     law_in     outcomes in which the theorem is the law of the step, which need not write it again
+    between    the required words `between` of the steps that use it; empty if any word will do
     """
 
     theorem: Theorem
     outcomes: frozenset[str] = frozenset()
     law_in: frozenset[str] = frozenset()
+    between: frozenset[str] = frozenset()
 
     def fits(self, outcome: str, between: str) -> bool:
         """Whether a step with this outcome, and with this word `between`, uses the theorem."""
         in_outcome = not self.outcomes or outcome in self.outcomes
-        return in_outcome and (not self.theorem.between or between in self.theorem.between)
+        return in_outcome and (not self.between or between in self.between)
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,12 +153,12 @@ class Rule:
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
 
     def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:
-        """Return the names of the theorems that a step uses and states, as a `Step` has them."""
+        """Return the theorems of a step as a `Step` has them: those that it uses, states and prepares."""
         quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
         return {
-            "theorems": tuple(each.theorem.name for each in quotes),
+            "theorems": tuple(each.theorem for each in quotes),
             "law_in": tuple(each.theorem.name for each in self.quotes if outcome in each.law_in),
-            "prepares": self.prepares.name if self.prepares is not None else None,
+            "prepares": self.prepares,
         }
 
     def wrongly_named(self, facts: Judged, named: Mapping[str, Any]) -> str | None:

@@ -19,6 +19,7 @@ from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.level import ON_ITS_OWN, Display
 from derive.steps.level import Level as Level  # of the forms below, and by this name to all who make them
+from derive.steps.rule import Theorem
 from derive.steps.subject import NOTHING, Subject
 
 NUMBERS = ("value", "rounded")  # why a form is at the end of a chain: the number in a unit, exact or rounded
@@ -52,7 +53,8 @@ class Step:
     an equation. `about` means that the step is derived from such a result, so its letter only approximately equals its
     first line.
     `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that it
-    uses, those that state its law, and the theorem that a page states before it for the steps that depend on it.
+    uses, the names of those that state its law, and the theorem that a page states before it for the steps that depend
+    on it.
     """
 
     key: str
@@ -73,9 +75,9 @@ class Step:
     approximates: Any = None
     about: bool = False
     display: Display = field(default=ON_ITS_OWN, compare=False)
-    theorems: tuple[str, ...] = field(default=(), compare=False)
+    theorems: tuple[Theorem, ...] = field(default=(), compare=False)
     law_in: tuple[str, ...] = field(default=(), compare=False)
-    prepares: str | None = field(default=None, compare=False)
+    prepares: Theorem | None = field(default=None, compare=False)
 
     @property
     def exact(self) -> bool:

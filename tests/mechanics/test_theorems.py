@@ -11,11 +11,10 @@ from sympy import Expr, Integer, Matrix, S, Symbol, cos, diff, eye, sin, sqrt, s
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Partial, TimeRate, explicit, rate, scalar
 from derive.mechanics import Cuboid, centre_of_mass, inertia_tensor, moved_to
-from derive.mechanics.theorems import THEOREMS
 from derive.steps.rule import Theorem
-from tests.rules import records
+from tests.rules import records, theorems
 
-BY_NAME = {theorem.name: theorem for theorem in THEOREMS}
+BY_NAME = {theorem.name: theorem for theorem in theorems()}
 a, b, c, M, t = symbols("a b c M t", positive=True)
 
 
@@ -89,7 +88,7 @@ def test_a_positive_multiplier_pushes_towards_a_larger_constraint(name: str) -> 
     assert equal(found.subs(rate(q, 2), 0), m * g - scalar("lambda_k"))
 
 
-@pytest.mark.parametrize("theorem", THEOREMS, ids=lambda theorem: theorem.name)
+@pytest.mark.parametrize("theorem", theorems(), ids=lambda theorem: theorem.name)
 def test_each_theorem_says_where_it_is_from_and_who_uses_it(theorem: Theorem) -> None:
     assert "section" in theorem.source
     quotes = [(rule, quote) for *_, rule in records() for quote in rule.quotes if quote.theorem is theorem]

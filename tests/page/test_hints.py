@@ -17,7 +17,7 @@ from derive.building.solved import Solved
 from derive.course.problem import Problem
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.document import document_of
-from derive.page.hints import OF_NUMBERS, TO_BE_DONE, with_hints
+from derive.page.hints import TO_BE_DONE, with_hints
 from derive.page.introduced import expressions_in, letters_in, letters_of, wanting
 from derive.page.tree import Display, Document, Folded, Paragraph
 from derive.page.wording import phrases
@@ -113,7 +113,7 @@ def test_what_is_sought_is_a_letter_or_nothing_and_a_number_has_no_law(courses: 
     steps = {step.key: step for step in (*solved.derivation.steps, *solved.values.values())}
     for rung, group, line in told(hints):
         if rung.title != WORDS.labels["hints"]["first"]:
-            assert not steps[group.key].rule.startswith(OF_NUMBERS) and not line.numeric
+            assert not steps[group.key].rule.startswith("numeric.") and not line.numeric
         elif steps[group.key].symbol is None:
             assert line.left == BLANK or isinstance(line.left, Symbol)
             assert line.right in (BLANK, 0)

@@ -86,6 +86,12 @@ def test_where_a_value_has_no_line_nothing_is_pointed_to(cone: Known) -> None:
     assert that_have_it(changed, derivation) == ()
 
 
+def test_the_rule_says_which_lines_may_have_its_result(cone: Known) -> None:
+    derivation = cone[1].derivation
+    step = derivation.step("principal_moments")
+    assert that_have_it(replace(step, display=replace(step.display, result_in=())), derivation) == ()
+
+
 @pytest.mark.parametrize("level", [Level.BRIEF, Level.STANDARD])
 def test_the_lines_that_are_pointed_to_have_the_frame_of_the_answer(cone: Known, level: Level) -> None:
     framed = displayed(page(cone, level))

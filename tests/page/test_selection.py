@@ -21,6 +21,7 @@ from derive.page.selection import (
 )
 from derive.page.tree import Display, Document, Paragraph
 from derive.page.wording import Text, phrases
+from derive.steps.rule import RULES
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, rendered_once, solved_once
 from tests.rules import records
@@ -78,6 +79,12 @@ def test_each_sum_shows_by_which_identity_its_terms_cancel(tmp_path: Path) -> No
     known = solved_once(course_in(tmp_path, problem="euler"), "hw9/euler")
     shown = lines(page(known, Level.STANDARD))
     assert shown["kinetic_energy_sum"] == shown["squared_momentum_sum"] == 2
+
+
+def test_a_result_may_be_in_the_lines_of_rules_that_exist() -> None:
+    for *_, rule in records():
+        assert set(rule.shown.result_in) <= set(rule.outcomes), rule.name
+        assert {each for rules in rule.shown.result_in.values() for each in rules} <= RULES.keys(), rule.name
 
 
 def test_a_lower_level_leaves_out_no_less() -> None:

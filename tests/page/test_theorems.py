@@ -7,19 +7,20 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import cos, sin, symbols
+from sympy import Symbol, cos, sin, symbols
 
+from derive.algebra.expressions import Relation
+from derive.errors import Rejected
 from derive.mechanics import Particle, System, coordinate, equation_of_motion, lagrangian, point, weight
-from derive.mechanics.theorems import THEOREMS
 from derive.page.theorems import Theorems, alone
 from derive.page.tree import Folded, Paragraph, PartPage
 from derive.page.wording import Math, Text, ToldIn, ToldOnce, phrases
 from derive.steps.record import recorded
-from derive.steps.rule import RULES
+from derive.steps.rule import RULES, Quote, Theorem
 from derive.steps.step import Level, Step
 from tests.courses import ROOT
 from tests.render.pages import WHOLE
-from tests.rules import records
+from tests.rules import made_up, theorems
 
 WORDS = phrases(ROOT / "templates")
 
@@ -71,10 +72,20 @@ def test_a_brief_page_has_only_their_names() -> None:
 
 
 def test_each_theorem_has_its_sentence_and_each_sentence_its_theorem() -> None:
-    assert {theorem.name for theorem in THEOREMS} == set(WORDS.theorems) == set(WORDS.theorems_again)
-    for theorem in THEOREMS:
+    assert {theorem.name for theorem in theorems()} == set(WORDS.theorems) == set(WORDS.theorems_again)
+    for theorem in theorems():
         assert "<<formula>>" in WORDS.theorems[theorem.name]
-        assert any(quote.theorem is theorem for *_, rule in records() for quote in rule.quotes)
+
+
+def test_a_theorem_of_a_script_needs_a_sentence_like_any_other() -> None:
+    levers = Theorem("levers", Relation(Symbol("a"), "=", Symbol("b")), "Archimedes")
+    step: Any = SimpleNamespace(**made_up("test.lever", quotes=[Quote(levers)]).theorems("generic", {}))
+    with pytest.raises(Rejected, match="the phrases have no `levers` under `theorems`"):
+        Theorems(WORDS, Level.STANDARD).before(step)
+    sentence = {"levers": "Levers balance, <<formula>>."}
+    own = replace(WORDS, theorems=sentence, theorems_again={"levers": "See <<problem>>."})
+    (told,) = Theorems(own, Level.STANDARD).before(step)
+    assert isinstance(told, ToldOnce) and Math(levers.formula) in told.nodes
 
 
 def test_a_page_alone_has_each_theorem_as_a_paragraph_before_its_sentence() -> None:

@@ -108,8 +108,7 @@ def test_the_index_of_a_letter_is_the_axis_that_the_sentence_names(letter: str, 
 
 
 def test_a_theorem_is_used_in_its_outcomes_and_between_what_it_is_about() -> None:
-    theorem = Theorem("multipliers", "lambda f", "a book", between=frozenset({"rates"}))
-    quote = Quote(theorem, frozenset({"kept"}))
+    quote = Quote(Theorem("multipliers", "lambda f", "a book"), frozenset({"kept"}), between=frozenset({"rates"}))
     assert quote.fits("kept", "rates")
     assert not quote.fits("free", "rates") and not quote.fits("kept", "coordinates")
 

@@ -232,6 +232,7 @@ def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
     return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
 
 
+OF_A_SIGN = ("smaller", "larger", "smaller_where_real", "larger_where_real", "nearer", "farther")
 ONE_OF_TWO = Rule(
     "answers.one_of_two",
     source="Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1",
@@ -247,6 +248,7 @@ ONE_OF_TWO = Rule(
     },
     evidence={"put_back": CHECK, "other_form": CHECK, "resultant": CHECK},
     statements=[claims.a_root_of_its_sign],
+    shown=Shown(result_in=dict.fromkeys(OF_A_SIGN, (ROOTS_TOGETHER.name,))),
 )
 
 

@@ -25,7 +25,7 @@ from derive.solving.presentation import presented, without_positive
 from derive.solving.unknowns import ValueOf, coordinates_of, left_over, letter_of, meaning, unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in, named_coordinates
-from derive.steps.rule import CHECK, Rule
+from derive.steps.rule import CHECK, Rule, Shown
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
@@ -48,6 +48,7 @@ PUT_IN = Rule(
     },
     evidence={"at_once": CHECK, "found_before": CHECK},
     named={"value": claims.names_put_in},
+    shown=Shown(names_formula=True),
 )
 
 

@@ -223,8 +223,13 @@ FORCED_EQUATION = Rule(
     named={"coordinate": claims.equation_of},
     shown=Shown(result_again=Level.STANDARD),
     quotes=[
-        Quote(MULTIPLIERS, frozenset({"both", "kept"}), law_in=frozenset({"kept"})),
-        Quote(MULTIPLIERS_OF_RATES, frozenset({"both", "kept"}), law_in=frozenset({"kept"})),
+        Quote(
+            theorem,
+            frozenset({"both", "kept"}),
+            law_in=frozenset({"kept"}),
+            between=frozenset({constrained, "both"}),
+        )
+        for theorem, constrained in ((MULTIPLIERS, "coordinates"), (MULTIPLIERS_OF_RATES, "rates"))
     ],
 )
 

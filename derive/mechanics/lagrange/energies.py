@@ -307,6 +307,7 @@ POTENTIAL_ENERGY = Rule(
     source="Taylor, *Classical Mechanics*, section 4.2",
     outcomes={"generic": claims.on_the_sides_that_are_assumed, "zero": vanishes},
     evidence={"work": ROUTE},
+    shown=Shown(condition_if=lambda step: dict(step.words)["seen"] == "stretched"),
 )
 
 

@@ -12,7 +12,7 @@ from derive.mechanics.model import claims
 from derive.mechanics.model.system import Central, System
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import given_letters
-from derive.steps.rule import CHECK, Rule
+from derive.steps.rule import CHECK, Rule, Shown
 from derive.steps.step import Quantity, compared_with
 from derive.steps.subject import Subject
 
@@ -47,6 +47,7 @@ DISTANCE = Rule(
     source="Taylor, *Classical Mechanics*, section 1.2",
     outcomes={"spring": claims.distance_spring, "springs": claims.distance_springs, "other": claims.distance_other},
     evidence={"law_of_cosines": CHECK},
+    shown=Shown(abbreviates=True),
 )
 
 

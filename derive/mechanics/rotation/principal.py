@@ -17,7 +17,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import OfBody
 from derive.mechanics.rotation import claims
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.rule import CHECK, Rule
+from derive.steps.rule import CHECK, Rule, Shown
 from derive.steps.step import Fact, Quantity, is_zero, require_kind
 
 __all__ = ["principal_axes", "principal_moments"]
@@ -43,6 +43,9 @@ PRINCIPAL_MOMENTS = Rule(
     },
     evidence={"invariants": CHECK, "axis_by_axis": CHECK},
     statements=[claims.vanish_again],
+    shown=Shown(
+        result_in=dict.fromkeys(("isotropic", "two_equal", "distinct"), ("rotation.entry", "rotation.entry_moved"))
+    ),
 )
 
 

@@ -28,9 +28,9 @@ from derive.mechanics.rest.mass_matrix import check_regular
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.facts import Linear
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.rule import ROUTE, Rule
+from derive.steps.rule import ROUTE, Rule, Shown
 from derive.steps.signs import sign_known
-from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
+from derive.steps.step import Form, Level, Quantity, Step, compared_with, is_zero
 from derive.witness.facts import Around, Rest
 
 __all__ = ["linearised"]
@@ -83,6 +83,12 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
 
 
+def _if_linear(step: Step) -> str:
+    """Return the key of the equation that a step repeats, since linearising a linear equation leaves nothing out."""
+    roles = dict(step.roles)
+    return str(roles["motion"].name) if "as_it_is" in roles else ""
+
+
 LINEARISED = Rule(
     "vibrations.linearised",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2",
@@ -100,6 +106,7 @@ LINEARISED = Rule(
         "sine": claims.small_function(sin),
         "cosine": claims.small_function(cos),
     },
+    shown=Shown(repeats=_if_linear),
 )
 
 
