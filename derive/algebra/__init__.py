@@ -1,1 +1,1 @@
-"""The expressions of mechanics, and when two of them are equal: no physics, no pages."""
+"""Expressions, and the decision whether two are equal: no laws of physics, no pages."""

@@ -23,14 +23,14 @@ class Amount(ScalarNode):
         return explicit(self.args[0]) * self.args[2]
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        return None  # its unit is shown to the reader, and checked when it is read
+        return None  # the unit is displayed, and it is checked when the file is read
 
     def lowered(self, text: TextOf) -> str:
         return f"({text(self.args[0])}*{text(self.args[2])})"
 
 
 class MatrixAmount(MatrixNode):
-    """A vector or tensor of numbers with one unit. Arguments: the numbers, the unit as text, the factor to the SI."""
+    """A vector or tensor in one unit. Arguments: the numbers, the unit as text, the factor to the SI unit."""
 
     def __new__(cls, numbers: Any, unit: str | Str, factor: Expr) -> MatrixAmount:
         return super().__new__(cls, numbers, Str(unit) if isinstance(unit, str) else unit, factor)  # type: ignore[no-any-return]

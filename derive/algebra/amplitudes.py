@@ -47,7 +47,7 @@ class Determinant(ScalarNode):
         return determinant_of(explicit(self.args[0]))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of a product of entries, one of each row: all such nonzero products have the same dimension."""
+        """The dimension of a product of entries, one from each row and column; nonzero products agree in dimension."""
         matrix = self.args[0]
         for entry in matrix:
             of(entry)
@@ -61,12 +61,12 @@ class Determinant(ScalarNode):
 def determinant_of(matrix: MatrixBase) -> Expr:
     """Compute the determinant, multiplied out, in the polynomial ring of the symbols of its entries, without division.
 
-    Functions and roots count as symbols too: SymPy has no ring for them, and would cancel after each step.
+    Functions and roots count as symbols too. Otherwise SymPy, which has no ring for them, would cancel after each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
     domain = DomainMatrix.from_Matrix(matrix.xreplace(named))
-    with during(lambda: f"the determinant of {matrix.shape[0]} rows with {len(matrix.free_symbols)} letters"):
+    with during(lambda: f"the determinant of {matrix.shape[0]} rows with {len(matrix.free_symbols)} symbols"):
         value = domain.domain.to_sympy(domain.charpoly()[-1] * (-1) ** matrix.shape[0])
     return value.xreplace({letter: part for part, letter in named.items()})
 
@@ -74,7 +74,7 @@ def determinant_of(matrix: MatrixBase) -> Expr:
 def expanded_by_rows(matrix: MatrixBase) -> Expr:
     """The determinant by its definition: expanded along the first row, with each minor of the rows below computed once.
 
-    Source: Axler, *Linear Algebra Done Right*, section 9C; it shares nothing with `determinant_of` except the ring.
+    Source: Axler, *Linear Algebra Done Right*, section 9C; no code is shared with `determinant_of`.
     """
     ring, entries = sring(list(matrix))
     size = matrix.shape[0]
@@ -94,7 +94,7 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
 
 
 def _places(matrix: MatrixBase, row: int, taken: tuple[int, ...]) -> tuple[int, ...]:
-    """Return a column for each row, all different, such that no entry there vanishes."""
+    """Return a different column for each row such that no entry there vanishes; empty if there is no such choice."""
     if row == matrix.shape[0]:
         return taken
     free = (j for j in range(matrix.shape[1]) if j not in taken and matrix[row, j] != 0)

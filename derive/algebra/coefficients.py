@@ -1,4 +1,4 @@
-"""The coefficients of a sum by powers of some of its symbols, multiplied out without building its terms one by one.
+"""The coefficients of an expression as a polynomial in some of its symbols, multiplied out without SymPy's terms.
 
 Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is left to another module.
 """
@@ -26,8 +26,9 @@ PHASE = 2  # bits below those of the symbols
 class Coefficient(NamedTuple):
     """The coefficient of a product of powers, and its number of terms.
 
-    If it is a factor without angles times a factor of angles only, `angles` is the second factor. `written` then
-    returns the product of the first factor, a number and the rewritten second, with common factors in front.
+    If the coefficient is a factor without angles times a factor of sines and cosines only, `angles` is the second
+    factor. `written` takes a number and a rewritten second factor. It returns their product with the first factor, with
+    common factors in front.
     """
 
     whole: Callable[[], Expr]
@@ -37,14 +38,14 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front; `is_prime` means that no product can be shorter."""
+    """A sum with the common factors of its terms in front; `is_prime` means that no factorization is shorter."""
 
     value: Expr
     is_prime: bool
 
 
 def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The powers of the symbols that occur together, the highest first, each with its coefficient.
+    """The combinations of powers of the symbols that occur, the highest first, each with its coefficient.
 
     Raises `Outside` if the value is not a polynomial, or is too large.
     """
@@ -116,7 +117,7 @@ class Expanded(Ring):
         )
 
     def _as_product(self, terms: Terms) -> tuple[Terms, Terms] | None:
-        """Split into two factors, if all parts without angles multiply the same sum of sines and cosines."""
+        """Split into a factor without angles and a factor of sines and cosines; None if that is impossible."""
         by_rest: dict[int, Terms] = {}
         for monomial, coefficient in terms.items():
             angles = monomial & self._angles
@@ -162,7 +163,7 @@ class Expanded(Ring):
         return found
 
     def _term(self, coefficient: Rational, monomial: int) -> Expr:
-        """The same as `Mul` gives, without its search for powers of one symbol, which is not needed here."""
+        """Return what `Mul` gives, without its search for powers of the same symbol: there are none here."""
         factors = [letter ** Integer(power) for letter, power in self._letters(monomial)]
         if not all(factor.is_Symbol or factor.is_Pow and factor.base.is_Symbol for factor in factors):
             return Mul(coefficient, *factors)
@@ -173,7 +174,7 @@ class Expanded(Ring):
         return (letter ** Integer(power) for letter, power in self._letters(monomial))
 
     def _letters(self, monomial: int) -> Iterator[tuple[Expr, int]]:
-        """The symbols of a monomial, from the first: each place is a multiple of `WIDTH` bits above the lowest."""
+        """The symbols of a monomial with their powers; places are `WIDTH` bits apart, and the first is at `PHASE`."""
         monomial >>= PHASE
         place = PHASE
         while monomial:
@@ -187,7 +188,7 @@ class Expanded(Ring):
 
 
 def _sum(terms: list[Expr]) -> Expr:
-    """The same as `Add` gives, without its search for like terms, which is not needed here."""
+    """Return what `Add` gives, without its search for like terms: there are none here."""
     if any(not (term.is_Mul or term.is_Atom or term.is_Pow) for term in terms) or not terms:
         return Add(*terms)
     numbers = [term for term in terms if term.is_Number]
@@ -213,7 +214,7 @@ def _common(one: int, other: int) -> int:
 
 
 def is_linear_in_some_letter(terms: Terms) -> bool:
-    """Whether a symbol appears in one term only, in its first power: then only common factors divide the sum."""
+    """Whether a symbol appears in one term only, in its first power. Then only common factors divide the sum."""
     place, every = PHASE, reduce(int.__or__, terms)
     while every >> place:
         powers = [power for monomial in terms if (power := (monomial >> place) & ONES)]

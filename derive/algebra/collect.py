@@ -1,4 +1,4 @@
-"""Collect the terms of a line about a motion: each product of rates, with its coefficient in one bracket."""
+"""Collect the terms of an energy or an equation of motion by products of rates, with coefficients in brackets."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
         # Terms without rates stay separate.
         level = Add.make_args(_with_differences(part, moving)) if not any(powers) else ()
         parts += [_with_short_sums(term, moving) for term in level] if not any(powers) else [part]
-    parts = [part for part in parts if part != 0]  # sin^2 + cos^2 - 1 is seen to vanish only here
+    parts = [part for part in parts if part != 0]  # only here is it found that sin^2 + cos^2 - 1 vanishes
     return Add(*parts, evaluate=len(parts) < 2)
 
 
@@ -61,9 +61,9 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 
 
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
-    """Split k u - k l u/|u| into the part without directions u/|u| and the terms with one; None if no |u| is a divisor.
+    """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with one; None if no |u| divides.
 
-    With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
+    Write s = u/|u|, which is 1 or -1. Then |u| is s u and s^2 is 1, so only the first power of each s is left.
     """
     powers = {power for power in value.atoms(Pow) if isinstance(power.base, Abs) and power.exp.is_Integer}
     if not any(power.exp.is_negative for power in powers):
@@ -87,13 +87,13 @@ def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
 
 
 def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """l^2/(m r^3) - G M m/r^2, not (l^2 - G M m^2 r)/(m r^3): no common denominator with a coordinate in it."""
+    """Avoid a common denominator with a coordinate: l^2/(m r^3) - G M m/r^2, not (l^2 - G M m^2 r)/(m r^3)."""
     below = found.as_numer_denom()[1]
     return by_terms(value.expand()) if below.has(*moving) and not below.has(sin, cos) else found
 
 
 def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """k (y - l) - m g, not k y - m g - k l: a coordinate with the constant from which it is measured."""
+    """Combine a coordinate with the constant from which it is measured: k (y - l) - m g, not k y - m g - k l."""
     terms = list(Add.make_args(value))
     for q in moving:
         for term in [each for each in terms if each.has(q) and not (each / q).has(*moving, TIME)]:
@@ -106,8 +106,8 @@ def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
-    """(1/2) m (r_dot^2 + r^2 phi_dot^2): a kinetic energy with the common constants of all its terms in front, if these
-    include a mass or moment of inertia; else terms with exactly the same constants are put in one bracket.
+    """Take the common constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 + r^2 phi_dot^2), if
+    they include a mass or a moment of inertia. Otherwise put terms with exactly the same constants in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -140,7 +140,7 @@ def with_constants_together(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def _with_short_sums(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """l ((M + m) g - m l omega^2 cos(theta)) sin(theta): constants collected in each sum, if that is shorter."""
+    """Collect constants in each factor that is a sum, if that is shorter: l ((M + m) g - m l omega^2 cos(theta))."""
 
     def together(sum_of: Expr) -> Expr:
         return min((sum_of, with_constants_together(sum_of, moving)), key=length)
@@ -149,7 +149,7 @@ def _with_short_sums(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], list[Expr]]:
-    """The number in a term, its constant factors and the others."""
+    """The numerical factor of a term, its constant factors, and its factors that contain one of the letters."""
     number, constants, others = Integer(1), [], []
     for each in Mul.make_args(term):
         if each.is_Rational:
@@ -162,7 +162,7 @@ def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], l
 
 
 def _common_number(numbers: Sequence[Expr]) -> Expr | None:
-    """1/2 for 1/2, 1 and 3/2; None if the numbers would need a new common denominator, such as 1/2 and 3/4."""
+    """The common factor, 1/2 for 1/2, 1 and 3/2; None for different denominators above 2, as in 1/2 and 3/4."""
     below = ilcm(*(n.q for n in numbers))
     if below > 2 and len({n.q for n in numbers}) > 1:
         return None
@@ -170,7 +170,7 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """Products of powers of the letters, the highest first, with their coefficients; empty if not a polynomial."""
+    """Products of powers of the letters, the highest first, with their coefficients; empty if there is no such form."""
     try:
         return coefficients(value, letters)
     except Outside:
@@ -181,7 +181,7 @@ def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, .
 
 
 def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
-    """Whether the term has a root of a coordinate, as the force of a stretched spring: it stays a separate term."""
+    """Whether the term contains a root with a coordinate, as the force of a spring does. Such a term stays separate."""
     return any(root.base.has(*moving) for root in _roots_in(term))
 
 
@@ -193,9 +193,9 @@ def _roots_in(expr: Expr) -> frozenset[Pow]:
 
 
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Collect the terms by rates and by products of the coordinates; a difference as coefficient is subtracted.
+    """Collect the terms by rates and by products of the coordinates.
 
-    I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and cyclic permutations.
+    A coefficient that is a difference is subtracted: I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and cyclically.
     """
     rates = [rate(q, n) for n in (2, 1) for q in moving]
     present = [s for s in (*rates, *moving) if value.has(s)]
@@ -214,7 +214,7 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
-    """(1/2)(I + M R^2/4) q_dot^2: write half a mass before its squared rate, and no denominator before a sum."""
+    """Multiply a coefficient by its rates: (1/2)(I + M R^2/4) q_dot^2. No denominator is left before a sum."""
     powers = [s**n for s, n in rates]
     if halves and any(n == 2 for _, n in rates) and coefficient.terms > 1:
         inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
@@ -244,20 +244,20 @@ def _shortest(found: Factored) -> Expr:
 
 
 def _has_fractions_inside(value: Expr) -> bool:
-    """Whether the value is a product with a sum in it, one of whose terms is a fraction: m (cos^2 a/4 + 1/20)."""
+    """Whether the value is a product in which a sum has a numerical fraction as a term: m (cos^2 a/4 + 1/20)."""
     sums = [f for f in Mul.make_args(value) if f.is_Add] if value.is_Mul else []
     return any(term.is_Rational and not term.is_Integer for f in sums for term in f.args)
 
 
 def _shorter_as_product(value: Expr) -> Expr:
-    """(l + x)^2, not l^2 + 2 l x + x^2."""
+    """Return the factored form if it is shorter: (l + x)^2, not l^2 + 2 l x + x^2."""
     return min((value, factored(value)), key=length)
 
 
 def spread(value: Expr) -> Expr:
-    """I + M a^2/4, not (4 I + M a^2)/4: a denominator is moved into the sum if a term is then left without one.
+    """Move a numerical denominator into a sum if a term is then left without one: I + M a^2/4, not (4 I + M a^2)/4.
 
-    (3 g - 2 l omega^2)/6 is kept, because g/2 - l omega^2/3 is not simpler.
+    The form (3 g - 2 l omega^2)/6 is kept, because g/2 - l omega^2/3 is not simpler.
     """
     return _spread(tidied(value))
 
@@ -274,7 +274,7 @@ def _spread(value: Expr) -> Expr:
 
 
 def by_terms(value: Expr) -> Expr:
-    """Tidy each term of a sum, without a common denominator; a denominator that is a power is written as a power."""
+    """Tidy each term of a sum, without a common denominator; factor the denominator of a term if that is shorter."""
     return Add(*(_shorter(tidied(term)) for term in Add.make_args(value)))
 
 
@@ -284,7 +284,8 @@ def _shorter(term: Expr) -> Expr:
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
-    """One product or a sum of tidy terms, whichever is shorter; a sum if a denominator contains angles."""
+    """One product or a sum of tidy terms, whichever is shorter; a sum if a denominator contains angles. `others` are
+    other forms of the value."""
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]

@@ -17,7 +17,7 @@ ZERO, ONE = Integer(0), Integer(1)
 
 
 def derivative(expr: Any, *by: Symbol | int) -> Any:
-    """The partial derivative by each symbol in turn; a number after it is the order. A matrix goes entry by entry."""
+    """The partial derivative by each symbol in turn; a number after a symbol is the order. Matrices: entry by entry."""
     if isinstance(expr, MatrixBase):
         return expr.applyfunc(lambda entry: derivative(entry, *by))
     for s in _in_turn(by):
@@ -32,7 +32,7 @@ def _in_turn(by: Sequence[Symbol | int]) -> list[Symbol]:
     return letters
 
 
-@lru_cache(maxsize=16384)  # a Lagrangian is differentiated by each of its symbols, and most of its parts have few
+@lru_cache(maxsize=16384)  # a Lagrangian is differentiated by each symbol, and most parts contain few
 def _letters(expr: Expr) -> frozenset[Symbol]:
     if expr.is_Symbol:
         return frozenset((expr,))

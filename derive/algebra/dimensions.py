@@ -62,14 +62,14 @@ NUMBER = dimension(0, 0, 0)
 
 
 def raised(letter: str, power: Fraction) -> str:
-    """`m`, `m^2`, `m^(3/2)`."""
+    """Return a power of a unit as text: `m`, `m^2`, `m^(3/2)`."""
     if power == 1:
         return letter
     return f"{letter}^{power}" if power.denominator == 1 else f"{letter}^({power})"
 
 
 def exponents(dimension: Dimension) -> str:
-    """`M L^2 T^-2`; `1` for a number."""
+    """Return a dimension as text: `M L^2 T^-2`; `1` for a number."""
     parts = [letter if n == 1 else f"{letter}^{n}" for letter, n in dimension.powers.items() if n]
     return " ".join(parts) or "1"
 

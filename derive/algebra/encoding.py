@@ -31,7 +31,7 @@ _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": 
 
 
 def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
-    """A tree of lists, strings and integers; `name` gives a name for a dummy symbol, which equals no other symbol."""
+    """Encode as a tree of lists, strings and integers; `name` returns the name of a dummy symbol."""
     if expr is None:
         return ["None"]
     if name and isinstance(expr, Dummy):
@@ -56,9 +56,9 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
     return [kind, *(encoded(arg, name) for arg in expr.args)]
 
 
-@lru_cache(maxsize=4096)  # a derivation has a few symbols, and each of its lines has most of them
+@lru_cache(maxsize=4096)  # a derivation has few symbols, and most of its lines contain most of them
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """The fewest assumptions that give an equal symbol: SymPy does not record how they were first written."""
+    """The fewest assumptions that give an equal symbol: SymPy does not record which ones were written."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
         if Symbol(symbol.name, **assumptions) == symbol:
@@ -67,7 +67,7 @@ def _assumptions(symbol: Symbol) -> dict[str, bool]:
 
 
 def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
-    """Return the expression that `encoded` wrote; any other data is a ValueError."""
+    """Return the expression that `encoded` wrote; raise ValueError for any other data."""
     left = [MAX_NODES]
 
     def made(tree: Any, depth: int) -> Any:

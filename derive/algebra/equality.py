@@ -1,10 +1,10 @@
 """Whether two expressions are equal or two relations equivalent, and how this was decided.
 
     proved          decided exactly, by `derive.algebra.normal_form`
-    sampled         both agree at random exact points, but no exact method decided it
-    refuted         both differ at a point, which is named
-    definition      nothing to compare: the line defines a symbol
-    approximation   a rounded value or a series, itself checked
+    sampled         the two agree at random rational points, but no exact method decided
+    refuted         the two differ at a point, which is given
+    definition      nothing is compared: the line defines a symbol
+    approximation   a rounded value or a series, whose error is checked separately
 
 Polynomials in symbols, sines and cosines are decided directly. For all others, points are tried first, because they are
 cheap and can refute quickly. A sample never counts as a proof.
@@ -60,8 +60,8 @@ from derive.algebra.samples import (
 from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # times as many points are drawn if most of them have no physical meaning
-FIRST, POINTS = 2, 26  # points before an exact decision is tried, and after it found nothing
-TURNS = 400  # points among which one on the other side of a sign change is sought
+FIRST, POINTS = 2, 26  # numbers of points before the exact decision, and after it if it is undecided
+TURNS = 400  # most points drawn to find one at which a sign is different
 FEWEST = 8  # points at which both sides must have values
 UNTOLD = "undefined wherever it was tried"
 LETTERS = 6  # symbols by which derivatives are compared
@@ -80,7 +80,7 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """What was compared: two lines, the result and another derivation, test or simulated motion, or nothing."""
+    """The things compared: two lines; the result and another derivation, a check or a simulated motion; or nothing."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -91,7 +91,7 @@ class Compared(StrEnum):
 
 @dataclass(frozen=True)
 class Evidence:
-    """One claim about a step, what was compared for it, how it was decided, and the details to check it again."""
+    """One claim about a step: what was compared for it, the grade of the decision, and its details."""
 
     claim: str
     compared: Compared
@@ -101,7 +101,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; `point` is where the sides differ if the grade is `refuted`."""
+    """The outcome of a comparison; if the grade is `refuted`, the sides differ at `point`."""
 
     grade: Grade
     detail: str = ""
@@ -122,7 +122,7 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is not an expression")
     try:
         left, right = without_abs(explicit(left)), without_abs(explicit(right))
-    except (TypeError, ValueError, AttributeError, NotImplementedError) as error:  # an integral that SymPy cannot do
+    except (TypeError, ValueError, AttributeError, NotImplementedError) as error:  # SymPy cannot integrate
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: {error}")
     try:
         return _compared(left, right, nonzero)
@@ -197,9 +197,9 @@ def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
 def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
     """The values of both sides at points at which both are defined.
 
-    Where neither is real, as sqrt(g/l - k/m) for a strong spring, the values have no meaning. Two forms of one
-    expression may then be on different branches, so such points count only if there are no others. Points at which
-    the whole problem has no meaning are left out.
+    Where neither value is real, as sqrt(g/l - k/m) for a strong spring, the values have no meaning. Two forms of one
+    expression may then be on different branches, so such points count only if there are no others. Points at which the
+    whole problem has no meaning are left out.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
@@ -226,7 +226,7 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 
 
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
-    """A point where both sides differ, at which an argument of `Abs` or `sign` has a sign not seen at other points."""
+    """A point where the sides differ and an argument of `Abs` or `sign` has another sign than at the points seen."""
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
         sides = {side for point in seen if (side := _side(inside, point)) is not None}
@@ -293,7 +293,7 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
     if left.operator == right.operator == "=" and not nonzero:  # a point is found faster than a common factor
         apart = _counterexample(left.residual, right.residual)
-        if apart is not None:  # a refutation is false as a truth value
+        if apart is not None:  # a refuted verdict is falsy, so compare with None
             return apart
     whole = _ratio(left.residual, right.residual) if whole is None else whole
     factor = _without_factors(whole, nonzero)
@@ -304,15 +304,15 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}")
     if known_sign is None and not _never_vanishes(factor):
         apart = _counterexample(left.residual, right.residual) if left.operator == "=" else None
-        if apart is not None:  # a refutation is false as a truth value
+        if apart is not None:  # a refuted verdict is falsy, so compare with None
             return apart
-        return Verdict(Grade.REFUTED, f"their sides differ by {_short(factor)}, which may be zero")
+        return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}, which may be zero")
     verdict = _equal_scalars(left.residual, whole * right.residual)
     return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"multiples of each other by {whole}")
 
 
 def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
-    """The factor between the two residuals, if it is a number times powers of symbols."""
+    """The ratio of the two residuals, if it is a number times powers of symbols."""
     found = monomial_ratio(left.residual, right.residual)
     if found is None:
         signs = (Integer(sign) for sign in (1, -1) if _same_mark(left.operator, right.operator, sign))
@@ -321,7 +321,7 @@ def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
 
 
 def _is_borne(left: str, right: str, factor: Expr) -> bool:
-    """Whether a relation with one mark is equivalent to its multiple with the other mark."""
+    """Whether a relation with the first operator is equivalent to its multiple with the second, for this factor."""
     sign = _known_sign(factor)
     return _same_mark(left, right, sign or 0) and (sign is not None or _never_vanishes(factor))
 
@@ -336,7 +336,7 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
-    """Strict inequalities n/d > 0 as n d > 0, which is equivalent: neither holds where d vanishes."""
+    """Rewrite strict inequalities n/d > 0 as n d > 0. The two are equivalent: neither holds where d vanishes."""
     strict = {left.operator, right.operator} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):
@@ -385,14 +385,14 @@ def _short(value: Any) -> str:
 
 
 def _same_mark(left: str, right: str, sign: int) -> bool:
-    """Any factor keeps an equation; a positive factor keeps an inequality's mark, and a negative one reverses it."""
+    """Whether a factor of this sign turns one operator into the other: a negative factor reverses an inequality."""
     if left in {"=", "!="} or right in {"=", "!="}:
         return left == right
     return bool(sign) and left == (right if sign > 0 else _TURNED[right])
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """x^2 > y^2, or a positive multiple of it, is equivalent to x > y if neither x nor y is negative."""
+    """Whether one relation is x > y with neither side negative, and the other a positive multiple of x^2 > y^2."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative for side in roots.sides):
@@ -405,7 +405,7 @@ def _both_squared(left: Relation, right: Relation) -> bool:
 def _ratio(above: Expr, below: Expr) -> Expr:
     if above.has(Float) or below.has(Float):  # inexact numbers are not cancelled
         return above / below
-    for turn in (Integer(1), Integer(-1)):  # a few points show a ratio of 1 or -1; cancelling could take a minute
+    for turn in (Integer(1), Integer(-1)):  # a few points suggest a ratio of 1 or -1; cancelling could take a minute
         samples = list(_samples(above, turn * below, FIRST))
         if samples and all(sample.agree for sample in samples):
             return turn
@@ -417,8 +417,8 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
-    """The ratio of the derivatives by a symbol, if it is the ratio of the whole expressions. It helps if sin(2 x) or a
-    fractional power hides a common factor."""
+    """The ratio of the derivatives by a symbol, if it is also the ratio of the whole expressions. This finds a common
+    factor that sin(2 x) or a fractional power hides."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:

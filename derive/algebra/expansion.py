@@ -45,11 +45,11 @@ Series = dict[Rational, Expr]  # power -> coefficient
 
 
 class NoExpansion(Exception):
-    """The expression has no expansion in powers there, or none that can be found within reason."""
+    """The expression has no expansion in powers there, or none was found within the limits of this module."""
 
 
 class BeginsBeyond(NoExpansion):
-    """The expansion begins with a higher power than was requested: it is zero up to the requested power."""
+    """The expansion begins with a higher power than was requested, so it is zero up to that power."""
 
 
 class Expansion(ScalarNode):
@@ -75,7 +75,7 @@ class Expansion(ScalarNode):
 
 
 class Approach(Node):
-    """The limit of a symbol or a ratio, S -> oo. Arguments: the symbol or ratio, and its limit."""
+    """A symbol or a ratio that goes to a limit, S -> oo. Arguments: the symbol or ratio, and the limit."""
 
     def _evaluated(self, what: Expr, to: Expr) -> Expr:
         return Approach(what, to)
@@ -90,7 +90,7 @@ class Approach(Node):
 class FirstOrder(ScalarNode):
     """The first-order part of f in several small symbols. Arguments: f, which vanishes with them, and these symbols.
 
-    It is displayed as f: the line of a chain before the higher orders are dropped.
+    It is displayed as f, in the line of a chain before the higher orders are dropped.
     """
 
     def _evaluated(self, f: Expr, *small: Expr) -> Expr:
@@ -129,7 +129,8 @@ def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
 def _without_what_dies(f: Expr) -> Expr:
     """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t).
 
-    A growing exponential is one over a decaying one, and both are powers of one exponential, which is set to zero.
+    A growing exponential is the reciprocal of a decaying one, so all are powers of one decaying exponential, which is
+    set to zero.
     """
     f = f.replace(lambda e: isinstance(e, sinh | cosh | tanh) and e.has(SMALL), lambda e: e.rewrite(exp))
     rates = {e: (e.args[0] * SMALL).expand() for e in f.atoms(exp) if e.has(SMALL)}
@@ -148,7 +149,7 @@ def _without_what_dies(f: Expr) -> Expr:
 
 
 def small_of(x: Symbol, to: Expr) -> Expr:
-    """The small quantity."""
+    """The small quantity: 1/x, -1/x or x - a."""
     return 1 / x if to == oo else -1 / x if to == -oo else x - to
 
 

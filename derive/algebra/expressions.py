@@ -1,8 +1,8 @@
-"""Names, and the unevaluated forms in which mechanics is written.
+"""Names, and the unevaluated forms of the formulas of mechanics.
 
-A *name* is what a formula calls something: a SymPy `Symbol` for a scalar, a `MatrixSymbol` of shape (3, 1) for a
-vector and (3, 3) for a tensor. A *node* is an operation that is shown before it is evaluated: `Dot(omega, L)`.
-`explicit()` evaluates everything. Nodes contain no notation; that is in `derive.render`.
+A *name* denotes a quantity in a formula: a SymPy `Symbol` for a scalar, a `MatrixSymbol` of shape (3, 1) for a vector
+and (3, 3) for a tensor. A *node* is an operation that is shown before it is evaluated: `Dot(omega, L)`. `explicit()`
+evaluates everything. Nodes contain no notation; that is in `derive.render`.
 """
 
 from __future__ import annotations
@@ -62,19 +62,19 @@ DURATION = dimension_of_kind("time")
 
 
 def scalar(name: str, **assumptions: bool) -> Symbol:
-    """A real scalar by name, with further assumptions only if they are given."""
+    """A real symbol with this name, and with further assumptions if they are given."""
     return Symbol(name, **{"real": True, **assumptions})
 
 
 def stand_in(name: str, **assumptions: bool) -> Symbol:
-    """A symbol that only a check uses, with a prime in its name: no problem can use such a name, so the symbol differs
-    from all symbols of a problem."""
+    """A symbol for checks only, with a prime in its name. No problem can use such a name, so the symbol differs from
+    all symbols of a problem."""
     return scalar(f"{name}\u2032", **assumptions)
 
 
 PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign, + or -: its square is 1, so b + PLUS_MINUS*c is b +- c
 
-BLANK = scalar("?")  # the unknown, where a page does not show it
+BLANK = scalar("?")  # a placeholder for a result that a page does not show
 
 TIME = scalar("t")  # the only time symbol: an expression that contains it depends on time explicitly
 
@@ -195,7 +195,7 @@ def _rotation_onto_z(n: Matrix) -> Matrix:
 
 
 class BodyRate(VectorNode):
-    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; without these, A is constant there."""
+    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; by default A is constant."""
 
     def _evaluated(self, a: Matrix, *moving: Symbol) -> ImmutableMatrix:
         return column(*(explicit(TimeRate(component, *moving)) for component in a))
@@ -223,7 +223,7 @@ class Component(ScalarNode):
 
 
 class Group(ScalarNode):
-    """A value kept together in brackets, such as the `(6 a^3 rho)` that the next line replaces by M."""
+    """A value in brackets, such as the `(6 a^3 rho)` that the next line replaces by M."""
 
     def __new__(cls, inner: Expr) -> Expr:
         return inner if isinstance(inner, Group) else super().__new__(cls, inner)
@@ -238,7 +238,7 @@ class Group(ScalarNode):
 
 
 class Factors(ScalarNode):
-    """Factors as written, in that order: `a * 3a * [y^3/3]`."""
+    """A product with its factors as written, in that order: `a * 3a * [y^3/3]`."""
 
     def _evaluated(self, *factors: Expr) -> Expr:
         result: Expr = Integer(1)
@@ -253,7 +253,7 @@ class Factors(ScalarNode):
 
 
 class Terms(ScalarNode):
-    """Terms as written, in that order, without collecting: `8a^5 + 18a^5`."""
+    """A sum with its terms as written, in that order, not collected: `8a^5 + 18a^5`."""
 
     def _evaluated(self, *terms: Expr) -> Expr:
         result: Expr = Integer(0)
@@ -283,8 +283,7 @@ class Ratio(ScalarNode):
 
 
 class Root(ScalarNode):
-    """A root as written, without extracting factors; a square root unless its index is given. Arguments: the radicand,
-    the index."""
+    """A root as written, without extracting factors; by default a square root. Arguments: the radicand, the index."""
 
     @property
     def index(self) -> int:
@@ -418,7 +417,7 @@ class Outer(MatrixNode):
 
 
 def _entries(vector: Value, text: TextOf) -> str:
-    """A vector as text from which SymPy can take entries, also if it is a name."""
+    """The text of a vector from which SymPy can take entries, even if the vector is a name."""
     return text(vector) if isinstance(vector, MatrixBase) else f"Matrix({text(vector)})"
 
 

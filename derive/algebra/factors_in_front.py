@@ -21,7 +21,7 @@ Terms = dict[frozenset[tuple[Expr, int]], Rational]
 
 
 class Product(NamedTuple):
-    """A number times powers, which may be negative; no base is a sum with a common factor."""
+    """A number times powers with positive or negative exponents; no base is a sum with a common factor."""
 
     number: Rational
     powers: Powers
@@ -53,7 +53,7 @@ def fraction_of(product: Product) -> tuple[Expr, Expr]:
 
 
 def as_product(product: Product) -> Expr:
-    """The product with its number in front of a sum, (u + v)/2, not u/2 + v/2; each symbol in one power only."""
+    """The product with its number in front of a sum, (u + v)/2, not u/2 + v/2, and with one power of each symbol."""
     exponents: dict[Expr, Expr] = {}
     for factor, power in product.powers.items():
         base, exponent = factor.as_base_exp()
@@ -116,7 +116,7 @@ def _root(value: Expr, sign: int) -> Product:
 
 
 def times(products: Iterable[Product]) -> Product:
-    """Products multiplied by one another."""
+    """Multiply products."""
     number: Rational = S.One
     powers: Powers = {}
     for each in products:

@@ -1,10 +1,11 @@
-"""Polynomials in symbols and angles, and in roots, absolute values, exponential and other functions.
+"""Polynomials in symbols and angles, and in roots, absolute values, exponentials and other functions.
 
 A root or an absolute value is split into those of irreducible factors, as far as the signs of the factors allow. Each
-is a new letter that satisfies a relation: r^q = p, |p|^2 = p^2. A power is a product with one factor for each term of
-its exponent, exp(u + v) = exp u exp v. For any other function, only equal arguments are known to give equal values.
+of these becomes a new letter of the ring that satisfies a relation: r^q = p, |p|^2 = p^2. A power becomes a product
+with one factor for each term of its exponent, exp(u + v) = exp u exp v. For any other function, only one property is
+used: equal arguments give equal values.
 
-Such letters may depend on one another, so a form with terms may still be zero; a form without terms is zero, provided
+Such letters may depend on one another, so a form with terms may still be zero. A form without terms is zero, provided
 that it contains no division by zero.
 
 Source: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms modulo relations).
@@ -53,7 +54,7 @@ from derive.algebra.sparse_polynomials import ONE, Form, Outside, Terms
 from derive.algebra.trig_polynomials import ONES, TrigRing, terms_of_angle
 
 HIGHEST = 500  # highest power of a sum, and highest multiple of an angle
-PRIMES = 2**15  # up to which a number under a root is factored
+PRIMES = 2**15  # largest trial divisor when a number under a root is factored
 _QUOTIENTS = {tan: (sin, cos), cot: (cos, sin), tanh: (sinh, cosh)}
 _INVERSES = {sec: cos, csc: sin}
 
@@ -103,14 +104,14 @@ class FunctionRing(TrigRing):
             return self._letter_of_power(expr, 2, ONE)
         if isinstance(expr, Abs) and all(part.is_real for part in expr.args[0].as_numer_denom()):
             return self._absolute(expr.args[0])
-        if isinstance(expr, sign) and expr.args[0].is_real:  # where it is not zero
+        if isinstance(expr, sign) and expr.args[0].is_real:  # only where the argument is not zero
             return self.product(self.form(expr.args[0]), self.one_over(self._absolute(expr.args[0])))
         return super().function(expr) if isinstance(expr, sin | cos) or expr in {I, pi} else self._opaque(expr)
 
     # --- letters ------------------------------------------------------------------------------------------------
 
     def _letter_of_power(self, key: object, order: int, of: Form, n: int = 1) -> Form:
-        """The n-th power of a letter, whose power of this order equals the form `of`."""
+        """The n-th power of the letter whose power of this order equals the form `of`."""
         place = self.related_letter(key, order, of)
         self._dependent |= ONES << place
         return Form({n << place: 1}, 1, abs(n), of.cost)
@@ -121,7 +122,7 @@ class FunctionRing(TrigRing):
         return place
 
     def _opaque(self, expr: Expr) -> Form:
-        """A function about which only one thing is known: equal arguments give equal values."""
+        """A function of which only one property is used: equal arguments give equal values."""
         if expr.is_infinite or expr is S.NaN:
             raise Outside
         if isinstance(expr, AppliedUndef | Derivative):
@@ -145,7 +146,7 @@ class FunctionRing(TrigRing):
             return False
 
     def angle(self, angle: Expr) -> Expr:
-        """The first of all equal angles that have occurred."""
+        """The first angle that has occurred and is equal to this one."""
         try:
             return super().angle(angle)
         except Outside:
@@ -257,7 +258,7 @@ def _number_in_front(form: Form) -> tuple[Rational, Form]:
 
 
 def _denested(base: Expr) -> Expr | None:
-    """The square root sqrt(2) + sqrt(3) of 5 + 2 sqrt(6): its square is the base and it is not negative."""
+    """The square root without nested roots, sqrt(2) + sqrt(3) for 5 + 2 sqrt(6), checked by its square and its sign."""
     found = sqrtdenest(sqrt(base))
     if isinstance(found, Pow) or found.is_nonnegative is not True:
         return None

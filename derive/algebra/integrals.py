@@ -5,8 +5,9 @@
     sines and cosines   sin(m x), cos(n x) and their products, over any limits
     chords              y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
 
-SymPy's own integrator is slow for the first two and wrong or without result for the third. Any other integral gives
-None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 4.3.127 and 6.2.1 (powers of sine and cosine).
+SymPy's own integrator is slow for the first two and wrong or without result for the third. For any other integral the
+functions here return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 4.3.127 and 6.2.1 (powers
+of sine and cosine).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The kinds of quantity, with the dimension and unit of each, and how a script asks for it.
+"""The kinds of quantity, with the dimension and unit of each, and the annotation by which a script asks for it.
 
 An author writes a kind under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with a kind
 (`mass: Mass`), which is SymPy's `Expr` to a type checker.
@@ -24,8 +24,8 @@ class Kind:
 
     unit      the coherent SI unit as text
     positive  symbols of this kind are positive numbers; all other symbols are only real
-    signed    a minus sign is a direction (a block rotating the other way); for other positive kinds it is an error
-    angles    the powers of an angle that its unit may have: the radian may be omitted in rad/s, but not for an angle
+    signed    a minus sign gives the direction (a block rotating the other way); for other positive kinds it is an error
+    angles    the powers of the radian that its unit may have: it may be omitted in rad/s, but not for an angle
     """
 
     dimension: Dimension
@@ -97,7 +97,7 @@ def kind_with_article(kind: str) -> str:
 
 
 def plural(kind: str) -> str:
-    """Moments of inertia, angular speeds."""
+    """The plural of a kind: moments of inertia, angular speeds."""
     noun, of, rest = kind.partition(" of ")
     return f"{noun[:-1]}ies{of}{rest}" if noun.endswith("y") else f"{noun}s{of}{rest}"
 
@@ -108,7 +108,7 @@ def kind_of_dimension(dimension: Dimension) -> str | None:
 
 
 def named(dimension: Dimension) -> str:
-    """`a length`, or the exponents where no kind has that dimension."""
+    """A dimension in words: `a length`, or its exponents where no kind has that dimension."""
     kind = kind_of_dimension(dimension)
     return kind_with_article(kind) if kind else f"a quantity of dimension {exponents(dimension)}"
 

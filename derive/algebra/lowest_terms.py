@@ -1,6 +1,6 @@
-"""A fraction with numerator and denominator multiplied out and their common factors cancelled.
+"""Write a fraction with numerator and denominator multiplied out and their common factors cancelled.
 
-Also the same fraction with squares of sines replaced by squares of cosines, or the reverse.
+The module also rewrites the fraction with squares of sines in place of squares of cosines, or the reverse.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def _with_plus_first(product: Product) -> Product:
 
 
 def _turned(base: Expr, power: int) -> Product:
-    """The product that replaces a base b by -b in that power."""
+    """The factor by which a product is multiplied to replace b by -b in that power."""
     return Product(S.NegativeOne**power, {base: -power, -base: power})
 
 
@@ -123,7 +123,7 @@ class _Fractions(Expanded):
         return reduce(self.product, sorted(forms, key=lambda form: len(form.terms)), ONE)
 
     def written(self, fraction: _Fraction) -> Expr:
-        """Write the fraction without a sign in front if possible: a sum in the numerator or denominator takes it."""
+        """Write the fraction without a sign in front if possible: a sum in the numerator or denominator absorbs it."""
         top, bottom, (number, letters) = fraction
         if not top:
             return S.Zero
@@ -219,7 +219,7 @@ def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
 
 
 def _quotient(top: Terms, divisor: Terms) -> Terms | None:
-    """The quotient of two sums; None if there is a remainder, which is mostly found modulo a prime already."""
+    """The quotient of two sums; None if there is a remainder. Most remainders are already found modulo a prime."""
     places = _places([*top, *divisor])
     first = next(iter(_places(divisor)), None)
     if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):
@@ -234,7 +234,7 @@ def _quotient(top: Terms, divisor: Terms) -> Terms | None:
 
 
 def _numbers(places: Sequence[int]) -> dict[int, int]:
-    """A number for each symbol, modulo the prime."""
+    """A fixed number modulo the prime for each symbol."""
     return {place: pow(3, 5 + 2 * n, PRIME) for n, place in enumerate(places)}
 
 

@@ -77,7 +77,7 @@ class Node(Basic):
 
 
 def dimension_of_first(node: Node, of: DimensionOf) -> Dimension | None:
-    """The dimension of the first argument: for a bracket, a component, a length."""
+    """The dimension of the first argument, for nodes such as a bracket, a component or a norm."""
     return of(node.args[0])
 
 
@@ -121,7 +121,7 @@ def explicit(expr: Value) -> Value:
     return Integer(expr)
 
 
-@lru_cache(maxsize=16384)  # each line of a chain has most of its parts in common with the one before and the one after
+@lru_cache(maxsize=16384)  # each line of a chain has most of its parts in common with its neighbours
 def _carried_out(expr: Basic) -> Value:
     if type(expr) in (Add, Mul, Pow, sin, cos):
         return expr.func(*map(_carried_out, expr.args))

@@ -1,7 +1,7 @@
 """Decide exactly whether an expression is zero.
 
-Polynomials in symbols, sines and cosines have a normal form as such; all other expressions use a ring with additional
-letters for roots, absolute values and other functions.
+Polynomials in symbols, sines and cosines have a normal form. All other expressions use a ring with additional letters
+for roots, absolute values and other functions.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def is_identity(left: Expr, right: Expr) -> bool:
         return False
 
 
-@lru_cache(maxsize=4096, typed=True)  # a verb, `establish()` and the words decide the same expression
+@lru_cache(maxsize=4096, typed=True)  # a verb, `establish()` and the predicates ask about the same expression
 def _vanishes_by_relations(expr: Expr) -> bool:
     """Decide the same for expressions that are not polynomials in symbols, sines and cosines."""
     try:
@@ -93,7 +93,7 @@ def _is_nothing(divisor: Expr) -> bool:
 
 
 def _hides_angles(expr: Expr) -> bool:
-    """Whether an angle is under a root or in an absolute value, or has a part with a known sine."""
+    """Whether a sine or cosine is under a root or in an absolute value, or an angle contains pi or an arc function."""
     under = (root for root in expr.atoms(Pow, Abs) if not (root.is_Pow and root.exp.is_Integer))
     angles = (function.args[0] for function in expr.atoms(sin, cos, tan))
     return any(each.has(sin, cos, tan) for each in under) or any(each.has(acos, asin, atan, pi) for each in angles)
@@ -124,7 +124,7 @@ def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
-    """For each angle up to a rational factor, the largest angle such that all that occur are whole multiples of it."""
+    """For each angle up to a rational factor: the largest angle of which all that occur are whole multiples."""
     found: dict[Expr, list[Rational]] = {}
     for function in functions:
         for coefficient, rest in _angle_terms(function.args[0]):

@@ -1,4 +1,4 @@
-"""Assumed relations between symbols, l < r_0 or v_0^2 < g R, and what follows from them for signs and for numbers.
+"""Assumed relations between symbols, l < r_0 or v_0^2 < g R, and their consequences for signs and for sample values.
 
 A symbol is replaced by its value from the relation, r_0 = l + u with u > 0. The sign of a polynomial in l and r_0 can
 then be read from its coefficients. Relations are applied one after another: a < b < c gives c = a + u + w.
@@ -28,7 +28,7 @@ class Contradiction(Exception):
 class Order:
     """Relations that are assumed to hold.
 
-    positive   differences that are greater than zero
+    positive   differences that are assumed to be greater than zero
     replaced   symbol -> its value by its relation, in terms of amounts and of symbols that are not replaced
     amounts    symbol -> the amount that its relation introduces, which is positive, or not negative
     """
@@ -85,7 +85,7 @@ class Order:
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
         """Numbers that satisfy the relations: the amount of a replaced symbol is the number that the symbol had, or a
-        fraction of it if only this gives an allowed value."""
+        fraction of it if only a fraction gives an allowed value."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]
@@ -113,7 +113,7 @@ def _letter_replaced(
     return None, None, None
 
 
-_ORDER: ContextVar[Order] = ContextVar("order", default=Order())  # noqa: B039  it is never changed
+_ORDER: ContextVar[Order] = ContextVar("order", default=Order())  # noqa: B039  the default is never changed
 
 
 @contextmanager

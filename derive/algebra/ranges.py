@@ -51,14 +51,14 @@ class Range:
         return self.greatest - 1 / beyond if self.greatest.is_finite else beyond - 1 / beyond
 
     def near(self, number: Expr) -> Expr:
-        """Map a positive number to a number in the range, which increases with it; to itself for `POSITIVE`."""
+        """Map a positive number to a number in the range by an increasing function; by the identity for `POSITIVE`."""
         return number if self == POSITIVE else self.at(number / (1 + number))
 
 
 LARGEST = 200  # number of operations of a sum in which squares of sines and cosines are replaced
 POSITIVE = Range(Integer(0), oo, written="(0, infinity)")
 
-_KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  it is never changed
+_KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  the default is never changed
 
 
 _POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
@@ -91,7 +91,7 @@ def known_ranges() -> Mapping[Symbol, Range]:
 
 
 def has_meaning(point: Mapping[Expr, Expr]) -> bool:
-    """Whether all expressions assumed positive are positive at the point, as far as it determines them."""
+    """Whether each expression that is assumed positive is positive at the point, or its value there is unknown."""
     told = (each for each in _POSITIVE.get() if each.free_symbols <= point.keys())
     return all(each.xreplace(dict(point)).evalf(20).is_positive is not False for each in told)
 
@@ -111,7 +111,7 @@ def range_of(letter: Any) -> Range | None:
 
 
 def rational_in_range(letter: Any, number: Expr) -> Expr:
-    """The given positive number, or for a symbol with a range a rational number of that range that replaces it."""
+    """A rational number in the range of a symbol for this positive number; the number itself without a range."""
     known = range_of(letter)
     if known is None:
         return number
@@ -140,7 +140,7 @@ def without_abs(value: Any) -> Any:
 
 
 def with_positive_factors_out(value: Expr) -> Expr:
-    """sqrt(u^2 + v^2/sin(a)^2) as sqrt(u^2 sin(a)^2 + v^2)/sin(a), if sin(a) is positive in the range of a."""
+    """Take positive factors out of roots: sqrt(1 + v^2/sin(a)^2) is sqrt(sin(a)^2 + v^2)/sin(a) where sin(a) > 0."""
     known = _KNOWN.get()
     if not known:
         return value
@@ -169,7 +169,7 @@ def sign_within(expr: Expr) -> int | None:
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The same sign; None if the range of a symbol includes an end, because the value may vanish there."""
+    """The sign by `sign_within`; None if the range of a symbol includes an end, because the value may vanish there."""
     if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
         return None
     return sign_within(expr)
@@ -230,7 +230,7 @@ def _sign_of_sum(total: Expr) -> int | None:
 
 
 def _is_nonnegative(term: Expr) -> bool:
-    """Whether all factors of the term are positive or not negative: c^2 sin(alpha)."""
+    """Whether the term is known not to be negative: c^2 sin(alpha)."""
     if term.is_nonnegative:
         return True
     open_factors = Mul(*(f for f in Mul.make_args(term) if not f.is_nonnegative))
@@ -271,7 +271,7 @@ def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of a sum of multiples of symbols, sines and cosines, which are not reached."""
+    """The bounds, which are not reached, of a sum of multiples of symbols, sines and cosines; None if unknown."""
     least: Expr = Integer(0)
     greatest: Expr = Integer(0)
     for term in Add.make_args(expr):

@@ -1,4 +1,4 @@
-"""An equation or an inequality, as a node: two sides and the mark between them."""
+"""An equation or an inequality, as a node: two sides and the operator between them."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ class Relation(Node):
 
     @property
     def word(self) -> str:
-        """The name of the mark in the tree of a page."""
+        """The name of the operator in the tree of a page."""
         return MARKS[self.operator]
 
     @property
     def residual(self) -> Expr:
-        """Left minus right, which vanishes or has the sign given by the mark."""
+        """Left minus right, which vanishes in an equation and has the sign of the operator in an inequality."""
         return self.left - self.right
 
     def dimension(self, of: DimensionOf) -> Dimension | None:

@@ -68,11 +68,10 @@ def decimal_text(number: Rounded) -> str:
 
 
 def off_by_more_than_half_a_unit(exact: Any, shown: Any) -> tuple[str, str] | None:
-    """The first rounded number that is further from its exact value than rounding can explain.
+    """The first rounded number that differs from its exact value by more than rounding explains, and this value.
 
-    In a relation, the right side is rounded.
-
-    mpmath computes the exact value here, with extra digits for cancellation; `rounded` uses SymPy's own `evalf`.
+    Returns None if there is no such number. In a relation, the right side is the rounded one. mpmath computes the exact
+    value here, with extra digits for cancellation; `rounded` uses SymPy's own `evalf`.
     """
     for number, factor, value in _pairs(shown, exact):
         target = explicit(number)

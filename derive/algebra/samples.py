@@ -27,7 +27,7 @@ from derive.algebra.ordered_roots import OrderedRoot, root_in_order
 from derive.algebra.ranges import fulfilling, range_of
 
 DIGITS = 50
-WORKING = (60, 160, 420)  # digits: the first usually decide, the others confirm the result
+WORKING = (60, 160, 420)  # digits: the first precision usually decides, the others confirm the result
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
 ORDINARY = (0,)
@@ -97,7 +97,7 @@ def _drawn(letter: Expr, scale: int, sign: int, source: Random) -> Expr:
 
 
 def letters_of(expr: Expr) -> set[Expr]:
-    """All that can be varied freely: symbols that are not bound, functions of time and their derivatives."""
+    """The quantities that can be varied freely: unbound symbols, functions of time and their derivatives."""
     functions = expr.atoms(AppliedUndef) | expr.atoms(Derivative)
     return set(functions) | {s for s in expr.free_symbols if isinstance(s, Symbol)}
 
@@ -148,7 +148,7 @@ def _shrinks(before: Any, now: Any) -> bool:
 def value_at(expr: Expr, point: SamplePoint) -> Expr:
     """The value of an expression at a point, confirmed by a second precision; more digits are used if much cancels.
 
-    Zero if the value shrinks as digits are added. Raises `Undefined`, or `NoNumber` if no precision confirms another.
+    Returns zero if the value shrinks as digits are added. Raises `Undefined`, or `NoNumber` if no two precisions agree.
     """
     before: Any = None
     for digits in (30, *WORKING):
@@ -186,7 +186,7 @@ def is_zero_everywhere(expr: Expr) -> bool | None:
 
 
 def shown(value: Any, figures: int = 6) -> Expr:
-    """A value as a SymPy number with that number of figures."""
+    """A value as a SymPy number with that many figures, without a negligible imaginary part."""
     if isinstance(value, mpmath.mpc) and _bits(value.imag) < _bits(value.real) - 100:
         value = value.real
     return as_sympy(value).evalf(figures)
@@ -216,7 +216,7 @@ class Values:
     """The values of expressions at one point, at mpmath's current precision; common parts are computed once."""
 
     def __init__(self, point: SamplePoint) -> None:
-        self.cancelled = False  # whether the terms of a sum cancelled to all digits, so that it may be zero or not
+        self.cancelled = False  # whether the terms of a sum cancelled to all digits, so the sum may be zero
         self.known: dict[Expr, Any] = {}
         for letter, value in point.items():
             self.known[letter] = self._taken(value)
@@ -337,7 +337,7 @@ class Values:
 
 
 def _is_cancelled(total: Any, terms: list[Any]) -> bool:
-    """Whether the terms of a sum cancelled to all digits, so that it may be zero."""
+    """Whether the terms of a sum cancelled to all digits, so the sum may be zero."""
     return _bits(total) < max(map(_bits, terms)) - int(mp.prec) + 30
 
 
@@ -374,7 +374,7 @@ def _atom(expr: Expr) -> Any:
 
 
 def _real(x: Any) -> Any:
-    """A value that is real up to rounding errors."""
+    """The real part of a value that is real up to rounding errors; raises `Undefined` for any other value."""
     if not isinstance(x, mpmath.mpc):
         return x
     if x.imag and _bits(x.imag) > _bits(x.real) - mp.prec + 30:

@@ -1,8 +1,8 @@
 """Sparse sums of monomials in many letters, added and multiplied as whole numbers.
 
-The powers of all letters of a monomial, with their signs, are packed into one whole number, so that one addition
-multiplies monomials. The work for a sum is counted even if its parts are cached, so that an expression that takes too
-much work is rejected in each run.
+A letter is a variable of the ring: a symbol, or an expression that counts as one. The powers of all letters of a
+monomial, with their signs, are packed into one whole number, so one addition multiplies two monomials. The work for a
+sum is counted even if its parts are cached, so an expression that takes too much work is rejected in each run.
 
 Source: Monagan, Pearce, *Sparse polynomial division using a heap*, J. Symb. Comp. 46 (2011), section 2 (packed
 monomials).
@@ -22,15 +22,15 @@ WIDTH = 24  # bits for the power of a letter, including its sign
 PARTS = 64  # the most parts into which a letter for an angle may be divided
 FARTHEST = 2 ** (WIDTH - 2) // PARTS  # highest power of a letter
 HIGHEST = 60  # highest power of a sum, and highest multiple of an angle
-WORK = 200_000  # products of two terms that one expression may take, if it is to be written
-LETTERS = 120  # letters and forms that are kept; with more, a new table begins
+WORK = 200_000  # most products of two terms that are computed for one expression
+LETTERS = 120  # most letters and forms of a ring; then a new ring is begun
 FORMS = 20_000
 
 Terms = dict[int, int]
 
 
 class Outside(Exception):
-    """The expression is not such a sum, or is too large."""
+    """The expression is not a sum of monomials, or it is too large."""
 
 
 class Form(NamedTuple):

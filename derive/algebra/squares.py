@@ -45,7 +45,7 @@ def with_squares(value: Expr) -> Expr:
 
 
 def _first_letter_first(value: Expr) -> Expr:
-    """(R - a)^2, not (a - R)^2."""
+    """Write a squared sum with its first symbol positive: (R - a)^2, not (a - R)^2."""
     if not _is_square_of_sum(value):
         return value
     first = min(value.base.args, key=lambda term: str(term.as_coeff_Mul()[1]))

@@ -1,4 +1,4 @@
-"""The time of a swing between two turning points at -A and A, in powers of the amplitude A.
+"""The period of an oscillation between turning points at -A and A, in powers of the amplitude A.
 
     4 integral of dq/sqrt(f) from 0 to A, where f is the square of the rate: even in q and zero at A
 
@@ -102,7 +102,7 @@ def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | N
 
 
 def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
-    """The terms up to that power of the amplitude."""
+    """The terms of the integral up to that power of the amplitude."""
     inside = reduced_square(f, q, amplitude, order)
     (leading, *rest) = inside
     if leading.has(ANGLE) or leading == 0:

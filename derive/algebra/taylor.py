@@ -1,4 +1,4 @@
-"""Taylor series of a formula along a motion: each symbol has its own series, and these are added and multiplied.
+"""Taylor series of a formula along a motion: each symbol has its own series, and the series are added and multiplied.
 
 No derivatives are computed. If x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
 x_j y_(k-j). Those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s; those of y = x^a follow
@@ -71,7 +71,7 @@ def coefficient_along(expr: Expr, place: Mapping[Symbol, Expr], direction: Mappi
 def series_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
-    """The coefficients of s^0, ..., s^n in that direction."""
+    """The coefficients of s^0, ..., s^n if each symbol is its place plus s times its direction."""
     try:
         return arithmetic_along(expr, place, direction, order)
     except NoSeries:
@@ -84,7 +84,7 @@ def series_along(
 def arithmetic_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
-    """The same coefficients by the rules of this module, also for 0/0; raises `NoSeries` if no rule applies."""
+    """The coefficients of `series_along` by the rules here, also for 0/0; raises `NoSeries` if no rule applies."""
     paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
     found = taylor(expr, paths, order)
     return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
@@ -107,7 +107,7 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
 
 
 def _beginnings(below: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Iterator[tuple[int, Series]]:
-    """The lowest power of a denominator, and its coefficients; a short series is tried before a long one."""
+    """Yield powers with a nonzero coefficient, the lowest first, with the series; a short series is tried first."""
     for deep in (DEEPEST // 4, DEEPEST):
         under = taylor(below, paths, order + deep)
         yield from ((n, under) for n, part in enumerate(under[: deep + 1]) if not vanishes(part))
@@ -200,7 +200,7 @@ class _Arithmetic:
         return tuple(found)
 
     def _size(self, u: Series) -> Series:
-        """The series of |u|: the sign of u_0 times the series of u; none if u_0 vanishes."""
+        """The series of |u|: the sign of u_0 times the series of u. Raises `NoSeries` if u_0 vanishes."""
         if u[0] == 0:
             raise NoSeries
         return (Abs(u[0]), *(u[0] / Abs(u[0]) * part for part in u[1:]))

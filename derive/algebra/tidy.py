@@ -1,6 +1,6 @@
 """The tidy form of a result: one fraction, common factors in front, no sum of roots in the denominator.
 
-`tidied()` does not change the value. It simplifies as you would before writing a result, and keeps later steps short.
+`tidied()` does not change the value. It simplifies a result as you would by hand, and keeps later steps short.
 `derive.render.notation.notation` decides how the result is displayed.
 """
 
@@ -246,7 +246,7 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
         whole = power // q if base.is_nonnegative or is_size else 0
         outside *= (abs(base) if is_size else base) ** whole
         inside *= base ** (power - q * whole)
-    # A sum that lost no factor is kept as written, not multiplied out.
+    # A sum from which no factor was taken is kept as written, not multiplied out.
     return (outside, part) if outside == 1 else (outside, inside)
 
 
@@ -273,7 +273,7 @@ def factored_matrix(matrix: Any) -> tuple[Expr, Any]:
 
 
 def size_and_rest(v: Any) -> tuple[Expr, Any]:
-    """A vector as (size of its common factor, remaining vector): its length is the size times the remaining length."""
+    """A vector as (size of its common factor, remaining vector): its magnitude is the size times that of the rest."""
     common, rest = factored_matrix(v)
     if common.is_nonnegative:
         return common, rest

@@ -50,7 +50,7 @@ def are_equal(left: Expr, right: Expr) -> bool:
 
 
 def monomial_ratio(left: Expr, right: Expr) -> Expr | None:
-    """The factor, a number times powers of letters, from the second to the first; None if it is not found."""
+    """The ratio of the first expression to the second, if it is a number times powers of symbols; else None."""
     if _has_nested_roots(left) or _has_nested_roots(right):
         return None
     try:
@@ -63,7 +63,7 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
     """Put a question to the cached ring of that kind; raises `Outside` if the ring cannot answer."""
     ring: Any = KEPT.get(kind)
     ring = kind({}) if ring is None or ring.is_full else ring
-    begun_anew = False
+    has_restarted = False
     while True:
         KEPT[kind] = ring
         if any(expr in ring.outside for expr in exprs):
@@ -73,9 +73,9 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
         except Finer as finer:
             units = {**ring.units, finer.angle: lcm(ring.units.get(finer.angle, 1), finer.parts)}
             if units[finer.angle] > PARTS:  # earlier questions must not affect the answer
-                if begun_anew:
+                if has_restarted:
                     raise Outside from None
-                units, begun_anew = {finer.angle: finer.parts}, True
+                units, has_restarted = {finer.angle: finer.parts}, True
             ring = kind(units)
         except Outside:
             if len(exprs) == 1:
@@ -83,7 +83,7 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
             raise
 
 
-@lru_cache(maxsize=16384)  # found first, because a form would be computed in vain
+@lru_cache(maxsize=16384)  # tested first, because computing a form would be useless
 def _has_nested_roots(expr: Expr) -> bool:
     """Whether the expression contains roots of roots, or roots other than square roots."""
     if isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer:
@@ -98,7 +98,7 @@ def _has_roots(expr: Expr) -> bool:
 
 
 def _is_in_angles(base: Expr) -> bool:
-    """Whether it is a letter, or its sine or cosine, as in the angle phi_dot t cos theta of a steady precession."""
+    """Whether the base is a symbol, or the sine or cosine of one, as in phi_dot t cos theta of a steady precession."""
     return base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
 
 
@@ -112,7 +112,7 @@ def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 class Finer(Exception):
-    """A part of an angle occurs that is not a whole multiple of the part whose exponential has a letter."""
+    """A fraction of an angle occurs that is not a whole multiple of the fraction whose exponential is a letter."""
 
     def __init__(self, angle: object, parts: int):
         super().__init__(angle)
@@ -239,7 +239,7 @@ class TrigRing(Ring):
         return place
 
     def ratio(self, a: Form, b: Form) -> Expr | None:
-        """The factor, a number times powers of letters, between each term of the second and of the first."""
+        """The ratio of the first form to the second, if it is a number times powers of symbols; else None."""
         if not a.terms or len(a.terms) != len(b.terms):
             return None
         first, second = max(a.terms), max(b.terms)

@@ -168,7 +168,10 @@ def test_an_equation_is_compared_as_an_equation(compared_with: Compared, entry: 
         (r"latex: '0 = 0', times: '(a + x)^2 - a^2 - 2 a x - x^2'", "`times` is zero"),
         (r"latex: '0 = 0'", "0 against "),
         # omega_y is an angular speed, but that the derivation does not know
-        (r"latex: '\omega_2 \dot\omega - \omega_2 \omega^2 = 0'", "their sides differ by omega_y/M, which may be zero"),
+        (
+            r"latex: '\omega_2 \dot\omega - \omega_2 \omega^2 = 0'",
+            "their sides differ by the factor omega_y/M, which may be zero",
+        ),
         (r"latex: '(a - x) (\dot\omega - \omega^2) = 0'", "which may be zero"),
     ],
 )
