@@ -1,1 +1,1 @@
-"""Phase space, Hamilton's equations, Poisson brackets, the Routhian and effective potential energies."""
+"""Hamiltonians, Hamilton's equations, Poisson brackets, Routhians and effective potential energies."""

@@ -1,4 +1,4 @@
-"""Poisson brackets of functions of coordinates and momenta, and their meaning for the motion."""
+"""Poisson brackets of functions of coordinates and momenta; with the Hamiltonian, they are rates of change."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ def poisson_bracket(
     """Poisson bracket, {f, g} = sum of df/dq dg/dp - df/dp dg/dq.
 
     f, g          functions of coordinates and momenta: steps, or formulas in `x` and `conjugate(x)`
-    coordinates   all of them; not needed if f or g is a Hamiltonian, which has coordinates
-    among         steps whose symbols replace the result, if it is one of them times a number
-    Second route: the rules {q, p} = 1, {f + h, g}, {f h, g} and those of functions, applied to the formula; if g is a
-    Hamiltonian, the bracket plus the partial derivative by time is the rate of f along every motion, by functions of
-    time and d'Alembert's principle.
+    coordinates   all coordinates; not needed if f or g is a Hamiltonian or was derived from one
+    among         steps; if the bracket is a number times one of them, the result is shown with the symbol of this step
+    Second route: {q, p} = 1, antisymmetry, and the rules for {f + h, g}, {f h, g} and {u(f), g}, applied to the
+    formulas; if g is a Hamiltonian, the bracket plus the partial derivative of f by time is the rate of f along every
+    motion, with f as a function of t and accelerations from d'Alembert's principle.
     Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero, generic.
     Errors: the coordinates are not given; f or g contains a rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 9.5.
@@ -85,7 +85,7 @@ def poisson_bracket(
 
     value = _written(law(values[0], values[1]))
     worked = [sign * Factors(diff(values[0], u), diff(values[1], v)) for sign, u, v in derivatives]
-    plain = isinstance(one, Symbol) or isinstance(other, Symbol)  # the derivatives by a symbol need no line
+    plain = isinstance(one, Symbol) or isinstance(other, Symbol)  # a symbol has trivial derivatives
     return establish(
         POISSON_BRACKET,
         PoissonBracket(*names, *flat),
@@ -119,13 +119,13 @@ def _letters(coordinates: Sequence[Coordinate]) -> dict[Symbol, str]:
 
 
 def _called(of: Any) -> str:
-    """The name of a function in a key: that of its step, its symbol, or else its position."""
+    """Return the part of a key that names a function: the key of its step, its symbol, or `formula`."""
     name = of.key if isinstance(of, Quantity) else str(getattr(of, "symbol", of))
     return name if name.isidentifier() else "formula"
 
 
 def _function(of: Any, pairs: Pairs) -> Any:
-    """A function of coordinates and momenta; an expression with rates is rejected."""
+    """Return a function of coordinates and momenta; an expression with rates is rejected."""
     found = of.symbol if isinstance(of, Coordinate) else of
     value = value_behind(found)
     if not isinstance(value, Expr):
@@ -139,7 +139,7 @@ def _function(of: Any, pairs: Pairs) -> Any:
 
 
 def _derivatives(f: Expr, g: Expr, pairs: Pairs) -> list[tuple[Integer, Symbol, Symbol]]:
-    """The variables by which f and g are differentiated in each product that does not vanish, with its sign."""
+    """Return, for each product that does not vanish, its sign and the variables by which f and g are differentiated."""
     found: list[tuple[Integer, Symbol, Symbol]] = []
     for q, p in pairs:
         for sign, u, v in ((Integer(1), q, p), (Integer(-1), p, q)):
@@ -155,7 +155,7 @@ def _written(value: Expr) -> Expr:
 
 
 def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
-    """The result as a number times one of the known functions."""
+    """Return the line that shows the result as a number times one of the known functions."""
     for known in among:
         ratio = tidied(value / explicit(known.value)) if value != 0 else ZERO
         if ratio.is_number and ratio != 0:
@@ -164,7 +164,7 @@ def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
 
 
 def _by_rules(f: Expr, g: Expr, pairs: dict[Symbol, Symbol]) -> Expr:
-    """The bracket, only from {q, p} = 1, linearity, the product rule in each argument, and antisymmetry."""
+    """Return the bracket from {q, p} = 1, linearity, the product rule, the chain rule and antisymmetry alone."""
     letters = {*pairs, *pairs.values()}
 
     def bracket(f: Expr, g: Expr) -> Expr:
@@ -182,7 +182,7 @@ def _of_letters(f: Symbol, g: Symbol, pairs: dict[Symbol, Symbol]) -> Expr:
 
 
 def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
-    """Each part of a sum, product, power, sine or cosine, with the factor of the part's bracket."""
+    """Return each part h of f with the factor df/dh of its bracket, so {f, g} is the sum of df/dh {h, g}."""
     if f.is_Add:
         return [(Integer(1), term) for term in f.args]
     if f.is_Mul:
@@ -197,7 +197,11 @@ def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
 
 
 def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Expr]:
-    """df/dt by functions of time, with accelerations eliminated by d'Alembert's sums, each with the factor df/dp."""
+    """Return {f, H} plus the partial derivative of f by time, and df/dt along the motion.
+
+    df/dt has f as a function of t. The sums (m a - F) . dr/dq with the factors df/dp, which vanish by d'Alembert's
+    principle, eliminate the accelerations.
+    """
     matter = space.lagrangian.needed(Matter)
     in_rates = space.in_rates
     moving = [q for q, _ in space.pairs]
@@ -209,8 +213,8 @@ def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Ex
 @in_results(
     "bracket",
     "the Poisson bracket of two answers, or of formulas in coordinates and momenta `p_x`",
-    functions="bracket: two answers, or formulas of coordinates and their momenta `p_x`",
-    among="results: answers by whose letters it may be written",
+    functions="bracket: two answers, or formulas in coordinates and their momenta `p_x`",
+    among="results: answers whose letters may appear in the bracket",
 )
 def _in_results(
     functions: Functions, key: str, coordinates: Mapping[str, Coordinate], among: Sequence[Quantity] = ()

@@ -1,4 +1,4 @@
-"""The Hamiltonian and Hamilton's equations: the motion in coordinates and momenta."""
+"""The Hamiltonian and Hamilton's equations, for a motion in coordinates and momenta."""
 
 from __future__ import annotations
 
@@ -42,16 +42,16 @@ HAMILTONIAN = Rule(
 
 
 def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian") -> Quantity:
-    """Hamiltonian, H(q, p, t) = sum of p q_dot - L with the rates in terms of the momenta.
+    """Hamiltonian, H(q, p, t) = sum of p q_dot - L, with the rates q_dot in terms of the momenta.
 
     of   the Lagrangian, J
-    Steps derive the momenta and the corresponding rates.
-    Second route: T_2 - T_0 + U, with the parts of T of degree 2 and 0 in the rates; and with substituted momenta dH/dp
-    is q_dot, and -dH/dq is the sum of F . dr/dq, for forces F with a potential energy, and of m v . d(dr/dq)/dt; for a
-    given L, the sum of p dH/dp, minus H, is L again with substituted momenta.
+    Steps derive the momenta, and the rates in terms of the momenta.
+    Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates; with the momenta
+    as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq, for forces with a potential energy
+    and magnetic forces, and of m v . d(dr/dq)/dt; for a given L, the sum of p dH/dp, minus H, is L again.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (and not T + U);
-    given_conserved, given_changing, given_work (L is given).
+    time), changing (neither); work_energy (T + U, but a force outside L does work), work (a force outside L does work,
+    and H is not T + U); given_conserved, given_changing, given_work (the same for a given L).
     Errors: the momenta do not determine the rates, or too many must be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
@@ -115,15 +115,15 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
 
 
 def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
-    """Hamilton's equations, q_dot = dH/dp_q and p_q_dot = -dH/dq for each coordinate; with constraint forces, and with
-    forces without a potential energy, p_q_dot = -dH/dq + Q + sum of lambda df/dq.
+    """Hamilton's equations, q_dot = dH/dp_q and p_q_dot = -dH/dq + Q + sum of lambda df/dq for each coordinate.
+    Q is the generalized force of the forces without a potential energy; lambda are the multipliers of constraints.
 
     of   the Hamiltonian, J
     Keys: canonical_ and the name of the coordinate, or of the momentum.
-    Second route: with substituted momenta, the first equation gives the rate itself, and the second is d'Alembert's
-    principle, sum of (m a - F) . dr/dq = 0.
-    Outcomes: rate (the first), force (the second), cyclic (the second if H does not contain q), applied (with such
-    forces).
+    Second route: with the momenta as functions of the rates, the first equation is q_dot = q_dot, and the second is
+    d'Alembert's principle, sum of (m a - F) . dr/dq = 0.
+    Outcomes: rate (the first equation), force (the second), cyclic (the second, if H does not contain q), applied (the
+    second, with Q or constraint forces).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1 and problem 8.4.
     """
     found: list[Quantity] = []
@@ -133,7 +133,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 
 
 def _with_mark(found: Relation, values: Sequence[Expr]) -> ImmutableDenseMatrix:
-    """The values that a route compares for an equation, and a check that it is an equation."""
+    """Return the values that a route compares, and 1 if `found` is an equation, otherwise 0."""
     return ImmutableDenseMatrix([*values, int(found.operator == "=")])
 
 
@@ -213,7 +213,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
 
 
 def _by_terms(found: Relation, letters: Sequence[Symbol]) -> Relation:
-    """Terms with momenta one by one, as they were differentiated, and the other terms together."""
+    """Simplify each term with momenta separately, and all other terms together."""
     right = explicit(found.right)
     terms = Add.make_args(right)
     moving, rest = ([term for term in terms if term.has(*letters) == held] for held in (True, False))
@@ -228,12 +228,12 @@ IN_MOMENTA = Rule(
 
 
 def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quantity:
-    """A quantity of the motion with its rates in terms of the momenta: x p_y - y p_x for m (x y_dot - y x_dot).
+    """A quantity with its rates in terms of the momenta: x p_y - y p_x for m (x y_dot - y x_dot).
 
-    quantity   a scalar in coordinates and rates of the same motion
-    of         the Hamiltonian, J
-    Check: with substituted momenta it is the original quantity.
-    Errors: the Hamiltonian is that of another motion; the quantity contains no rate.
+    quantity   a scalar in coordinates and rates
+    of         the Hamiltonian of the same system, J
+    Check: with the momenta as functions of the rates, the result is the original quantity.
+    Errors: the quantity contains no rate of a coordinate of this Hamiltonian; it belongs to another system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     space = of.needed(PhaseSpace)

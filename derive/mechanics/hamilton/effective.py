@@ -1,4 +1,4 @@
-"""Reduction by cyclic coordinates: conserved momenta, the Routhian, the effective potential.
+"""Reduction by cyclic coordinates: conserved momenta, the Routhian, the effective potential energy.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3; Landau, Lifshitz, *Mechanics*, section 41.
 """
@@ -66,13 +66,13 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; later steps use its symbol.
 
     of      the Lagrangian, J
-    q       a coordinate that it does not contain
-    value   the symbol of the constant, by default p_q; or its value at the start, I_z*S: then the result is an equation
-            for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
-    Second route: the sum of m v . dr/dq over the mass points; and its rate by functions of time is the sum of
-    (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
+    q       a coordinate that L does not contain
+    value   the symbol of the constant, by default p_q; or the initial value of the momentum, I_z*S: then the result is
+            an equation for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
+    Second route: the sum of m v . dr/dq over the mass points; the time derivative of p_q as a function of t is the sum
+    of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
     Outcomes: angular (q is an angle), linear (q is a length), other.
-    Errors: L contains q, or does not depend on its rate; a force without a potential energy acts along q.
+    Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value changes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     required(of.coordinates, q, "conserved", of)
@@ -115,12 +115,12 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
 
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:
-    """The generalized force along a coordinate that is not in the Lagrangian."""
+    """Return the generalized force along a coordinate of all forces that the Lagrangian does not contain."""
     return tidied(explicit(matter.other_force_along(q.symbol)))
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
-    """The remaining coordinates."""
+    """Return the coordinates that remain without those of the constant momenta."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate
@@ -151,16 +151,16 @@ ROUTHIAN = Rule(
 
 
 def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "routhian") -> Quantity:
-    """Routhian, R = L - sum of p q_dot over the cyclic coordinates: a Lagrangian of the other coordinates.
+    """Routhian, R = L - sum of p q_dot over the cyclic coordinates: a Lagrangian for the other coordinates.
 
     of          the Lagrangian, J
-    constants   momenta of cyclic coordinates, from `conserved`
+    constants   momenta of cyclic coordinates, results of `conserved`
     Steps derive the rates of the cyclic coordinates.
-    Second route: by mass points and forces, -dR/dp is the rate of the cyclic coordinate, and for the other coordinates
-    dR/dq_dot and dR/dq are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and R is T - U - p q_dot, plus
-    the sum of q v . A for charges in magnetic fields, with substituted rates.
-    Errors: no constant is given; one belongs to another Lagrangian; no coordinate remains; a force without a potential
-    energy acts.
+    Second route: -dR/dp is the rate of a cyclic coordinate; for each other coordinate dR/dq_dot is the sum of
+    m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces; and R is
+    T - U - sum of p q_dot, plus the sum of q v . A for charges in magnetic fields, with the rates substituted.
+    Errors: no momentum is given; a momentum belongs to another Lagrangian; no coordinate remains; a force outside L
+    acts along a remaining coordinate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
     """
     if not constants:
@@ -247,16 +247,17 @@ EFFECTIVE_POTENTIAL = Rule(
 def effective_potential(
     of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
 ) -> Quantity:
-    """Effective potential energy of the other coordinates: U_eff = sum of p q_dot - L where their rates vanish.
+    """Effective potential energy of the coordinates that are not cyclic: U_eff = sum of p q_dot - L where their rates
+    vanish, with the sum over the cyclic coordinates.
 
     of          the Lagrangian, J, which does not contain the time
-    constants   momenta of cyclic coordinates, from `conserved`; by default those of all cyclic coordinates
-    Without cyclic coordinates it is U - T_0, for a prescribed rotation.
-    Second route: at rest -dU_eff/dq is the sum of (F - m a) . dr/dq, with substituted conserved momenta; and T_2 - T_0
-    + U with substituted rates.
-    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither: it is U), given (L is
-    given).
-    Errors: L contains the time; no coordinate remains; a force without a potential energy acts at rest.
+    constants   momenta of cyclic coordinates, results of `conserved`; by default those of all cyclic coordinates
+    Without cyclic coordinates U_eff is U - T_0, for example in a prescribed rotation.
+    Second route: where the rates and accelerations of the remaining coordinates vanish, -dU_eff/dq is the sum of
+    (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted; U_eff is T_2 - T_0 + U with these rates.
+    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither, so U_eff is U), given
+    (L is given, without cyclic coordinates).
+    Errors: L contains the time; no coordinate remains; a force outside L acts where the rates vanish.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
     """
     if TIME in explicit(of.value).free_symbols:
@@ -307,7 +308,7 @@ def effective_potential(
 
 
 def _cyclic(of: Quantity) -> tuple[Quantity, ...]:
-    """The momenta of all coordinates that the Lagrangian does not contain."""
+    """Return the momenta of all coordinates that the Lagrangian does not contain."""
     L = explicit(of.value)
     return tuple(conserved(of, q) for q in coordinates_of(of) if not L.has(q.symbol) and L.has(q.rate))
 

@@ -1,7 +1,8 @@
-"""Rates from momenta that are not linear in them, if the Lagrangian contains the rates only in one quadratic form.
+"""Rates v in terms of momenta p that are not linear in the rates, if L contains the rates in one quadratic form only.
 
-With p_i - b_i = g(s) (A v)_i and s = v . A v, only the length of v is unknown: v = u w, w = A^-1 (p - b), and
-g(u^2 S) u = 1 with S = w . A w. For a relativistic particle g = 1/sqrt(1 - s/(m c^2)), so u = 1/sqrt(1 + S/(m c^2)).
+Then p_i - b_i = g(s) (A v)_i with s = v . A v, so v has the direction of w = A^-1 (p - b), and v = u w. The factor u
+follows from g(u^2 S) u = 1 with S = w . A w. For a relativistic particle g = 1/sqrt(1 - s/(m c^2)), so
+u = 1/sqrt(1 + S/(m c^2)).
 
 Source: Landau, Lifshitz, *The Classical Theory of Fields*, section 9.
 """
@@ -17,11 +18,11 @@ from derive.algebra.expressions import bound, explicit
 from derive.algebra.tidy import tidied
 from derive.solving.presentation import roots_together
 
-MOST_OPERATIONS = 300  # of the equation for u
+MOST_OPERATIONS = 300  # greatest number of operations in the equation for u
 
 
 def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr] | None:
-    """Each rate in terms of the momenta, or None if the Lagrangian does not have this form."""
+    """Return rate -> its expression in the momenta, or None if L does not have this form with a diagonal matrix A."""
     at_rest = dict.fromkeys(rates, 0 * rates[0])
     values = [explicit(p) for p in momenta_of.values()]
     beside = [bound(p, at_rest) for p in values]
@@ -44,7 +45,7 @@ def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]
 
 
 def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbol, Expr] | None:
-    """g as a function of s, derived along the first rate and then checked for all rates."""
+    """Return s and g(s): derived with only the first rate nonzero, then checked for all rates; None if this fails."""
     s = Dummy("s", nonnegative=True)
     along = {rates[0]: sqrt(s / form[0, 0]), **dict.fromkeys(rates[1:], 0 * rates[0])}
     g = tidied(bound(bare[0], along) / (form[0, 0] * along[rates[0]]))
@@ -55,13 +56,13 @@ def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbo
 
 
 def _length(g: Expr, s: Symbol, size: Symbol) -> Expr | None:
-    """The positive u with g(u^2 S) u = 1 that is 1 for slow motion."""
+    """Return the positive root u of g(u^2 S) u = 1 that is 1 for S = 0, or None if SymPy does not find it."""
     u = Dummy("u", positive=True)
     equation = g.xreplace({s: u**2 * size}) * u - 1
     if equation.count_ops() > MOST_OPERATIONS:
         return None
     try:
         found = [root for root in solve(equation, u) if not root.has(u)]
-    except NotImplementedError:  # SymPy cannot solve the equation: the momenta are then rejected as not invertible
+    except NotImplementedError:  # the caller then rejects the momenta
         return None
     return next((root for root in found if root.xreplace({size: 0 * size}) == 1), None)

@@ -1,7 +1,7 @@
-"""Coordinates and their momenta: symbols, the rates in terms of momenta, and the form of functions of both.
+"""Rates of coordinates in terms of momenta.
 
-A momentum p_q is a plain symbol next to its coordinate q. In phase space both are free, so both count as coordinates of
-quantities that depend on them; as functions of coordinates and rates, momenta are values, m l^2 theta_dot.
+In phase space a momentum p_q is a symbol as independent as its coordinate q, so p_q counts as a coordinate too. The
+value of a momentum is a function of coordinates and rates, m l^2 theta_dot.
 """
 
 from __future__ import annotations
@@ -37,12 +37,9 @@ from derive.steps.step import Quantity, lettered
 
 __all__ = ["rates_by_momenta"]
 
-LARGEST = 4  # rates in a single linear system
-LARGEST_WITH_ANGLES = 2  # with sines and cosines in the coupling: the Hamiltonian of three is a page long
+LARGEST = 4  # greatest number of coupled rates
+LARGEST_WITH_ANGLES = 2  # the same with sines or cosines in the coupling; a Hamiltonian of three is a page long
 ZERO = Integer(0)
-
-
-# --- the rates in terms of momenta -----------------------------------------------------------------------------------
 
 
 RATE_BY_MOMENTA = Rule(
@@ -58,14 +55,14 @@ RATE_BY_MOMENTA = Rule(
 def rates_by_momenta(
     of: Quantity, given: Sequence[Quantity], varying: bool = False, key: str = "rate"
 ) -> tuple[Quantity, ...]:
-    """Rates as functions of momenta, solved from p = dL/dq_dot, which is linear in the rates.
+    """Rates as functions of momenta, solved from p = dL/dq_dot.
 
     of        the Lagrangian, J
-    given     momenta of some of its coordinates, which are symbols from now on
-    varying   whether those symbols vary like coordinates, or are constant
-    Keys: rate_ and the name of the coordinate, _by_ and the letters.
-    Check: the rates substituted in the momenta.
-    Outcomes: alone, together.
+    given     momenta of some of its coordinates; the results contain their symbols
+    varying   whether these symbols vary in time, as in a Hamiltonian; otherwise they are constant
+    Keys: `key`, _ and the name of the coordinate; for constant momenta also _by_ and their symbols.
+    Check: the rates substituted in the momenta give the symbols of the momenta.
+    Outcomes: alone (one rate), together (several).
     Errors: the momenta do not determine the rates, or too many must be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
@@ -100,7 +97,7 @@ def rates_by_momenta(
 
 
 def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """The rates from linear equations, in blocks of coupled rates."""
+    """Solve for the rates: linear equations in blocks of coupled rates, others by one quadratic form."""
     matrix = Matrix([[derivative(explicit(p), v) for v in rates] for p in momenta_of.values()])
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
@@ -111,8 +108,8 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
         raise Rejected(
             Complaint(
                 "wrong-argument",
-                "rates can be solved from momenta only if these are linear in them, or if the Lagrangian contains "
-                "the rates by one sum of squares",
+                "rates follow from momenta only if the momenta are linear in the rates, or if the Lagrangian contains "
+                "the rates in one sum of squares only",
             )
         )
     found: dict[Symbol, Expr] = {}
@@ -137,13 +134,10 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
 
 
 def _coupled(matrix: Matrix) -> list[list[int]]:
-    """The sets of indices that off-diagonal entries couple."""
+    """Return the sets of indices that are coupled by off-diagonal entries of the matrix."""
     blocks: list[set[int]] = []
     for i in range(matrix.rows):
         tied = {i, *(j for j in range(matrix.cols) if matrix[i, j] != 0)}
         joined = [block for block in blocks if block & tied]
         blocks = [block for block in blocks if not block & tied] + [tied.union(*joined)]
     return [sorted(block) for block in blocks]
-
-
-# --- the form of functions of symbols --------------------------------------------------------------------------------

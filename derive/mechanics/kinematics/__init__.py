@@ -1,1 +1,1 @@
-"""Coordinates, and places along axes that may turn and move."""
+"""Generalized coordinates, and positions along fixed or rotating axes."""

@@ -1,7 +1,7 @@
 """Generalized coordinates, their rates, and the time derivatives of quantities that depend on them.
 
-A coordinate q is a plain symbol, and so are its rates q_dot and q_ddot: `TimeRate` differentiates by the chain rule.
-The second route makes q a function of t, by its Taylor series about the instant t.
+A coordinate q and its rates q_dot and q_ddot are plain symbols, and `TimeRate` differentiates by the chain rule.
+Second routes replace q by its Taylor series about the instant t.
 """
 
 from __future__ import annotations
@@ -36,21 +36,21 @@ from derive.steps.step import Fact, Level, Quantity, compared_with
 
 __all__ = ["Coordinate", "coordinate", "euler_angles", "rate_of", "unknown"]
 
-T = TIME  # coordinates are functions of it in second routes
+T = TIME  # in second routes, coordinates are functions of this symbol
 
 
 @dataclass(frozen=True)
 class Coordinate:
     """A generalized coordinate; in formulas it acts as its symbol: `l*sin(theta)`.
 
-    symbol   its name
-    kind     `angle`, `length`, or another kind of quantity that varies
+    symbol   the symbol of the coordinate
+    kind     `angle`, `length`, or another kind of quantity
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
 
     symbol: Symbol
     kind: str
-    held_as: ClassVar[str] = "COORDINATE"  # by a key of `results:`
+    held_as: ClassVar[str] = "COORDINATE"  # the kind of value of an argument with this type, in `results:`
 
     def _sympy_(self) -> Symbol:
         return self.symbol
@@ -96,7 +96,7 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class OfCoordinate(Fact):
-    """The coordinate that an equation of motion, or a momentum, belongs to."""
+    """The coordinate to which an equation of motion or a momentum belongs."""
 
     missing = "is not an equation of one coordinate"
     coordinate: Coordinate
@@ -104,14 +104,14 @@ class OfCoordinate(Fact):
 
 @dataclass(frozen=True)
 class AtOneMoment(Fact):
-    """These coordinates, or their rates, have values of one instant: the rate of the quantity is no longer known."""
+    """Values at one instant are substituted for these coordinates or rates, so the rate of the quantity is unknown."""
 
     missing = "holds at all times"
     fixed: tuple[Symbol, ...]
 
 
 def require_all_times(verb: str, quantity: Quantity) -> None:
-    """Reject a quantity that is known at one instant only, where a law needs its rate of change."""
+    """Reject a quantity that is known at one instant only, because a law needs its rate of change."""
     known = quantity.fact(AtOneMoment)
     if known is not None:
         message = f"`{verb}`: `{quantity.key}` is known only for one value of {known.fixed[0].name}"
@@ -119,24 +119,27 @@ def require_all_times(verb: str, quantity: Quantity) -> None:
 
 
 def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordinate:
-    """A coordinate by name, real and free to vary; `positive` for a distance, which cannot be negative."""
+    """Return a coordinate with this name, which is real; `positive` is for a distance, which cannot be negative."""
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
 
 
 def euler_angles() -> tuple[Coordinate, Coordinate, Coordinate]:
-    """Precession phi, tilt theta and spin psi. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4."""
+    """Return the Euler angles: precession phi, nutation theta and spin psi.
+
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4.
+    """
     return coordinate("phi"), coordinate("theta"), coordinate("psi")
 
 
 def letters_of(coordinates: Iterable[Coordinate]) -> dict[Symbol, str]:
-    """Each coordinate's name with its kind, as steps keep them."""
+    """Return symbol -> kind for each coordinate, as steps store them."""
     return {q.symbol: q.kind for q in coordinates}
 
 
 def kind_of_rate(kind: str) -> str:
-    """The kind of a rate: a speed of a length, an angular speed of an angle, a torque of an angular momentum."""
+    """Return the kind of a rate: speed for a length, angular speed for an angle, torque for an angular momentum."""
     if kind in {"angle", "number", "angular momentum"}:
         return "torque" if kind == "angular momentum" else "angular speed"
     faster = kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time"))
@@ -146,7 +149,7 @@ def kind_of_rate(kind: str) -> str:
 
 
 def changing(expr: Any, coordinates: Iterable[Symbol]) -> Any:
-    """Replace every coordinate, and its rates, by functions of time and their derivatives."""
+    """Replace every coordinate by a function of time, and its rates by the derivatives of this function."""
     replaced: dict[Any, Any] = {}
     for q in coordinates:
         f = Function(q.name)(T)
@@ -155,7 +158,7 @@ def changing(expr: Any, coordinates: Iterable[Symbol]) -> Any:
 
 
 def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
-    """The inverse of `changing`: replace functions of time, and their derivatives, by plain symbols."""
+    """Replace functions of time and their derivatives by plain symbols: the inverse of `changing`."""
     replaced: dict[Any, Any] = {}
     for q in coordinates:
         f = Function(q.name)(T)
@@ -167,9 +170,9 @@ def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
 
 
 def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 1) -> Any:
-    """The n-th time derivative with every coordinate a function of t: the second route to the result of `TimeRate`.
+    """Differentiate `order` times with every coordinate a function of t: the second route to the result of `TimeRate`.
 
-    The coordinates are Taylor series about the instant t; without such a series SymPy differentiates.
+    Each coordinate is its Taylor series about the instant t. If `expr` has no such series, SymPy differentiates.
     """
     coordinates, expr = list(coordinates), explicit(expr)
     if isinstance(expr, MatrixBase):
@@ -180,9 +183,9 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
         return unchanging(diff(changing(expr, coordinates), T, order), coordinates)
 
 
-@lru_cache(maxsize=64)  # all routes of one system have the same coordinates
+@lru_cache(maxsize=64)  # all second routes of one system use the same coordinates
 def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
-    """q + q_dot s + q_ddot s^2/2 + ... about the instant t, up to the highest rate with a name; the same for rates."""
+    """Return the coefficients of q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; the same for each rate."""
     series: dict[Symbol, tuple[Expr, ...]] = {T: (T, Integer(1), *(Integer(0) for _ in RATES[2:]))}
     for q in coordinates:
         rates = [q, *(rate(q, n) for n in range(1, len(RATES)))]
@@ -199,20 +202,22 @@ RATE_OF = Rule(
 )
 
 
-@in_results("rate", "how fast a motion that `solution` found, or another answer, changes", quantity="rate: an answer")
+@in_results(
+    "rate", "the rate of change of a motion that `solution` found, or of another answer", quantity="rate: an answer"
+)
 def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion, dx/dt, by the chain rule: the sum of dx/dq q_dot.
 
-    quantity   a scalar that depends on coordinates; the result has its unit per second
-    Check: the coordinates as functions of t, each by its Taylor series.
+    quantity   a scalar x that depends on coordinates; the unit of the result is the unit of x per second
+    Check: differentiate with each coordinate as its Taylor series in t.
     Outcomes: generic, zero.
-    Errors: the quantity is not named by a plain symbol; it is known at one instant only.
+    Errors: the symbol of the quantity is not a plain symbol; the quantity is known at one instant only.
     Source: Taylor, *Classical Mechanics*, section 7.1.
     """
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
         raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no plain symbol that could take a dot"))
-    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # a motion is known as a function of the time
+    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # a motion x(t) is a function of time
 
     def by_time() -> Expr:
         return by_functions_of_time(quantity.value, moving)
@@ -231,7 +236,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
 
 
 def only_coordinate(quantity: Quantity) -> Symbol:
-    """The one coordinate that a quantity depends on."""
+    """Return the only coordinate on which a quantity depends."""
     found = [q for q in quantity.coordinates if quantity.value.has(q, rate(q), rate(q, 2))]
     if len(found) != 1:
         names = ", ".join(q.name for q in found) or "none"
@@ -248,11 +253,11 @@ def required(coordinates: Mapping[Symbol, str], q: Coordinate, verb: str, quanti
 
 
 def unknown(name: str, kind: str, positive: bool = False) -> Symbol:
-    """An unknown of the script: a tension, a constraint force, a height; it may change in time.
+    """Return an unknown of the script, such as a tension, a constraint force or a height; it may change in time.
 
-    name       its symbol, which the problem does not give
-    kind       what kind of quantity it is: "force"
-    positive   whether it is a positive number, so only positive roots count
+    name       the symbol of the unknown, whose value the problem does not give
+    kind       the kind of quantity, such as "force"
+    positive   whether the unknown is positive, so only positive roots are valid
     """
     if kind not in KINDS:
         message = f"`unknown`: there is no kind `{kind}`"

@@ -1,4 +1,4 @@
-"""Places in space by their components along fixed axes: formulas in coordinates, constants and time."""
+"""Positions by their components along fixed axes: formulas in coordinates, constants and time."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ __all__ = ["Axes", "Location", "X", "Y", "Z", "point", "space", "t"]
 
 @dataclass(frozen=True)
 class Location:
-    """A place, or a displacement between two places: two components in a plane, three in space, m; the last is upwards.
+    """A position, or a displacement between two positions: two components in a plane, or three in space, in m.
 
-    found   the steps that give its components, by the index of the component; empty where no step gives one
+    components   along fixed axes; the last axis is upwards
+    found        pairs of the index of a component and the step that derived it, for the components that have a step
     """
 
     components: tuple[Expr, ...]
@@ -46,12 +47,12 @@ class Location:
     __rmul__ = __mul__
 
     def with_values(self, values: Any) -> Location:
-        """The place with values substituted for some symbols; the same object if it contains none of them."""
+        """Return the position with values substituted for some symbols; the same object if nothing changes."""
         moved = tuple(c.subs(values) for c in self.components)
         return self if moved == self.components else Location(moved)
 
     def turned(self, angle: Any) -> Location:
-        """The same displacement, rotated in its plane by an angle, counterclockwise from right to up."""
+        """Return the displacement rotated in its plane by an angle, counterclockwise from right to up."""
         if len(self.components) != 2:
             message = "`turned` rotates a displacement in a plane, but this one has three components"
             raise Rejected(Complaint("wrong-argument", message, help="for axes in space use `space.turned(Z, phi)`"))
@@ -64,9 +65,9 @@ class Location:
 
 
 def point(*components: Any) -> Location:
-    """The place with these components, (x, y) in a vertical plane or (x, y, z) in space, y or z upwards, m.
+    """Return the position (x, y) in a vertical plane, with y upwards, or (x, y, z) in space, with z upwards, in m.
 
-    Components that are steps, such as those from `components`, appear as their symbols wherever the place is used.
+    A component may be a step, such as a result of `components`; laws then show its symbol in heights and velocities.
     """
     if len(components) not in (2, 3):
         raise Rejected(Complaint("wrong-argument", f"`point` needs two components or three, not {len(components)}"))
@@ -82,9 +83,10 @@ X, Y, Z = point(1, 0, 0), point(0, 1, 0), point(0, 0, 1)
 
 @dataclass(frozen=True)
 class Axes:
-    """Three perpendicular axes, by their unit vectors in space, which are the columns of a rotation matrix.
+    """Three perpendicular axes.
 
-    turns   the rotations that led to these axes, in order: the index of the axis, and the angle
+    in_space   a rotation matrix, whose columns are the unit vectors of the axes along the fixed axes of space
+    turns      the rotations from the fixed axes to these axes, in order: the index of the rotation axis, and the angle
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4.
     """
 
@@ -92,7 +94,7 @@ class Axes:
     turns: tuple[tuple[int, Expr], ...] = ()
 
     def turned(self, about: Location, angle: Any) -> Axes:
-        """These axes rotated about one of them, X, Y or Z, by an angle: a coordinate, a constant or `rate*t`."""
+        """Return the axes rotated about one of themselves, X, Y or Z, by a coordinate, a constant angle or `rate*t`."""
         if about not in (X, Y, Z):
             message = "`turned` rotates axes about one of them: X, Y or Z"
             raise Rejected(Complaint("wrong-argument", message))
@@ -102,7 +104,7 @@ class Axes:
         return turned
 
     def place(self, *components: Any) -> Location:
-        """The place with these three components along these axes, from the origin that all axes share, m."""
+        """Return the position with these three components along these axes, in m; all axes have the same origin."""
         along = point(*components)
         if len(along.components) != 3:
             raise Rejected(Complaint("wrong-argument", f"`place` needs three components, not {len(components)}"))
@@ -113,7 +115,7 @@ class Axes:
 
 
 def turn_about(axis: int, angle: Any) -> ImmutableMatrix:
-    """The matrix of a right-handed rotation about the first, second or third axis."""
+    """Return the matrix of a right-handed rotation about the first, second or third axis."""
     j, k = (axis + 1) % 3, (axis + 2) % 3
     c, s = cos(angle), sin(angle)
     turn = eye(3).as_mutable()
@@ -122,7 +124,10 @@ def turn_about(axis: int, angle: Any) -> ImmutableMatrix:
 
 
 def _check_turned(before: Axes, after: Axes, about: Location, angle: Any) -> None:
-    """Check by Rodrigues: a vector v of the old axes becomes v cos a + (e x v) sin a + e (e.v)(1 - cos a), axis e."""
+    """Check a rotation by the angle a about the unit vector e with Rodrigues' formula.
+
+    Each unit vector v of the old axes becomes v cos a + (e x v) sin a + e (e.v)(1 - cos a).
+    """
     e = before.in_space * ImmutableDenseMatrix(about.components)
     for i in range(3):
         v = before.in_space[:, i]

@@ -1,1 +1,1 @@
-"""Energies, the Lagrangian, equations of motion, forces of constraint, symmetries."""
+"""Energies, Lagrangians, equations of motion, constraint forces, symmetries."""

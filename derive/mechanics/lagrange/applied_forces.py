@@ -1,4 +1,4 @@
-"""Lagrange's equation with constraint forces, and with forces that have no potential energy."""
+"""Lagrange's equation with constraint forces and with forces that have no potential energy."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ActedOn(Fact):
-    """The forces on a system without a potential energy, and its damping."""
+    """The forces on a system that have no potential energy: given forces and dampers, with the dissipation function."""
 
     missing = "has no forces other than those of its potential energy"
     system: Any
@@ -43,7 +43,7 @@ class ActedOn(Fact):
 
 @dataclass(frozen=True)
 class ForcedMotion(Fact):
-    """The Lagrangian of an equation of motion with other forces, or with constraints."""
+    """The Lagrangian of an equation of motion with constraints, or with forces that have no potential energy."""
 
     missing = "is not an equation of motion with forces other than those of a potential energy"
     lagrangian: Quantity
@@ -51,7 +51,7 @@ class ForcedMotion(Fact):
 
 @runtime_checkable
 class WithForces(Protocol):
-    """A motion in coordinates, with forces that have no potential energy."""
+    """A system with coordinates, constraints, given forces and dampers."""
 
     @property
     def coordinates(self) -> Mapping[Symbol, str]: ...
@@ -64,7 +64,7 @@ class WithForces(Protocol):
 
 
 def acting_on(system: WithForces) -> tuple[Fact, ...]:
-    """The facts that the Lagrangian of a system must pass to its equations of motion."""
+    """Return the facts that the Lagrangian of a system passes to its equations of motion."""
     found: list[Fact] = [Constrained(system.constraints)] if system.constraints else []
     if system.given_forces or system.dampers:
         dissipated = dissipation_function(system) if system.dampers else None
@@ -73,7 +73,7 @@ def acting_on(system: WithForces) -> tuple[Fact, ...]:
 
 
 def acting(*energies: Quantity) -> list[Fact]:
-    """The facts of the energies that the Lagrangian keeps, apart from the matter."""
+    """Return the facts about forces and constraints that the Lagrangian takes over from its energies."""
     return [fact for energy in energies for fact in energy.facts if isinstance(fact, ActedOn | Constrained)]
 
 
@@ -87,8 +87,8 @@ DISSIPATION_FUNCTION = Rule(
 def dissipation_function(system: WithForces, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
     """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over the dampers of a system, in W.
 
-    system   its dampers: c in kg/s for a place, in N m s for an angle
-    Second route: the power of the drag, sum of F . v, is -2 D.
+    system   the system with the dampers; c is in kg/s for a damped point, and in N m s for a damped angle
+    Second route: the power of the drag forces, sum of F . v, is -2 D.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5.
     """
     moving = list(system.coordinates)
@@ -117,7 +117,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
 
 def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
-    """v^2 of the damped point; for a particle of a body, from the components of its velocity."""
+    """Return v^2 of the damped point; if the point belongs to a body, from the components of its velocity."""
     if not damper.point.held:
         return squares_of_rates(damper.at, moving)
     squares = [Pow(v, 2) for v in damper.velocity(moving) if v != 0]
@@ -125,7 +125,7 @@ def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
 
 
 def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
-    """(dx/dt)^2 + (dy/dt)^2 of the components that change."""
+    """Return (dx/dt)^2 + (dy/dt)^2 + ... over the components that change."""
     fast = [TIME, *moving]
     changing = [c for c in place if c.has(*fast)] or [*place][:1]
     squares = [Pow(TimeRate(c, *moving), 2) for c in changing]
@@ -133,7 +133,7 @@ def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
 
 
 def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
-    """F . v, with the place of the force differentiated as a function of t."""
+    """Return the power F . v, where v is the time derivative of the point of action as a function of t."""
     velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * v for f, v in zip(load.force, velocity, strict=True)))
 
@@ -150,8 +150,8 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
     """Generalized force of the forces without a potential energy, Q = sum of F . dr/dq - dD/dq_dot.
 
     of   the Lagrangian, J, of a system with given forces, couples or damping
-    q    one of its coordinates
-    Second route: the power of all these forces, sum of F . v, is linear in q_dot for constant F, and Q is its slope.
+    q    one of the coordinates of the system
+    Second route: Q is the derivative by q_dot of the power of all these forces, sum of F . v, with F held constant.
     Outcomes: generic, zero.
     Errors: all forces on the system have a potential energy.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
@@ -191,7 +191,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
 
 def _works(load: Load, q: Coordinate) -> list[Expr]:
-    """F_i dr_i/dq; for a particle of a body, with the values of dr_i/dq."""
+    """Return the terms F_i dr_i/dq; if the force acts on a point of a body, with the values of dr_i/dq."""
     pairs = zip(load.force, load.place, load.slopes(q.symbol), strict=True)
     if load.held:
         slopes = [(f, tidied(slope)) for f, _, slope in pairs if f != 0]
@@ -200,7 +200,7 @@ def _works(load: Load, q: Coordinate) -> list[Expr]:
 
 
 def _slope(load: Load, q: Coordinate, moving: Sequence[Symbol]) -> Expr:
-    """The derivative of the power by q_dot, for a constant force."""
+    """Return the derivative of the power F . v by q_dot, with F held constant."""
     velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * diff(v, q.rate) for f, v in zip(load.force, velocity, strict=True)))
 
@@ -237,11 +237,11 @@ FORCED_EQUATION = Rule(
 def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity], key: str) -> Quantity:
     """Lagrange's equation, d/dt dL/dq_dot - dL/dq = Q + sum of lambda df/dq.
 
-    of         the Lagrangian, J
-    q          one of its coordinates
-    derivatives   dL/dq, dL/dq_dot and its rate, if they are steps
+    of            the Lagrangian, J
+    q             one of its coordinates
+    derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
     A step derives the generalized force Q.
-    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
     Outcomes: applied (forces without a potential energy), kept (constraint forces), both, free (neither acts along
     q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.5 and 2.4.
@@ -288,13 +288,16 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
 
 
 def _between(constraints: Sequence[Constraint]) -> str:
-    """Whether the constraints are between coordinates or rates."""
+    """Return whether the constraints are between coordinates, between rates, or of both kinds."""
     in_rates = {c.in_rates for c in constraints}
     return "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
 
 
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
-    """The functions that vanish, f_x = x - R sin(theta); the index is that of a multiplier lambda_x."""
+    """Return the functions that vanish, f_x = x - R sin(theta).
+
+    The index is that of the multiplier, here lambda_x; for a multiplier without index it is a number.
+    """
     found = {}
     for i, each in enumerate(constraints, 1):
         _, _, index = each.force.name.partition("lambda_")
@@ -306,7 +309,7 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 
 def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:
-    """Terms that depend on the motion on the left; driving terms and constraint forces on the right."""
+    """Write terms with coordinates or rates on the left, and driving terms and constraint forces on the right."""
     whole = explicit(found.left) - explicit(found.right)
     whole = whole.expand()
     letters = [c.force for c in constraints]
@@ -319,7 +322,7 @@ def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Cons
 
 
 def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
-    """R (S_1 - S_2), not R S_1 - R S_2: the common factor of the constraint forces in front of them."""
+    """Write a common factor of the constraint forces in front of them: R (S_1 - S_2), not R S_1 - R S_2."""
     acting = {letter: each for letter, each in coefficients.items() if each != 0}
     common = common_factor(list(acting.values())) if len(acting) > 1 else Integer(1)
     common = -common if common.could_extract_minus_sign() else common
@@ -329,7 +332,7 @@ def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
 
 
 def _drives(term: Expr, moving: Sequence[Symbol], letters: Sequence[Symbol]) -> bool:
-    """Whether a term is a constraint force, or independent of coordinates, rates and accelerations."""
+    """Whether a term contains a constraint force, or contains no coordinate, rate or acceleration."""
     return any(term.has(letter) for letter in letters) or not term.has(
         *(s for q in moving for s in (q, rate(q), rate(q, 2)))
     )

@@ -37,16 +37,16 @@ from derive.steps.step import Level, Quantity, compared_with, is_zero
 __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
 
 ZERO = Integer(0)
-MOST = 8  # unknowns in a single linear system
+MOST = 8  # greatest number of unknowns in one linear system
 
 
 @dataclass(frozen=True)
 class _Problem:
-    """Equations of motion of all coordinates, and the constraints kept by forces.
+    """Linear equations for accelerations and multipliers: equations of motion, and constraints kept by forces.
 
-    lagrangian   the Lagrangian of all of them
-    equations    one for each coordinate
-    keeping      coordinates whose accelerations remain unknown, so their equations are not used
+    lagrangian   the Lagrangian of all equations
+    equations    the equations of motion, one for each coordinate
+    keeping      coordinates whose accelerations remain in the result; their equations are not used
     """
 
     lagrangian: Quantity
@@ -77,7 +77,7 @@ class _Problem:
 
     @property
     def known(self) -> dict[Symbol, Expr]:
-        """Coordinates that the constraints express by others, and their rates."""
+        """Coordinates that the constraints express by other coordinates, and their rates, with these expressions."""
         found: dict[Symbol, Expr] = {}
         for each in self.constraints:
             residual = each.residual.xreplace(found)
@@ -126,11 +126,11 @@ def _lagrangian_of(verb: str, equation: Quantity) -> Quantity:
 def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     """Accelerations q_ddot, from the equations of motion and the constraints, if any.
 
-    equations   of motion, one for each coordinate of one Lagrangian
+    equations   the equations of motion, one for each coordinate of one Lagrangian
     Keys: acceleration_ and the name of the coordinate.
     Outcomes: generic (with constraints), unconstrained, zero.
-    Second route: they are substituted in d'Alembert's principle, sum of (m a - F) . dr/dq = 0 for every coordinate,
-    with constraint forces; and the constraints, differentiated as functions of t, remain satisfied.
+    Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0
+    for every coordinate; and the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing; the constraints contradict or repeat one another; a coordinate has no inertia.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
@@ -142,13 +142,13 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
 def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tuple[Quantity, ...]:
     """Constraint forces, the multipliers lambda, from the equations of motion and the constraints.
 
-    equations   of motion, one for each coordinate of one Lagrangian
-    keeping     coordinates whose accelerations remain in the forces: their equations are left for the motion
+    equations   the equations of motion, one for each coordinate of one Lagrangian
+    keeping     coordinates whose accelerations remain in the forces; their equations of motion are not used
     Keys: the symbols of the forces.
     Second route: as `accelerations`.
-    Outcomes: generic (the constraint force itself), multiplier (the length of the condition's gradient by the place
-    of the particle is not 1; it is stated), zero.
-    Errors: no constraint is kept by a force; otherwise the same as in `accelerations`.
+    Outcomes: generic (the multiplier is the constraint force), multiplier (the gradient of f with respect to the
+    position of the particle does not have length 1; the sentence states its length), zero.
+    Errors: no constraint is kept by a force; also the errors of `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("multipliers", equations, keeping)
@@ -166,7 +166,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
 
 
 def _not_all_negative(left: Expr) -> Expr:
-    """x_ddot + y_ddot = 0, not -x_ddot - y_ddot = 0."""
+    """Change all signs if all are negative: x_ddot + y_ddot = 0, not -x_ddot - y_ddot = 0."""
     terms = Add.make_args(left)
     return Add(*(-term for term in terms)) if all(term.could_extract_minus_sign() for term in terms) else left
 
@@ -184,8 +184,8 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
     """A constraint, differentiated until it contains accelerations, d^2 f/dt^2 = 0.
 
     of       the Lagrangian of a system with constraints
-    number   its index, 0 for the first
-    Check: the coordinates as functions of t, differentiated by SymPy.
+    number   the index of the constraint, 0 for the first
+    Check: differentiate with each coordinate as its Taylor series in t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     constraints = of.needed(Constrained).constraints
@@ -294,13 +294,13 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
 
 
 def _places(problem: _Problem) -> tuple[Expr, ...]:
-    """The place of its only particle; empty for several masses."""
+    """Return the position of the only mass point; empty if there are several."""
     points = problem.lagrangian.needed(Matter).points
     return points[0].place if len(points) == 1 else ()
 
 
 def _gathered(problem: _Problem, value: Expr) -> Expr:
-    """The value, collected by the accelerations that remain in a force and by squares of rates."""
+    """Collect a force by the accelerations that remain in it and by squares of rates."""
     return by_accelerations(value, problem.moving) if problem.keeping else value
 
 
@@ -317,12 +317,13 @@ def constraint_force(
 ) -> Quantity:
     """Component of constraint forces along a displacement, N = sum of lambda df/dq dq, per unit of the displacement.
 
-    forces   from `multipliers`, of one system
+    forces   results of `multipliers` for one system
     along    coordinate -> its change per unit of the displacement: `{x: sin(theta), y: cos(theta)}`
-    symbol   of the component: a force if the displacement is a length
-    Second route: Newton's law along the displacement, sum of (m a - F) . dr over the mass points and the other forces.
+    symbol   the symbol of the component, which is a force if the displacement is a length
+    Second route: Newton's law along the displacement: N is the sum of m a . dr over the mass points, minus the work of
+    all other forces.
     Outcomes: generic, zero.
-    Errors: they belong to different systems; another constraint force does work in this displacement.
+    Errors: the forces belong to different systems; another constraint force does work in this displacement.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4.
     """
     kept = [force.needed(ForceOf) for force in forces]
@@ -334,7 +335,7 @@ def constraint_force(
     if strange:
         message = f"`constraint_force`: this system has no coordinate {strange[0]}"
         raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
-    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # the second route reads it independently
+    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # the second route does not use `way`
     works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
     missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
     if missing:
@@ -363,7 +364,7 @@ def constraint_force(
 
 
 def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
-    """The inertial term along the displacement, minus the work of all other forces."""
+    """Return the sum of m a . dr along the displacement, minus the work of all forces except the constraint forces."""
     matter = problem.lagrangian.needed(Matter)
     total = ZERO
     for q, dq in way.items():
@@ -377,7 +378,7 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
 
 
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
-    """The sum over coordinates, each with an independent factor, so terms of different coordinates cannot cancel."""
+    """Return the virtual work with an independent displacement of each coordinate, so no two terms cancel, and zero."""
     matter = problem.lagrangian.needed(Matter)
     marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
     whole = Add(
@@ -403,12 +404,12 @@ def _kind_of_acceleration(kind: str) -> str | None:
     return kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time") ** 2)
 
 
-# --- the linear equations --------------------------------------------------------------------------------------------
+# --- linear equations ------------------------------------------------------------------------------------------------
 
 
 @lru_cache(maxsize=16)
 def _solution(problem: _Problem) -> dict[Symbol, Expr]:
-    """Accelerations and multipliers from all equations, which are linear in them."""
+    """Solve the linear equations for the accelerations and the multipliers."""
     unknowns = problem.unknowns
     rows = [row.xreplace(problem.known) for row in problem.residuals]
     matrix = ImmutableDenseMatrix([[derivative(row, u) for u in unknowns] for row in rows])
@@ -427,7 +428,7 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
 
 
 def _without_functions(matrix: ImmutableDenseMatrix) -> tuple[ImmutableDenseMatrix, dict[Expr, Dummy]]:
-    """The matrix with symbols for sines, cosines and roots, so only polynomials remain."""
+    """Replace sines, cosines and roots by symbols, so the entries are rational; return the symbols as well."""
     found = sorted(matrix.atoms(Function), key=str)
     roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}
@@ -442,7 +443,7 @@ def _is_singular(matrix: ImmutableDenseMatrix) -> bool:
 
 
 def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
-    """The error for equations without a unique solution."""
+    """Return the error for equations without a unique solution."""
     count = len(problem.solved)
     held = matrix[count:, :count]
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):
@@ -456,7 +457,7 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
 
 
 def _contradict(constraints: Sequence[Constraint]) -> bool:
-    """Whether two constraints differ by a nonzero expression without coordinates."""
+    """Whether a multiple of one constraint differs from another by a nonzero expression without coordinates."""
     for i, one in enumerate(constraints):
         for other in constraints[:i]:
             shared = [q for q in one.coordinates if one.along(q) != 0 and other.along(q) != 0]

@@ -1,4 +1,4 @@
-"""Kinetic and potential energy of a system, from the places of its particles and the rotation of its bodies."""
+"""Kinetic and potential energy of a system, from the positions of its particles and the rotations of its bodies."""
 
 from __future__ import annotations
 
@@ -54,13 +54,16 @@ from derive.steps.subject import EVERYTHING, Subject
 __all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
 
 
-SPEEDS = ("v", "u", "w")  # the symbol of a speed: the first that is free
-MANY = 8  # terms; longer expressions are not shown
+SPEEDS = ("v", "u", "w")  # symbols for a speed: the first one that is not in use is chosen
+MANY = 8  # greatest number of terms in a line with expanded squares; a longer line is left out
 
 
 @dataclass(frozen=True)
 class Mover:
-    """An object with kinetic energy of its centre of mass: a particle, or a body that is not held."""
+    """A particle, or a body that is not held at a fixed point: its kinetic energy contains (1/2) M v^2.
+
+    letter   the index of the symbol v, empty if there is none
+    """
 
     mass: Expr
     at: Location
@@ -73,7 +76,10 @@ class Mover:
 
 
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
-    """v for a single mover, otherwise v_1, v_2, ...; named bodies and a second Lagrangian give the index."""
+    """Return the movers of a system, with the indices of their speeds: v for one mover, v_1, v_2, ... for several.
+
+    The index also contains the name of a body or of the system, and the index of a second Lagrangian.
+    """
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
         Mover(placed.body.mass, placed.centre, placed.body.called.partition(" ")[0], True)
@@ -90,7 +96,7 @@ def movers(system: System, lagrangian: str = "") -> list[Mover]:
 
 
 def _is_plain(step: Step) -> bool:
-    """Whether the square of a speed consists of squared rates of coordinates, x_dot^2 + y_dot^2."""
+    """Whether a squared speed contains only rates of coordinates, x_dot^2 + y_dot^2."""
     return bool(step.result.free_symbols <= {rate(q) for q, _ in step.coordinates})
 
 
@@ -140,13 +146,13 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
 
 
 def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
-    """The expanded squares, before sines and cosines of one angle combine; none if they are long."""
+    """Return the line with expanded squares, before sines and cosines of one angle combine; no line if it is long."""
     terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
     return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """The rates of the components, if a step derives each component that changes."""
+    """Return the rates of the components that change, if there are several and a step derives each of them."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(TIME, *moving)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
@@ -158,7 +164,11 @@ def _speed(place: tuple[Expr, ...], moving: list[Symbol]) -> Expr:
 
 @dataclass(frozen=True)
 class Turning:
-    """The rotation of a body: its inertia, a step or a symbol, and its angular velocity or the rate of its angle."""
+    """The rotation of a body.
+
+    inertia   a step with the inertia tensor; for plane motion the moment of inertia, a step or a symbol
+    omega     a step with the angular velocity; for plane motion the rate of the angle
+    """
 
     inertia: Any
     omega: Any
@@ -168,13 +178,13 @@ class Turning:
         return not isinstance(self.omega, Quantity)
 
     def energy(self, inertia: Any, omega: Any) -> Expr:
-        """(1/2) I theta_dot^2, or (1/2) omega . I omega."""
+        """Return (1/2) I theta_dot^2 for plane motion, otherwise (1/2) omega . I omega."""
         if self.is_plane:
             return Factors(HALF, inertia, Pow(omega, 2))
         return Factors(HALF, Dot(omega, applied(inertia, omega)))
 
     def written_out(self) -> Expr:
-        """The energy by components along principal axes, with equal moments combined."""
+        """Return the energy in components along principal axes, with terms of equal moments combined."""
         tensor, omega = value_behind(self.inertia), value_behind(self.omega)
         if self.is_plane or not tensor.is_diagonal():
             return explicit(self.energy(tensor, omega))
@@ -186,7 +196,7 @@ class Turning:
 
 
 def weights_of(system: System) -> set[Symbol]:
-    """The symbols in its masses."""
+    """Return the symbols in the masses of a system."""
     return {letter for mass, _ in system.masses for letter in explicit(mass).free_symbols}
 
 
@@ -195,7 +205,7 @@ def _factored(component: Expr) -> Expr:
 
 
 def _turnings(system: System) -> list[Turning]:
-    """The rotations of its bodies; identical bodies share an inertia."""
+    """Return the rotations of the bodies of a system; identical bodies have one common inertia step."""
     found: list[Turning] = []
     known: list[tuple[PlacedBody, Any]] = []
     for i, placed in enumerate(system.bodies):
@@ -234,10 +244,10 @@ KINETIC_ENERGY = Rule(
 def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kinetic_energy") -> Quantity:
     """Kinetic energy of a system, T = sum of (1/2) M v^2 + (1/2) omega . I omega over its particles and bodies.
 
-    system   its particles and bodies: v is the speed of a centre of mass, and I is about the centre of mass; for a
-             body that is held, I is about the fixed point
+    system   particles and bodies; v is the speed of a particle or a centre of mass, and I is about the centre of mass;
+             a body that is held at a fixed point has no term with v, and its I is about the fixed point
     Steps derive the square of each speed, each angular velocity and each inertia.
-    Second route: half the sum of m v.v over mass points, the places differentiated as functions of t.
+    Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
     Errors: the moments of a body are about another point.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
@@ -284,19 +294,19 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
-    """The level of the line with substituted values: scalars are clear without it, columns and matrices are not."""
+    """Return the level at which the line with substituted values is shown; columns and matrices only at full level."""
     if not turnings:
         return None
     return Level.STANDARD if all(turning.is_plane for turning in turnings) else Level.FULL
 
 
 def _behind(system: System) -> list[Quantity]:
-    """The steps for the symbols that define bodies; later quantities keep these symbols."""
+    """Return the steps that derived the values of bodies; later quantities contain their symbols."""
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Term by term, or expanded if terms of several bodies then combine, -(M + m) g l cos(theta)."""
+    """Simplify term by term, or expand if terms of several bodies then combine: -(M + m) g l cos(theta)."""
     forms = [by_terms(value), by_terms(value.expand()), with_constants_together(value.expand(), moving)]
     shortest = min(forms, key=length)
     return Add(*(spread(term) for term in Add.make_args(shortest)))
@@ -312,12 +322,13 @@ POTENTIAL_ENERGY = Rule(
 
 
 def potential_energy_of(system: System, symbol: str | None = None, key: str = "potential_energy") -> Quantity:
-    """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
+    """Potential energy of a system, U = sum of m g y over the weights + sum of (1/2) k (d - l)^2 over the springs.
 
-    system   its particles and bodies, whose y is that of the centre of mass; its weight, springs and other potentials
-    Second route: the forces do the work -dU along any motion, for each coordinate -dU/dq = sum of F . dr/dq; at the
-    origin, with the springs at their natural length, it is zero.
-    Outcomes: generic, zero (no force that has one).
+    system   particles and bodies, with weights, springs and other potential energies; y is the height of a particle or
+             a centre of mass above the origin
+    U is zero for weights at the origin and for springs at their natural length: a convention.
+    Second route: the forces do the work -dU, so -dU/dq = sum of F . dr/dq for each coordinate.
+    Outcomes: generic, zero.
     Source: Taylor, *Classical Mechanics*, section 4.2.
     """
     moving, matter = [*system.coordinates, TIME], system.matter
@@ -330,7 +341,7 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
     masses = system.masses if system.weights else []
     higher = [(mass, dict(at.found).get(len(at.components) - 1, at.height)) for mass, at in masses if at.height != 0]
     named = {f"height_{i}": y for i, (_, y) in enumerate(higher) if isinstance(y, Quantity)}
-    # A sum keeps its bracket if the law shows it.
+    # Factors remain separate if a height is a step or a sum, so that the law shows a sum in brackets.
     as_factors = bool(named) or any(height.is_Add for _, height in higher)
     stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
     stored += [each.energy for each in system.stored]
@@ -383,9 +394,10 @@ MAGNETIC_TERM = Rule(
 def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_term") -> Quantity:
     """Term of uniform magnetic fields in a Lagrangian, sum of q v . A with the vector potential A = (1/2) B x r, J.
 
-    system   its charges, in C, in fields B, in T
-    Second route: (d/dq - d/dt d/dq_dot) of this term is the virtual work of the forces q v x B along each coordinate.
-    Outcomes: alone, several (charges in fields).
+    system   charges q, in C, in magnetic fields B, in T
+    Second route: dL_B/ds - d/dt dL_B/ds_dot of this term L_B is the virtual work of the forces q v x B along each
+    coordinate s.
+    Outcomes: alone (one charge in a field), several.
     Errors: no charge of the system is in a magnetic field.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5; the gauge is that of Landau, Lifshitz, *The
     Classical Theory of Fields*, section 19.
@@ -426,7 +438,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
 
 
 def _with_common_factor(value: Expr) -> Expr:
-    """(1/2) q B (x y_dot - y x_dot): the common factor of all terms in front."""
+    """Write the common factor of all terms in front: (1/2) q B (x y_dot - y x_dot)."""
     terms = Add.make_args(value)
     common = common_factor(list(terms)) if len(terms) > 1 else Integer(1)
     return value if common == 1 else Mul(common, Add(*(tidied(term / common) for term in terms)), evaluate=False)

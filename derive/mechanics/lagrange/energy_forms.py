@@ -1,4 +1,4 @@
-"""Write an energy of a Lagrangian as a sum: squares of rates and momenta, and the potential energy unchanged."""
+"""Forms in which an energy is written: squares of rates and momenta first, and the potential energy unchanged."""
 
 from __future__ import annotations
 
@@ -31,11 +31,12 @@ ZERO = Integer(0)
 def beside_potential(
     value: Expr, of: Quantity, letters: Sequence[Symbol], moving: Sequence[Symbol] = (), sign: int = 1
 ) -> Expr:
-    """An energy as a sum: its kinetic part by squares of rates and symbols, and the potential energy unchanged.
+    """Write an energy as a sum: a kinetic part, by squares of rates and momenta, and the potential energy unchanged.
 
     of        the Lagrangian
-    letters   momenta, constant or not; `moving` are coordinates whose rates remain
-    sign      that of the potential energy: -1 in a Lagrangian
+    letters   symbols of momenta, constant or not
+    moving    coordinates whose rates are in the energy
+    sign      the sign of the potential energy: -1 in a Lagrangian
     """
     energies = energies_of(of)
     if energies is None:
@@ -48,7 +49,7 @@ def beside_potential(
 
 
 def of_given(value: Expr, letters: Sequence[Symbol], moving: Sequence[Symbol]) -> Expr:
-    """An energy of a given Lagrangian, whose potential part is unknown."""
+    """Write an energy of a given Lagrangian, whose potential energy is unknown: terms with rates or momenta first."""
     fast = [*letters, *(rate(q) for q in moving)]
     terms = Add.make_args(explicit(value).expand())
     alone = tidied(Add(*(term for term in terms if not term.has(*fast))))
@@ -60,7 +61,7 @@ def of_given(value: Expr, letters: Sequence[Symbol], moving: Sequence[Symbol]) -
 
 
 def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
-    """sqrt((p_x + b y)^2 + m^2 c^2): completed squares under a root, if this is shorter."""
+    """Complete squares under roots, if this is shorter: sqrt((p_x + b y)^2 + m^2 c^2)."""
     roots = {
         power: by_letters(power.base, letters) ** power.exp
         for power in value.atoms(Pow)
@@ -70,7 +71,7 @@ def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
-    """The last line of an energy: its terms in the order of these names, terms without any of them last."""
+    """Return the last line of an energy: its terms in the order of these names, and terms without any of them last."""
 
     def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
         first = next((i for i, name in enumerate(names) if term.has(name)), len(names))
@@ -83,7 +84,7 @@ def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
 
 
 def part_of_degree(value: Expr, rates: Sequence[Symbol], degree: int) -> Expr:
-    """The part of a quadratic expression that is homogeneous in the rates of degree 0, 1 or 2."""
+    """Return the part of a quadratic expression that is homogeneous of degree 0, 1 or 2 in the rates."""
     u = Dummy("u")
     scaled = bound(explicit(value), {v: u * v for v in rates})
     halved = Rational(1, 2) if degree == 2 else Integer(1)

@@ -1,7 +1,7 @@
-"""The energy function of a Lagrangian: whether it is the energy, and whether it is conserved, are separate questions.
+"""The energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L, and its rate of change.
 
-h = sum of q_dot dL/dq_dot - L is constant if L does not depend on time explicitly and no force outside of L does work.
-It is T + U if the places of the mass points depend only on the coordinates.
+h is constant if L does not depend on time explicitly, and if no force outside L does work. h is T + U if the positions
+of the mass points depend only on the coordinates. Neither condition follows from the other.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ __all__ = ["energy_function", "energy_function_rate"]
 
 
 def outcome_of_energy(value: Expr, of: Quantity) -> str:
-    """Whether an energy function in coordinates and rates is T + U, and whether it is conserved."""
+    """Return the outcome for an energy function in coordinates and rates: whether it is T + U, and conserved."""
     if energies_of(of) is None:
         return _of_given(of)
     whole = is_zero(value - of.needed(Energies).whole)
@@ -45,14 +45,14 @@ def outcome_of_energy(value: Expr, of: Quantity) -> str:
 
 
 def _of_given(of: Quantity) -> str:
-    """The outcome for a given Lagrangian: its energy is unknown, so only whether the function is conserved."""
+    """Return the outcome for a given Lagrangian: whether h is conserved. T and U are unknown."""
     if not is_zero(_power_beside(of)):
         return "given_work"
     return "given_changing" if TIME in explicit(of.value).free_symbols else "given_conserved"
 
 
 def _power_beside(of: Quantity) -> Expr:
-    """The power of forces without a potential energy, and of forces that keep a moving constraint."""
+    """Return the power of forces without a potential energy, and of the forces of moving constraints."""
     matter = of.needed(Matter)
     loads = [load for load in matter.others if isinstance(load, Load)]
     works = [rate(q) * load.work_along(q) for q in matter.coordinates for load in loads]
@@ -60,7 +60,7 @@ def _power_beside(of: Quantity) -> Expr:
 
 
 def _powers_of_conditions(of: Quantity) -> list[Expr]:
-    """-lambda df/dt for each moving constraint: the force of a fixed constraint does no work."""
+    """Return -lambda df/dt for each moving constraint; the force of a fixed constraint does no work."""
     kept, moving = of.fact(Constrained), list(of.coordinates)
     still = {rate(q): Integer(0) for q in moving}
     moved = [(c.force, c.velocity(moving).xreplace(still)) for c in (kept.constraints if kept else ())]
@@ -68,7 +68,7 @@ def _powers_of_conditions(of: Quantity) -> list[Expr]:
 
 
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
-    """The difference of T + U and the energy function, and the same from the parts of T."""
+    """Return T + U minus the energy function, and the same as T_1 + 2 T_0, the parts of T by degree in the rates."""
     if energies_of(of) is None:
         return {}
     excess = by_rates(tidied(of.needed(Energies).whole - value), [q.symbol for q in coordinates_of(of)])
@@ -93,11 +93,11 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
     of   the Lagrangian, J
-    Second route: T_2 - T_0 + U, with the parts of T of degree 2 and 0 in the rates; for a given L, the derivative of L
-    when all rates are scaled, and by the energy identity its rate as a function of time.
+    Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates; for a given L,
+    the derivative of L by a common factor of all rates, minus L, and the rate of h by the energy identity.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (and not T + U);
-    given_conserved, given_changing, given_work (L is given).
+    time), changing (neither); work_energy (T + U, but a force outside L does work), work (a force outside L does work,
+    and h is not T + U); given_conserved, given_changing, given_work (the same for a given L).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
     moving = coordinates_of(of)
@@ -155,15 +155,16 @@ ENERGY_FUNCTION_RATE = Rule(
 
 
 def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
-    """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt, with the partial derivative
-    of L by time; and -lambda df/dt for each moving constraint f = 0.
+    """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt - sum of lambda df/dt, where dL/dt
+    and df/dt are partial derivatives by time, for constraints f = 0.
 
-    of   the energy function, J
-    Steps derive the generalized forces Q.
-    Second route: h as a function of time, minus the sum of q_dot (m a - F) . dr/dq, which vanishes by d'Alembert's
-    principle.
-    Outcomes: conserved (L does not contain the time), changes, work (forces without a potential energy do work), lost
-    (it can only decrease), work_and_time (both).
+    of   the energy function h, J
+    Steps derive the generalized forces Q. For a constraint linear in the rates, the terms without rates replace df/dt.
+    Second route: the time derivative of h as a function of t, minus the sum of q_dot (m a - F) . dr/dq, which vanishes
+    by d'Alembert's principle.
+    Outcomes: conserved (no force outside L does work, and L does not contain the time), changes (only because L
+    contains the time), work (a force outside L does work), lost (its power is never positive), work_and_time (a force
+    outside L does work, and L contains the time).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4, 2.5 and 2.7.
     """
     L = of.needed(FromLagrangian).lagrangian
@@ -221,5 +222,5 @@ def _sort_of_rate(found: Expr, in_time: Expr, moving: Sequence[Symbol]) -> str:
 
 
 def _takes(term: Expr, moving: Sequence[Symbol]) -> bool:
-    """Whether a term is a square of rates with a minus sign."""
+    """Whether a term contains rates and can only be zero or negative."""
     return bool(term.is_nonpositive) and term.has(*(rate(q) for q in moving))

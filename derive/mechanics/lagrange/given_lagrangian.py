@@ -1,8 +1,8 @@
-"""Lagrangians that are given as a formula, without mass points and forces.
+"""Lagrangians that are given as formulas, without mass points and forces.
 
-Second routes use the action instead of bodies: momenta and forces are first-order changes of L when a rate or a
-coordinate varies, and the energy identity dh/dt + dL/dt = q_dot (d/dt dL/dq_dot - dL/dq) checks an equation of motion
-without a derivative of L by its coordinate.
+Second routes use variations of L instead of bodies: momenta and forces are the first-order changes of L when a rate or
+a coordinate varies. The energy identity dh/dt + dL/dt = sum of q_dot (d/dt dL/dq_dot - dL/dq), where dL/dt is a partial
+derivative, checks an equation of motion without a derivative of L by the coordinate.
 
 Source: Landau, Lifshitz, *Mechanics*, sections 2 and 6; Goldstein, Poole, Safko, *Classical Mechanics*, section 2.3.
 """
@@ -37,7 +37,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class WithoutBodies:
-    """The system of a given Lagrangian: its coordinates, and additional forces along them."""
+    """The system of a given Lagrangian: the function, its coordinates, and additional forces along them."""
 
     function: Expr
     given_forces: tuple[GivenForce, ...] = ()
@@ -57,7 +57,7 @@ class WithoutBodies:
 
     @cached_property
     def described(self) -> Described:
-        """The input of the witness: the function, and the forces along its coordinates."""
+        """Return the input of the numerical witness: the function, and the forces along its coordinates."""
         return Described(
             described((*self.given_forces, *self.dampers), (), (), {}, None, self.coordinates, self.function)
         )
@@ -76,14 +76,14 @@ def given_lagrangian(
     symbol: str | None = None,
     key: str = "lagrangian",
 ) -> Quantity:
-    """Lagrangian that is given as a formula, L = f(q, q_dot, t): a premise, which is not derived, as a definition is
-    not derived.
+    """Lagrangian that is given as a formula, L = f(q, q_dot, t): a premise, which is not derived, like a definition.
 
     function   a formula in coordinates, their rates and the time
     acting     additional forces along coordinates: couples, and drag against a rate
-    kind       its kind, an energy for the Lagrangian of a mechanical system
-    Expressions under its roots are assumed to be positive.
-    Errors: it contains no rate of a coordinate, or an acceleration.
+    kind       the kind of L, an energy for a mechanical system
+    Expressions under square roots are assumed to be positive, so L is real.
+    Errors: the formula contains no rate of a coordinate, or it contains an acceleration; a force acts along another
+    coordinate.
     Source: Landau, Lifshitz, *Mechanics*, section 2.
     """
     whole = explicit(function)
@@ -124,7 +124,7 @@ def _radicands(whole: Expr) -> set[Expr]:
 
 
 def _take_as_real(base: Expr) -> None:
-    """Assume that expressions under roots of the Lagrangian are positive, since it is real; the page states this."""
+    """Assume that an expression under a square root of L is positive, because L is real; the page states this."""
     above, below = together(base).as_numer_denom()
     if base.is_nonnegative or sign_within(base) == 1:
         return
@@ -136,14 +136,16 @@ def _take_as_real(base: Expr) -> None:
 
 
 def energy_of(matter: Varied) -> Expr:
-    """h, from the first-order change of L when all rates are scaled by a factor: the sum of q_dot p, minus L."""
+    """Return h, the sum of q_dot p minus L; the sum is the derivative of L by a common factor of all rates."""
     stretch = Dummy("u", real=True)
     rates = {rate(q): (1 + stretch) * rate(q) for q in matter.coordinates}
     return slope(bound(matter.function, rates), stretch).xreplace({stretch: ZERO}) - matter.function
 
 
 def rate_of_energy(matter: Varied) -> Expr:
-    """dh/dt by the energy identity, for all functions of time: the sum of q_dot times each equation, minus the
-    partial derivative of L by time."""
+    """Return dh/dt by the energy identity: the sum of q_dot (dp/dt - dL/dq) minus the partial derivative of L by time.
+
+    The identity is true for all functions q(t), not only for motions.
+    """
     works = (rate(q) * matter.inertia_along(q) for q in matter.coordinates)
     return Add(*works) - slope(matter.function, TIME)

@@ -1,4 +1,4 @@
-"""The equation for the rates from a conserved momentum of known value: I_z (psi_dot + phi_dot cos theta) = I_z S."""
+"""The equation for rates from a conserved momentum with a known value: I_z (psi_dot + phi_dot cos theta) = I_z S."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ VALUE_KEPT = Rule(
 
 
 def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Quantity:
-    """A conserved momentum with its value, p_q = c: an equation of first order.
+    """A conserved momentum set equal to its value, p_q = c: a differential equation of first order.
 
     momentum   the result of `conserved`
-    value      its value at the start: a premise
-    matter     the mass points of the momentum
-    Second route: the sum of m v . dr/dq over the mass points is that value; and its rate by functions of time is the
-    sum of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
-    Errors: the value is not constant.
+    value      the initial value c of the momentum: a premise
+    matter     the mass points and forces of the system
+    Second route: the sum of m v . dr/dq over the mass points, minus c, is p_q - c; the time derivative of p_q - c as a
+    function of t is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
+    Errors: the value is not constant; the momentum is not linear in the rate of its coordinate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     require_constant("conserved", "value", value)

@@ -1,7 +1,7 @@
-"""Lagrange's equations: energies in generalized coordinates, the Lagrangian, and the equation of motion of each.
+"""Lagrange's equations: the Lagrangian, and the equation of motion for each coordinate.
 
-The second routes go back to places and forces (`derive.mechanics.model.dalembert`): momenta as mass times velocity
-along the motion of one coordinate, equations of motion by d'Alembert's principle.
+Second routes start from positions and forces (`derive.mechanics.model.dalembert`): a momentum is the sum of
+m v . dr/dq, and an equation of motion follows from d'Alembert's principle.
 """
 
 from __future__ import annotations
@@ -56,9 +56,10 @@ LAGRANGIAN = Rule(
 def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian") -> Quantity:
     """Lagrangian, L = T - U; for charges in magnetic fields, L = T - U + sum of q v . A.
 
-    system   particles and bodies, and what acts on them; with the symbol "L_2" its energies are T_2 and U_2
-    Second route: the sum of q_dot dL/dq_dot, minus L, is the energy T + U, for constraints that do not move; if L
-    contains the time or a magnetic field, L + U minus q v . A is the kinetic energy of the mass points.
+    system   particles and bodies, with the forces on them
+    The index of the symbol is also the index of the energies: T_2 and U_2 for "L_2".
+    Second route: the sum of q_dot dL/dq_dot, minus L, is the energy T + U; if a position or U depends on time
+    explicitly, or in a magnetic field, L + U - sum of q v . A is the kinetic energy of the mass points.
     Errors: the argument is not a system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
@@ -103,7 +104,7 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
 
 
 def _side_by_side(*terms: Expr) -> Expr:
-    """The sum with its terms unchanged and in order, without terms that are 0."""
+    """Return the sum with its terms unchanged and in order, without terms that are zero."""
     present = [term for term in terms if term != 0]
     return Terms(*present) if len(present) > 1 else Add(*present)
 
@@ -130,11 +131,11 @@ def equation_of_motion(
 ) -> Quantity:
     """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0; with other forces and constraints, see `forced_equation`.
 
-    of   the Lagrangian, J
-    q    one of its coordinates
-    derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and its rate
-    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
-    Outcomes: generic, cyclic (L does not contain q, so its momentum is constant).
+    of            the Lagrangian, J
+    q             one of its coordinates
+    derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and the rate of the momentum
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
+    Outcomes: generic, cyclic (L does not contain q, so the momentum of q is constant).
     Errors: L does not depend on q.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
@@ -163,7 +164,7 @@ def equation_of_motion(
     if found and of.fact(Varied) is not None:
         terms = explicit(found[2].value) - explicit(found[0].value)
         gathered = min((gathered, terms), key=length)
-    alone = len(coordinates_of(of)) == 1  # with several equations, dividing out factors would hide their symmetry
+    alone = len(coordinates_of(of)) == 1  # in several equations the factors remain, because they show symmetry
     left = _without_common_factor(gathered, moving) if alone else gathered
 
     return establish(
@@ -192,9 +193,10 @@ def equation_of_motion(
 
 
 def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
-    """l theta_ddot + g sin(theta) from m l^2 theta_ddot + m g l sin(theta): without common positive factors.
+    """Divide by common positive factors: m l^2 theta_ddot + m g l sin(theta) becomes l theta_ddot + g sin(theta).
 
-    Factors with a coordinate remain, and so do denominators; numbers in brackets count too.
+    Factors that contain a coordinate and factors in a denominator remain. Numeric factors that are
+    common to all terms, also inside brackets, are divided out.
     """
     terms = Add.make_args(left)
     factors = Mul.make_args(common_factor(list(terms)))
@@ -206,9 +208,9 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
-    """2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2: without a common numeric factor.
+    """Make all numeric factors whole: 2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2.
 
-    But I + M a^2/4, a moment of inertia, is unchanged.
+    A sum with denominators in some terms only, such as a moment of inertia I + M a^2/4, is unchanged.
     """
     apart: list[tuple[Expr, list[Expr]]] = []
     for term in terms:
@@ -231,13 +233,13 @@ def _has_some_fractions(factor: Expr) -> bool:
 
 
 def _product(*factors: Expr) -> Expr:
-    """The product; its sums keep their brackets."""
+    """Return the product, with its sums in brackets."""
     written = any(each.is_Add for each in factors)
     return Mul(*(each for each in factors if each != 1 or not written), evaluate=not written)
 
 
 def _divided(term: Expr, common: Expr) -> Expr:
-    """The quotient, factor by factor, so brackets remain."""
+    """Divide by each factor of `common` in turn, so that brackets remain."""
     for factor in Mul.make_args(common):
         term = term / factor
     return term
@@ -247,7 +249,7 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
     """Lagrange's equations, one for each coordinate, d/dt dL/dq_dot - dL/dq = 0.
 
     of            the Lagrangian, J
-    derivatives   whether steps derive dL/dq, dL/dq_dot and its rate
+    derivatives   whether steps derive dL/dq, dL/dq_dot and the rate of dL/dq_dot
     Keys: motion_ and the name of the coordinate.
     Second route: as `equation_of_motion`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
@@ -260,7 +262,7 @@ def _difference(first: Expr, second: Expr) -> Expr:
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """The prefix of keys for a second Lagrangian on the page: its key, or the name of its system."""
+    """Return the key of a step; its prefix is the key of the Lagrangian, unless that is the usual key."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"
@@ -284,7 +286,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
     of   the Lagrangian, J
     q    one of its coordinates
     Second route: the sum of F . dr/dq over the loads and of m v . d(dr/dq)/dt over the mass points.
-    Outcomes: generic, zero (q does not occur).
+    Outcomes: generic, zero (L does not contain q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     matter = of.needed(Matter)
@@ -352,8 +354,8 @@ def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> 
     """Rate of a generalized momentum, dp/dt, by the chain rule.
 
     momentum   dL/dq_dot
-    q          its coordinate
-    Check: the coordinates as functions of t, each by its Taylor series.
+    q          the coordinate of the momentum
+    Check: differentiate with each coordinate as its Taylor series in t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     moving = list(momentum.coordinates)

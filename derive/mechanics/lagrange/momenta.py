@@ -1,4 +1,4 @@
-"""Conjugate momenta, p_q = dL/dq_dot: their symbols, their kinds, and their form."""
+"""Conjugate momenta, p_q = dL/dq_dot: their symbols, kinds and forms."""
 
 from __future__ import annotations
 
@@ -31,8 +31,10 @@ def letter_of_momentum(q: Coordinate) -> Symbol:
 
 
 def kind_of_momentum(kind: str, lagrangian: str | None = "energy") -> str | None:
-    """The kind of the momentum: momentum for a length, angular momentum for an angle; None if the dimension has no
-    name, for example because the Lagrangian is not an energy."""
+    """Return the kind of the momentum of a coordinate: momentum for a length, angular momentum for an angle.
+
+    The result is None if no kind has this dimension, for example because the Lagrangian is not an energy.
+    """
     if lagrangian is None:
         return None
     return kind_of_dimension(
@@ -41,9 +43,9 @@ def kind_of_momentum(kind: str, lagrangian: str | None = "energy") -> str | None
 
 
 def conjugate(of: Coordinate) -> Coordinate:
-    """The momentum p_q as a symbol next to the coordinate, for functions of both: `x*p_y - y*p_x`.
+    """Return the symbol p_q of the momentum of a coordinate, for functions in phase space: `x*p_y - y*p_x`.
 
-    of   the coordinate, an angle or a length
+    of   the coordinate, such as an angle or a length
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     kind = kind_of_momentum(of.kind)
@@ -88,7 +90,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
 
 
 def written_momentum(value: Expr, of: Quantity) -> Expr:
-    """The momentum collected by rates; for a given Lagrangian term by term if that is shorter, as with a root."""
+    """Collect a momentum by rates; for a given Lagrangian, simplify term by term if this is shorter, as with roots."""
     forms = [by_rates(value, list(of.coordinates))]
     if energies_of(of) is None:
         forms.append(Add(*(tidied(term) for term in Add.make_args(explicit(value)))))

@@ -1,4 +1,4 @@
-"""Noether's theorem: a shift of the coordinates that leaves the Lagrangian unchanged gives a constant of the motion.
+"""Noether's theorem: a shift of the coordinates under which the Lagrangian is invariant gives a constant of the motion.
 
 Source: Landau, Lifshitz, *Mechanics*, sections 7 and 9; Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
 """
@@ -51,11 +51,12 @@ def noether(
 
     of       the Lagrangian, J
     shift    coordinate -> xi, a formula in coordinates and time: each q becomes q + epsilon xi
-    gained   F in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
-    Steps show that L is invariant, and derive the momenta.
-    Second route: its rate by functions of time is d'Alembert's sum along the shift, sum of xi (m a - F) . dr/dq, which
-    vanishes; and it is the sum of m v . dr and q A . dr, where dr is the displacement of each mass point by the shift.
-    Outcomes: symmetry, with_gain.
+    gained   F, a formula in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
+    Steps show that L is invariant up to dF/dt, and derive the momenta.
+    Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f,
+    which vanishes by d'Alembert's principle; and Q + F is the sum of m v . dr and q A . dr, where epsilon dr is the
+    displacement of a mass point by the shift.
+    Outcomes: symmetry, with_gain (F is not zero).
     Errors: L is not invariant, and the message shows the difference; the shift contains a rate, or is zero.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
@@ -109,7 +110,7 @@ def _formulas(of: Quantity, shift: Mapping[Coordinate, Any]) -> dict[Symbol, Exp
 
 
 def _plain(value: Any, role: str, of: Quantity) -> Expr:
-    """A formula in coordinates and time, without rates."""
+    """Return a formula in coordinates and time; a formula with rates is rejected."""
     found = value.symbol if isinstance(value, Coordinate) else Integer(value) if isinstance(value, int) else value
     if not isinstance(found, Expr) or found.has(*(rate(q, n) for q in of.coordinates for n in (1, 2))):
         message = f"`noether`: the {role} must be a formula in coordinates and time, without rates"
@@ -129,7 +130,7 @@ CHANGE_UNDER_SHIFT = Rule(
 
 
 def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Quantity:
-    """The first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt, which must vanish or be dF/dt."""
+    """Derive the first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt, which must be dF/dt, or zero."""
     matter = of.needed(Matter)
     moving = [q.symbol for q in coordinates_of(of)]
     L = explicit(of.value)
@@ -155,7 +156,8 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         return by_functions_of_time(gain, moving)
 
     def by_places(found: Relation) -> tuple[Any, Any]:
-        """The change of (1/2) m v.v of the points by the shift, and the work of the loads."""
+        """Return the change of L from mass points and forces: that of (1/2) m v.v, the work of the forces, and the rate
+        of q A . dr for charges in magnetic fields."""
         if isinstance(matter, Varied):
             left = matter.change_along(xi)
             return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([left, changed_by(gain)])
@@ -179,14 +181,14 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
 
 
 def _worked(L: Expr, ways: Mapping[Symbol, Expr], gain: Expr, moving: Sequence[Symbol]) -> list[Form]:
-    """The substituted derivatives, if any of them does not vanish."""
+    """Return the line with the derivatives substituted, if L contains a shifted coordinate or its rate."""
     terms = [_times(by_rates(diff(L, s), moving), x) for s, x in ways.items()]
     right = by_rates(explicit(TimeRate(gain, *moving)), moving)
     return [Form(Relation(Terms(*terms), "=", right), "put_in", Level.STANDARD)] if terms else []
 
 
 def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, Expr]]:
-    """Mass, displacement by the shift, and velocity of each point along each axis."""
+    """Return the mass, the displacement by the shift and the velocity of each mass point along each axis."""
     found: list[tuple[Expr, Expr, Expr]] = []
     for point in matter.points:
         for c in point.place:
@@ -196,14 +198,14 @@ def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, E
 
 
 def _times(derivative: Expr, factor: Expr) -> Expr:
-    """The product, in its bracket if it would otherwise expand."""
+    """Return the product, with brackets that remain if a factor is a sum."""
     both = factor != 1 and (factor.is_Add or derivative.is_Add)
     return Factors(factor, derivative) if both else factor * derivative
 
 
 @in_results(
     "noether",
-    "from the Lagrangian what is conserved by the symmetry",
+    "the quantity that is conserved by a symmetry of the Lagrangian",
     of="noether: a Lagrangian",
     values="values: the shift of each coordinate, `{x: -y, y: x}`",
     gained="gained",
