@@ -1,7 +1,8 @@
-"""The numbers of the letters of a problem, for the few verbs that need them to decide between cases.
+"""The numerical values of a problem's symbols, for the few verbs that need them to decide between cases.
+
 A derivation stays symbolic, but whether a top spins fast enough is a question about numbers. While a script runs, the
-ranges of its letters and the numbers that its problem gives are known here, and `sign_known` uses them where the
-letters do not decide.
+ranges of its symbols and the numbers that its problem gives are known here. The function `sign_known` uses them if the
+symbols alone do not decide.
 """
 
 from __future__ import annotations
@@ -22,23 +23,23 @@ from derive.steps.record import assume, current_run, named_coordinates, question
 from derive.steps.rule import Doubt
 
 DIGITS, SHORT = 30, 20
-DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is unknown
+DECIDES = "give ranges or numbers of the letters that decide whether"  # an unknown relation follows
 
 
 @question
 def with_numbers(expr: Expr) -> Expr:
-    """Substitute the given numbers for the letters of the expression, as far as there are any."""
+    """Substitute the numbers that the problem gives for symbols of the expression."""
     run = current_run.get()
     return explicit(bound(explicit(expr), run.numbers if run else {}))
 
 
 def have_numbers(*values: Any) -> bool:
-    """Whether the problem gives a number for each of their letters."""
+    """Whether the problem gives a number for each symbol of these vectors."""
     return not any(with_numbers(entry).free_symbols for value in values for entry in value)
 
 
 def sign_known(expr: Expr) -> int | None:
-    """Return the sign of an expression, by its letters, their ranges or their numbers: 1, -1, 0; None if unknown."""
+    """Return the sign of an expression, by its symbols, their ranges or their numbers: 1, -1 or 0; None if unknown."""
     factors = [_sign_of_factor(factor) for factor in Mul.make_args(tidied(expr))]
     if 0 in factors:
         return 0
@@ -46,7 +47,7 @@ def sign_known(expr: Expr) -> int | None:
 
 
 def undecided(value: Any) -> Doubt:
-    """Return the reason: the unknown order of two terms in the value, l < r_0; else that numbers contradict it."""
+    """Return the reason for a doubt: the unknown order of two terms in the value, l < r_0; else contrary numbers."""
     parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
     exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
     sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]
@@ -91,7 +92,7 @@ def may_vanish(*values: Expr) -> Relation | None:
 
 
 def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
-    """Return the condition that a sentence states on the denominators: the factors that must not vanish, if any may."""
+    """Return the condition that a sentence states on the denominators: the factors that might vanish must not."""
     below: Expr = Integer(1)
     for value in values:
         below = lcm(below, tidied(value).as_numer_denom()[1])
@@ -100,7 +101,7 @@ def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relati
 
 
 def taken_positive(value: Expr) -> int | None:
-    """Return the sign of a value; if it is unknown, take the value to be positive, and let the page state this."""
+    """Return the sign of a value; if it is unknown, assume that the value is positive, and let the page state this."""
     sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
     if sign is not None:
         return sign
@@ -114,7 +115,7 @@ def taken_positive(value: Expr) -> int | None:
 
 
 def _factors(value: Expr) -> list[Expr]:
-    """Return the factors without numbers and even powers; their product keeps the sign of the value."""
+    """Return the factors without numbers and even powers; their product has the sign of the value."""
     try:
         number, found = factor_list(value)
     except PolynomialError:
