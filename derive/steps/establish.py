@@ -146,7 +146,7 @@ def establish(
     """Make a step, or raise an error.
 
     rule        the law, its source, its outcomes and its evidence; a rule without evidence is a definition
-    symbol      what the page calls the result
+    symbol      the symbol of the result on the page
     law         a function of the inputs, in their order; it is called with names and with values
     inputs      role -> Quantity, or plain SymPy value
     routes      claim of the rule -> function of the result, which returns two values that must be equal

@@ -193,7 +193,7 @@ def judged_facts() -> frozenset[type[Any]]:
 
 
 def _names_its_point(facts: Judged) -> bool:
-    """Whether the named point is the one that the result is about, if that is known."""
+    """Whether the words name the reference point of the result, if this point is known."""
     known = getattr(facts.subject.point, "name", None)
     in_full = {CENTRE_OF_MASS: "centre"} if known == "centre" else {}
     named = {in_full.get(facts.words[word], facts.words[word]) for word in ("about", "point") if word in facts.words}
@@ -201,7 +201,7 @@ def _names_its_point(facts: Judged) -> bool:
 
 
 def _names_its_axis(facts: Judged) -> bool:
-    """Whether the named axis is the one that the result is about, if that is known."""
+    """Whether the words name the axis of the result, if this axis is known."""
     axis = facts.subject.axis
     named = {facts.words[word] for word in ("axis", "axis_letter") if word in facts.words}
     return not isinstance(axis, str) or named <= {axis}
