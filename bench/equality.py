@@ -1,11 +1,10 @@
-"""How much faster derive decides whether two expressions are equal than SymPy does. Run by `make bench`.
+"""Measure how much faster than SymPy derive decides whether two expressions are equal. Run by `make bench`.
 
     equal    over `left.equals(right)`             aim 20
     equal    over `simplify(left - right) == 0`    aim 20
 
-All three methods decide the same pairs from the corpus of the tests. All caches are emptied before each, and each has
-the same time limit. The figure is the median of the ratios. Wrong and missing answers are counted. Times are processor
-times.
+All three methods decide the same pairs of the tests. Before each decision all caches are emptied, and each decision has
+the same time limit. The figure is the median of the ratios of processor times. Wrong and missing answers are counted.
 """
 
 from __future__ import annotations
@@ -45,7 +44,7 @@ def emptied() -> None:
 
 
 def timed(question: Callable[[], Any]) -> tuple[Any, float]:
-    """Return the answer, or None if it takes too long, and the seconds."""
+    """Return the answer, or None if it takes too long or fails, and the processor seconds."""
 
     def stop(*_: Any) -> None:
         raise TimeoutError
@@ -72,7 +71,7 @@ def main() -> None:
     }
     spent: dict[str, list[float]] = {way: [] for way in ways}
     failed = dict.fromkeys(ways, 0)
-    began, step = time.monotonic(), 7  # no family of pairs repeats with period seven
+    began, step = time.monotonic(), 7  # a step of 7 mixes the families of pairs
     for pair in (pairs[n] for start in range(step) for n in range(start, len(pairs), step)):
         if time.monotonic() - began > SECONDS:
             break

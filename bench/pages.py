@@ -1,14 +1,13 @@
-"""How long pages for a browser take. Run by `make bench`.
+"""Measure the times of pages for a browser. Run by `make bench`.
 
-    edit of a word, previewed    from the file's change until `derive preview` reports the page          aim 0.3 s
-    edit of a given, previewed   the same, minus the time of the derivation alone, nothing kept          aim 0.3 s
-    HTML of a set                over its PDFs, the derivations kept from before                         aim 0.5
+    edit of a word, previewed    from the change of the file until `derive preview` reports the page     aim 0.3 s
+    edit of a given, previewed   the same, minus the time of the derivation alone without a cache        aim 0.3 s
+    HTML of a set                divided by the time of its PDFs, with derivations from the cache        aim 0.5
     HTML of a set, cold          the same, with everything derived and drawn                             aim 0.5
 
-Each edit writes a text that was never there before. The derivation alone is timed for the same edit, just after it, in
-a process that has derived before, as the preview has. The pages of the set are those that a build makes, one after
-another in a process that has loaded what it needs. Each figure is the least of several runs, except cold, which runs
-once.
+Each edit writes a new text. The derivation alone is timed for the same edit, just after it, in a process that has
+derived before, like the preview. The pages of the set are those of a build, one after another in a process that has
+loaded all modules. Each figure is the least of several runs, except the cold one, which is a single run.
 """
 
 from __future__ import annotations
@@ -73,15 +72,15 @@ def previewed(tree: Path) -> Iterator[Callable[[], str]]:
 
 
 def edits(tree: Path) -> dict[str, float]:
-    """Return the seconds until an edited page is reported, for a word and for a given, and of the derivation of that
-    given.
+    """Return the seconds until an edited page is reported, for a word and for a given, and those of the derivation
+    alone.
     """
     edited = Edited(tree / "problems" / SET / f"{PROBLEM}.yaml")
     alone: Callable[[], Any] = lambda: derived(load_problem(tree, f"{SET}/{PROBLEM}"))  # noqa: E731
     alone()
     with previewed(tree) as another:
         edited.given()
-        another()  # loads everything that draws
+        another()  # this loads all modules that draw
         words = [_until(edited.word, another) for _ in range(2 * ROUNDS)]
         givens = [(_until(edited.given, another), seconds(alone, rounds=1)) for _ in range(ROUNDS)]
     return dict(zip(("given", "derivation", "word"), map(min, (*zip(*givens, strict=True), words)), strict=True))
@@ -122,12 +121,12 @@ def pdf(root: Path, cache: Cache) -> None:
 
 
 def in_a_worker(work: Callable[[], None]) -> Callable[[], None]:
-    """Return `work` as a job of a process that has made no page before."""
+    """Return a function that does `work` in a process that has made no page before."""
     return lambda: done(Job("pages", work, LIMIT))
 
 
 def sets(tree: Path, folder: Path) -> dict[str, tuple[float, float]]:
-    """Return the seconds of HTML and of PDF, with kept derivations and without."""
+    """Return the seconds of HTML and of PDF, with derivations from the cache and without."""
     load(tree, derives=True, draws=True)
     caches = Cache(folder / "html"), Cache(folder / "pdf")
     works = [in_a_worker(partial(make, tree, cache)) for make, cache in zip((html, pdf), caches, strict=True)]

@@ -1,12 +1,13 @@
-"""How long the derivation of a problem takes, in processor seconds. Run by `make bench`.
+"""Measure the time of the derivation of problems, in processor seconds. Run by `make bench`.
 
     each problem         the seconds, aim 5, and their ratio to `import sympy` in the same run
     a chain of n rods    the exponent b of n^b, from 4 rods to 8; aim 2.7
     a body of n parts    the exponent b of n^b, from 8 parts to 16; aim 2.5
 
-The problems are those of `bench/problems`, and the chains and bodies described here. Each is derived once in a separate
-process, imports not counted; the figure is the least of two processes. One problem has neither a closed form nor
-numbers; its time is that of the refusal. `derive --root bench check timed` shows how many steps each problem has.
+The problems are those of `bench/problems`, and the chains and bodies of this module. Each is derived in a separate
+process, without the time of imports; the figure is the least of two processes. One problem has neither a closed form
+nor numbers, so its time is that until it is refused. `derive --root bench check timed` shows how many steps each
+problem has.
 """
 
 from __future__ import annotations
@@ -118,7 +119,7 @@ def timed_problems(root: Path) -> list[str]:
 
 def derivation(root: Path, name: str) -> float:
     """Return the seconds in which this process derives or refuses a problem."""
-    import scipy.integrate  # noqa: F401  the witness imports it, and NumPy with it, once it follows a motion
+    import scipy.integrate  # noqa: F401  the witness imports it and NumPy when it first integrates
 
     from derive.building.loaded import load
 

@@ -1,14 +1,14 @@
-"""How long derive takes, as ratios to the least time that the same work could take. Run by `make bench`.
+"""Measure the times of derive, divided by the least time that the same work could take. Run by `make bench`.
 
-    cold build of a set       over two pdflatex passes on its TeX and `import sympy`          aim 2
-    cold build of the library the same                                                        aim 3
-    edit of a word to PDF     over one pdflatex pass on the problem's TeX and `import sympy`  aim 1.5
-    edit of a given to PDF    the same                                                        aim 2.5
-    the same word, warm       over that pass alone, until `derive build --watch` wrote it     aim 1.2
-    make, nothing changed     in milliseconds                                                 aim 30
-    derive --help             over `python -P -c pass`                                        aim 3
+    cold build of a set       / two pdflatex passes on its TeX and `import sympy`             aim 2
+    cold build of the library / the same                                                      aim 3
+    edit of a word to PDF     / one pdflatex pass on the problem's TeX and `import sympy`     aim 1.5
+    edit of a given to PDF    / the same                                                      aim 2.5
+    edit of a word, warm      / that pass alone; until `derive build --watch` writes the PDF  aim 1.2
+    make, nothing to do       in milliseconds                                                 aim 30
+    derive --help             / `python -P -c pass`                                           aim 3
 
-Everything is measured side by side in one run, in a copy of the tree. Each figure is the median of several runs (the
+All times are measured in one run, in a copy of the tree. Each figure is the median of several runs (the
 library is built once), so a slow machine changes the seconds but hardly the ratios. No test depends on these figures.
 """
 
@@ -36,7 +36,7 @@ SET, PROBLEM, LIBRARY = "hw9", "block", "library"
 
 
 def seconds(work: Callable[[], object], before: Callable[[], object] = lambda: None, rounds: int = ROUNDS) -> float:
-    """Return the median time of `work`, with `before` done before each round and not counted."""
+    """Return the median time of `work`; `before` runs before each round, and its time is not counted."""
     times = []
     for _ in range(rounds):
         before()
@@ -59,7 +59,7 @@ def copied_tree(folder: Path) -> Path:
 
 
 class Edited:
-    """A problem's file; each edit writes a text that was never there before."""
+    """The file of a problem; each edit writes a new text."""
 
     def __init__(self, file: Path):
         self.file, self.text, self.edits = file, file.read_text(), 0
@@ -93,7 +93,7 @@ def watched(tree: Path) -> Iterator[Callable[[str], None]]:
 
 
 def warm(tree: Path, edit: Callable[[], None]) -> float:
-    """Return the median time from an edit to the problem's PDF while a process watches for edits."""
+    """Return the median time from an edit to the problem's PDF while `derive build --watch` runs."""
     times = []
     with watched(tree) as until:
         for _ in range(ROUNDS):

@@ -1,17 +1,18 @@
-"""How the work grows with the size of the problem, in processor seconds. Run by `make bench`.
+"""Measure how the work grows with the size of the problem, in processor seconds. Run by `make bench`.
 
-    a set of N problems      copies of short problems of the library: built from nothing, except TeX (over N sets of one
-                             problem, aim below 1); built again with nothing changed, and with a word of one problem
-                             changed (over the build from nothing): both at most proportional to N
-    a body of N parts        its centre of mass and its inertia tensor with every step and check (over the same sum
-                             multiplied out by SymPy): rods of one mass on a line, n^1; with separate masses and
-                             positions about the origin, n^1; about their common centre, where the answer has n^2 terms
-                             and each of N parts a step
-    an identity in n angles  (sum l_i cos a_i)^2 + (sum l_i sin a_i)^2 in sums of angles, n^2 terms; cos(a_1 + ... +
-                             a_n) in products, 2^(n - 1) terms: decided equal, and unequal with one sign changed (over
-                             SymPy's `expand(trig=True)`, which decides only the second; aim below 1)
+    a set of N problems      Copies of short problems of the library. Built from nothing, without TeX, divided by N sets
+                             of one problem (aim below 1). Built again with nothing changed, and with a word of one
+                             problem changed, divided by the build from nothing: both at most proportional to N.
+    a body of N parts        Its centre of mass and its inertia tensor with every step and check, divided by the same
+                             sum multiplied out by SymPy. Rods of one mass on a line grow as N^1. So do rods with
+                             separate masses and positions about the origin. About their common centre the answer has
+                             N^2 terms, and each of N parts has a step.
+    an identity in n angles  (sum l_i cos a_i)^2 + (sum l_i sin a_i)^2 in sums of angles, n^2 terms, and cos(a_1 + ... +
+                             a_n) in products, 2^(n - 1) terms. Each is decided to be equal, and unequal with one sign
+                             changed, divided by SymPy's `expand(trig=True)`, which decides only the second (aim below
+                             1).
 
-The growth is given as the exponent b of n^b through the upper half of the sizes.
+The growth is given as the exponent b of n^b, from the upper half of the sizes.
 """
 
 from __future__ import annotations
@@ -82,19 +83,19 @@ def of_sets() -> None:
         environment = {**os.environ, **paths, "DERIVE_ENGINE": "pdflatex"}
         return seconds(lambda: subprocess.run(command, cwd=at, env=environment, check=True, capture_output=True))
 
-    anew, again, edited = [], [], []
+    fresh, again, edited = [], [], []
     with tempfile.TemporaryDirectory() as folder:
         alone = sum(build(course(Path(folder) / f"one-{number}", 1)) for number in range(2)) / 2
         for size in SETS:
             at = course(Path(folder) / str(size), size)
-            anew.append(build(at))
+            fresh.append(build(at))
             again.append(build(at))
             file = at / "problems" / "many" / "p000.yaml"
             file.write_text(file.read_text().replace("statement: ", "note: Once more.\nstatement: ", 1))
             edited.append(build(at))
-    told("a set of problems", SETS, anew, [size * alone for size in SETS], "as many sets of one")
-    told("   with nothing changed", SETS, again, anew, "the build from nothing")
-    told("   with one problem reworded", SETS, edited, anew, "the build from nothing")
+    told("a set of problems", SETS, fresh, [size * alone for size in SETS], "as many sets of one")
+    told("   with nothing changed", SETS, again, fresh, "the build from nothing")
+    told("   with one problem reworded", SETS, edited, fresh, "the build from nothing")
 
 
 # --- bodies ----------------------------------------------------------------------------------------------------------
@@ -181,7 +182,7 @@ def of_identities() -> None:
         return taken
 
     x = Symbol("x", real=True)
-    equal(cos(x) ** 2 + sin(x) ** 2, Integer(1))  # imports modules, so that their loading is not counted below
+    equal(cos(x) ** 2 + sin(x) ** 2, Integer(1))  # this imports modules, so their loading is not counted below
     for what, sides in (("square of a sum of n vectors", speed), ("cosine of a sum of n angles", cosine)):
         same, slip, least = [], [], []
         for n in ANGLES:

@@ -1,12 +1,13 @@
-"""How long equations of motion take against the size of the system, as ratios. Run by `make bench`.
+"""Measure the time of equations of motion against the size of the system, as ratios. Run by `make bench`.
 
     pendulum n    a chain of n rods with a mass at each joint, in a vertical plane
     springs N     N masses on a line between two walls, joined by springs
 
-Three times are compared for each system. The first is L and all equations of motion with every check, over
-`LagrangesMethod` of SymPy, which checks nothing (aim below 1). The second is the laws alone, without lines, routes and
-outcomes (aim 1/20 from n = 4). The third is Maxima, where it is installed. Each runs in a separate process, imports
-not counted, in processor seconds; the figure is the least of several runs.
+Three ratios are measured for each system. The first is the time of L and all equations of motion with every check,
+divided by that of SymPy's `LagrangesMethod`, which checks nothing (aim below 1). The second is the time of the laws
+alone, without lines, routes and outcomes, divided by the same (aim 1/20 from n = 4). The third is the time of the laws
+divided by that of Maxima, if Maxima is installed. Each runs in a separate process. Times are processor seconds without
+imports; each is the least of several runs.
 """
 
 from __future__ import annotations
@@ -24,13 +25,13 @@ ROUNDS = 3
 
 
 def everything_imported() -> None:
-    """Import the modules that SymPy imports only once they are used, and the systems of `sympy.physics`."""
+    """Import the modules that SymPy imports on first use, and `sympy.physics.mechanics`."""
     import sympy.assumptions.wrapper
     import sympy.physics.mechanics
     import sympy.sets.setexpr
     import sympy.tensor.array.expressions.array_expressions
     import sympy.tensor.array.expressions.arrayexpr_derivatives
-    import sympy.tensor.tensor  # noqa: F401  which the first sum asks for
+    import sympy.tensor.tensor  # noqa: F401  SymPy imports it at the first sum
 
 
 def seconds(work: Callable[[], object]) -> float:
@@ -72,10 +73,11 @@ def derived(kind: str, n: int) -> float:
 
 
 def laws_alone(kind: str, n: int) -> float:
-    """Return the seconds for L = T - U and d/dt dL/dq_dot - dL/dq, collected by accelerations, and nothing else."""
+    """Return the seconds for L = T - U and d/dt dL/dq_dot - dL/dq, collected by accelerations, without anything
+    else."""
     from sympy import Add, Rational
 
-    import derive.mechanics  # noqa: F401  its time is not counted
+    import derive.mechanics  # noqa: F401  the time of this import is not counted
     from derive.algebra.collect import by_accelerations
     from derive.algebra.expressions import Partial, TimeRate, bound, explicit, rate
     from derive.steps.record import recorded
@@ -127,7 +129,8 @@ def by_sympy(kind: str, n: int) -> float:
 
 
 def by_maxima(kind: str, n: int) -> float:
-    """Return the time that Maxima measures for the laws, with sums of angles, over many rounds: it shows 0.01 s."""
+    """Return the time that Maxima measures for the laws, with sums of angles, averaged over 20 rounds, because Maxima
+    resolves only 0.01 s."""
     times = 20
     energy = (
         "T: sum(m[i]*diff(x[i],t)^2/2, i, 1, n), U: k[1]*x[1]^2/2 + k[n+1]*x[n]^2/2"

@@ -1,4 +1,4 @@
-"""A real Chromium for tests of pages: without one their tests are left out, and the summary says so."""
+"""A real Chromium for tests of pages. If none is installed, these tests are left out and the summary says so."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ CRITERIA = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]
 
 @cache
 def chromium() -> str | None:
-    """The browser of this machine."""
+    """Return the path of the browser that is installed, or None."""
     return next((found for name in NAMES if (found := shutil.which(name))), None)
 
 
 @cache
 def _browser() -> Browser:
-    """One for all tests of a process, until that ends."""
+    """Return the browser that all tests of a process share until the process ends."""
     from playwright.sync_api import sync_playwright
 
     playwright = sync_playwright().start()
@@ -36,7 +36,7 @@ def _browser() -> Browser:
 
 @contextmanager
 def browser_page(width: int = 1000, **options: Any) -> Iterator[Page]:
-    """A page in a window of its own."""
+    """Yield a page in a new window."""
     context = _browser().new_context(viewport={"width": width, "height": 800}, **options)
     try:
         yield context.new_page()
@@ -45,9 +45,9 @@ def browser_page(width: int = 1000, **options: Any) -> Iterator[Page]:
 
 
 def barriers(page: Page) -> list[str]:
-    """What axe-core finds against the criteria of WCAG 2.1 AA and good practice.
+    """Return the violations of WCAG 2.1 AA and of good practice that axe-core finds.
 
-    Within a formula there are only its letters, thousands on a page, in the colour of what stands around it.
+    Formulas are excluded: they contain only letters, thousands on a page, in the colour of the surrounding text.
     """
     from axe_playwright_python.sync_playwright import Axe
 
@@ -57,5 +57,5 @@ def barriers(page: Page) -> list[str]:
 
 
 def overflow(page: Page) -> int:
-    """By how many pixels the page is wider than its window."""
+    """Return by how many pixels the page is wider than its window."""
     return int(page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth"))

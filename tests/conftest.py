@@ -1,4 +1,4 @@
-"""The key that seals what is kept belongs to the tests: nothing is written to the folders of whoever runs them."""
+"""Settings of the test run. The tests have their own key for the cache and write nothing to the folders of the user."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from hypothesis import settings
 import derive  # noqa: F401  before SymPy is imported, whose cache it sets
 from tests.browser import chromium
 
-# A shell that starts `make test` in the background of a script has whatever it starts ignore an interrupt: processes of
-# the tests would inherit that, and some are interrupted.
+# If a script starts `make test` in the background, the shell makes it ignore interrupts. Processes that the tests start
+# would inherit this, but some tests interrupt them.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
-settings.register_profile("any machine", deadline=None)  # how long one example takes goes by what else runs
+settings.register_profile("any machine", deadline=None)  # the time of one example depends on other processes
 settings.load_profile("any machine")
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection() -> Generator[None, object, object]:
-    """Nothing that is collected is ever let go, so it is not looked through time and again for what could be."""
+    """Disable garbage collection during the collection of tests: none of the collected objects is ever freed."""
     gc.disable()
     found = yield
     gc.freeze()
@@ -33,7 +33,7 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Tests of pages in a browser are left out where there is none."""
+    """Leave out the tests of pages in a browser if none is installed."""
     if chromium() is None:
         left_out = [item for item in items if item.get_closest_marker("browser")]
         config.hook.pytest_deselected(items=left_out)
@@ -43,13 +43,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if chromium() is None:
         terminalreporter.write_line(
-            "left out: what a real browser shows, since there is none (Debian's package `chromium`)", yellow=True
+            "left out: tests in a real browser, because none is installed (Debian's package `chromium`)", yellow=True
         )
 
 
 @pytest.fixture(autouse=True, scope="session")
 def own_key(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """One for all workers, so that each can take the derivations that another has kept."""
+    """Use one key for all workers, so that each can use the derivations that another worker has stored."""
     before = os.environ.get("XDG_STATE_HOME")
     own = tmp_path_factory.getbasetemp()
     os.environ["XDG_STATE_HOME"] = str((own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "state")

@@ -14,7 +14,7 @@ from derive.render.rendered import Rendered
 
 ROOT = Path(__file__).resolve().parent.parent
 
-# The problems as their tests know them, apart from problems/hw9, so that an instructor's edit breaks no test.
+# Copies of the problems for the tests, separate from problems/hw9, so that an instructor's edit breaks no test.
 PINNED = ROOT / "tests" / "problems"
 
 
@@ -24,14 +24,14 @@ def course_in(
     script: Mapping[str, str] | None = None,
     problem: str = "block",
 ) -> Path:
-    """A course with one pinned problem, each edit a piece of its text that occurs once."""
+    """Return a course with one pinned problem. Each edit replaces a piece of its text that occurs once."""
     problems = folder / "problems" / "hw9"
     problems.mkdir(parents=True)
     (folder / "templates").symlink_to(ROOT / "templates")
     heading = (PINNED / "set.yaml").read_text(encoding="utf-8")
     (problems / "set.yaml").write_text(heading.replace("- block", f"- {problem}"), encoding="utf-8")
     for name, changes in ((f"{problem}.yaml", edits), (f"{problem}.py", script)):
-        if not changes and not (PINNED / name).exists():  # a problem of a stock script
+        if not changes and not (PINNED / name).exists():  # a problem without a script of its own
             continue
         text = (PINNED / name).read_text(encoding="utf-8")
         for old, new in (changes or {}).items():
@@ -42,7 +42,7 @@ def course_in(
 
 
 def kept() -> Cache:
-    """What the tests have derived, for all of them to use."""
+    """Return the cache of derivations that all tests share."""
     return Cache(Path(os.environ["XDG_STATE_HOME"]) / "derivations")
 
 
@@ -53,12 +53,12 @@ def rendered_once(
     draws: bool = False,
     only: Collection[str] | None = None,
 ) -> Rendered:
-    """The problem like `rendered`; a derivation that some test has made already is not made again."""
+    """Render a problem like `rendered`, without repeating a derivation that another test has made."""
     return rendered(root, problem_id, detail, kept(), draws, only)
 
 
 def solved_once(root: Path, problem_id: str) -> tuple[Problem, Solved]:
-    """The problem and its steps, as they were before they became a page."""
+    """Return the problem and its steps, before they become a page."""
     rendered_once(root, problem_id, only=())
     problem = load_problem(root, problem_id)
     solved = Solved.from_data(kept().recalled_data(steps_key(problem)))

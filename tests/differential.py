@@ -1,9 +1,9 @@
-"""Random systems, their equations of motion derived twice: by `derive`, and from positions alone, numerically.
+"""Derive the equations of motion of random systems twice: by `derive`, and numerically from positions alone.
 
-The second derivation shares no code with `derive`. A body is a few mass points (two on a rod, four on a disc) whose
-second moments are those of the body; every position is a function of the time along a path q(t), its acceleration is a
-numerical second derivative, and d'Alembert's principle sum of (m a - F) . dr/dq - lambda df/dq = 0 is the equation of
-motion of q. Springs, drag, weight and given forces act on positions.
+The second derivation shares no code with `derive`. A body is represented by a few mass points (two on a rod, four on a
+disc) with the second moments of the body. Every position is a function of time along a path q(t), and its acceleration
+is a numerical second derivative. The equation of motion of q is d'Alembert's principle: the sum of (m a - F) . dr/dq -
+lambda df/dq is zero. Springs, drag, weight and given forces act on positions.
 
 `python -P -m tests.differential --count 300 --seed 1` tries many systems; the suite tries a few.
 """
@@ -53,13 +53,13 @@ ANGLES, LENGTHS = ("theta", "phi", "psi"), ("x", "y", "s")
 LETTER = {name: Symbol(name, positive=True) for name in KINDS}
 COORDINATE = {name: Symbol(name, real=True) for name in (*ANGLES, *LENGTHS, "r")}
 t = Symbol("t", real=True)
-STATES, DIGITS = 4, 30  # instants that are compared, and digits of the numbers
+STATES, DIGITS = 4, 30  # number of instants that are compared, and digits of the numbers
 LIMIT = 30  # seconds for one system
 
 
 @dataclass
 class Drawn:
-    """A system as it was drawn: its text for `derive`, and positions and forces for the other derivation."""
+    """A random system: its text for `derive`, and its positions and forces for the other derivation."""
 
     kinds: dict[str, str] = field(default_factory=dict)
     axes: str = ""
@@ -69,10 +69,10 @@ class Drawn:
     drags: list[tuple[Expr, Place]] = field(default_factory=list)
     pushes: list[tuple[Place, Place]] = field(default_factory=list)
     weights: list[tuple[Expr, Place]] = field(default_factory=list)
-    fields: list[Place] = field(default_factory=list)  # of a charge q in B, along the last axis or towards the reader
+    fields: list[Place] = field(default_factory=list)  # of a charge q; B is along the last axis or towards the reader
     energies: list[Expr] = field(default_factory=list)
     condition: Expr | None = None
-    rates: dict[str, Expr] = field(default_factory=dict)  # factors of a condition that is linear in the rates
+    rates: dict[str, Expr] = field(default_factory=dict)  # factors of the rates in a condition that is linear in them
 
     @property
     def text(self) -> str:
@@ -103,7 +103,8 @@ def _quoted(kind: str) -> str:
 
 
 def drawn(seed: str) -> Drawn:
-    """One to three coordinates; particles, rods and discs; springs, drag, forces, turning axes, one constraint."""
+    """Draw a system: one to three coordinates; particles, rods, discs; springs, drag, forces, rotating axes, a
+    constraint."""
     dice, system = random.Random(seed), Drawn()
     names = dice.sample([*ANGLES, *LENGTHS, "r"], dice.choice((1, 2, 2, 3)))
     system.kinds = {q: "angle" if q in ANGLES else "positive length" if q == "r" else "length" for q in names}
@@ -143,7 +144,7 @@ def _fill_plane(dice: random.Random, system: Drawn, names: Sequence[str]) -> Non
         else:
             system.points.append((LETTER[mass], place))
             particles.append(f"p_{i}: {{mass: {mass}, at: {_list(place)}}}")
-    while left:  # what no part depends on yet
+    while left:  # coordinates on which no part depends yet
         q = left.pop(0)
         place = _added(dice.choice(ends), _arm(dice, q))
         ends.append(place)
@@ -157,7 +158,7 @@ def _fill_plane(dice: random.Random, system: Drawn, names: Sequence[str]) -> Non
 
 
 def _arm(dice: random.Random, q: str) -> Place:
-    """How a coordinate leads from one place to the next."""
+    """Return the displacement, as a function of the coordinate, from one place to the next."""
     s, (l, a, b, alpha) = COORDINATE[q], (LETTER[name] for name in ("l", "a", "b", "alpha"))
     if q in ANGLES:
         long = dice.choice((l, a, l / 2))
@@ -194,7 +195,7 @@ def _arm(dice: random.Random, q: str) -> Place:
 
 
 def _body(dice: random.Random, system: Drawn, name: str, mass: Expr, centre: Place, angle: Expr) -> str:
-    """A rod or a disc about its centre of mass, as mass points with its second moments."""
+    """Add the mass points of a rod or a disc, with its second moments about its centre of mass; return its text."""
     across = (cos(angle), sin(angle))
     if dice.random() < 0.5:
         long = LETTER["b"]
@@ -210,7 +211,7 @@ def _body(dice: random.Random, system: Drawn, name: str, mass: Expr, centre: Pla
 
 
 def _fill_space(dice: random.Random, system: Drawn, names: Sequence[str]) -> None:
-    """Particles on axes that turn steadily, or also by an angle."""
+    """Add particles on axes that rotate steadily, or by a coordinate, or both."""
     Omega, l, R = LETTER["Omega"], LETTER["l"], LETTER["R"]
     angles = [q for q in names if q in ANGLES]
     turns = [("z", dice.choice((Omega, Omega, sqrt(LETTER["k"] / LETTER["m"]))) * t)]
@@ -250,7 +251,7 @@ def _turned(place: Place, axis: str, angle: Expr) -> Place:
 
 
 def _connect(dice: random.Random, system: Drawn, ends: Sequence[Place], size: int) -> None:
-    """Springs, drag, given forces and a constraint."""
+    """Add springs, drag, given forces and a constraint."""
     d, k, zero = LETTER["d"], LETTER["k"], Integer(0)
     on_axis = (zero, d, -d, LETTER["A"] - d, 2 * d)
     walls: list[Place] = [(at, *(zero,) * (size - 1)) for at in on_axis] + [(*(zero,) * (size - 1), d)]
@@ -327,7 +328,7 @@ def _list(place: Sequence[Expr]) -> str:
 
 
 class Positions:
-    """The equation of motion of each coordinate, from positions along a path."""
+    """The residual of the equation of motion of each coordinate, from positions along a path."""
 
     def __init__(self, system: Drawn, numbers: dict[str, Any]) -> None:
         self.system, self.names = system, list(system.kinds)
@@ -344,7 +345,7 @@ class Positions:
         return [mpf(x) for x in function(*q, time, *known)]
 
     def residual(self, j: int, path: Sequence[tuple[Any, Any, Any]], time: Any, multiplier: Any) -> Any:
-        """Inertia less forces, and less the multiplier, along the j-th coordinate."""
+        """Return the inertial force minus the forces and minus the constraint force, along the j-th coordinate."""
         here = [q for q, _, _ in path]
 
         def moved(s: Any) -> list[Any]:
@@ -398,7 +399,7 @@ class Positions:
 
 @dataclass
 class Outcome:
-    """What became of one system: "agrees", "disagrees", "refused" or "failed", with the reason."""
+    """The result for one system: "agrees", "disagrees", "refused" or "failed", with the reason."""
 
     seed: str
     verdict: str
@@ -407,14 +408,14 @@ class Outcome:
 
 
 def compared(seed: str, folder: Path) -> Outcome:
-    """The equations of motion of a drawn system by both derivations."""
+    """Compare the equations of motion of a random system by both derivations."""
     system, begun = drawn(seed), time.monotonic()
     try:
         with _limited():
             steps, conditions = derived(system, folder)
     except DeriveError as refusal:
         return Outcome(seed, "refused", str(refusal).partition("\n")[0], time.monotonic() - begun)
-    except Exception as failure:  # an internal error is what is looked for
+    except Exception as failure:  # this test looks for internal errors
         return Outcome(seed, "failed", f"{type(failure).__name__}: {failure}", time.monotonic() - begun)
     seconds = time.monotonic() - begun
     with mp.workdps(DIGITS):
@@ -454,7 +455,8 @@ def _residual_of(relation: Any) -> Expr:
 
 
 def disagreement(system: Drawn, steps: dict[str, Expr], conditions: Sequence[Expr], dice: random.Random) -> str:
-    """The coordinate whose equations are not multiples of each other at all instants; empty if there is none."""
+    """Return a coordinate whose two equations are not multiples of each other at all instants; empty if there is
+    none."""
     numbers = {name: mpf(dice.uniform(0.5, 2)) for name in KINDS} | {"alpha": mpf(dice.uniform(0.3, 1.2))}
     positions = Positions(system, numbers)
     names = list(system.kinds)
@@ -481,7 +483,7 @@ def disagreement(system: Drawn, steps: dict[str, Expr], conditions: Sequence[Exp
 
 
 def _state(system: Drawn, conditions: Sequence[Expr], numbers: dict[str, Any], dice: random.Random) -> Any:
-    """Coordinates, rates and accelerations at one instant, where what the page assumes holds."""
+    """Return coordinates, rates and accelerations at one instant at which the assumptions of the page hold."""
     for size in [1.0] * 20 + [0.2] * 20 + [0.05] * 20:
         path = []
         for kind in system.kinds.values():

@@ -1,7 +1,8 @@
-"""Every problem of hw9 and the library with drawn numbers for its letters: no draw may end in an internal error.
+"""Derive every problem of hw9 and the library with random numbers for its letters: none may end in an internal error.
 
-`python -P -m tests.drawn_numbers --draws 4 --seed 1` derives and prints all of them, and lists what is refused and what
-ends otherwise. Numbers lie in the declared ranges and fulfil what a page assumes; some are very large or very small.
+`python -P -m tests.drawn_numbers --draws 4 --seed 1` derives and prints all of them, and lists those that are refused
+or end in an internal error. The numbers are in the declared ranges and satisfy the assumptions of the page; some are
+very large or very small.
 """
 
 from __future__ import annotations
@@ -34,15 +35,15 @@ EXTREME = ("8.0e37", "6e24", "1.5e11", "6.67e-11", "1.2e-9", "9.11e-31")
 ANGLES = ("5", "20", "30", "40", "45", "60", "75")
 NUMBERS = ("0.5", "1.5", "2", "3", "0.2")
 SHARES = (Rational(1, 7), Rational(1, 4), Rational(1, 3), Rational(1, 2), Rational(5, 8), Rational(9, 10))
-SPREAD = (Rational(1), Rational(6, 5), Rational(3, 2), Rational(19, 10))  # of moments of inertia of one body
-ODDS = 0.15  # of an extreme number
-TRIES = 200  # of drawing until the assumptions hold
+SPREAD = (Rational(1), Rational(6, 5), Rational(3, 2), Rational(19, 10))  # ratios of moments of inertia of one body
+ODDS = 0.15  # probability of an extreme number
+TRIES = 200  # most draws until the assumptions hold
 GOOD, REFUSED, INTERNAL = "printed", "refused", "internal error"
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a problem with its numbers."""
+    """The result for a problem with one draw of numbers."""
 
     problem: str
     draw: int
@@ -52,13 +53,13 @@ class Outcome:
 
 
 def problems() -> list[str]:
-    """`library/simple_pendulum`, of all sets."""
+    """Return the names of the problems of all sets, such as `library/simple_pendulum`."""
     names = (f"{name}/{file.stem}" for name in SETS for file in sorted((ROOT / "problems" / name).rglob("*.yaml")))
     return [name for name in names if not name.endswith(("/set", "/reference"))]
 
 
 def tried(name: str, draws: int, seed: int) -> Iterator[Outcome]:
-    """What becomes of one problem with numbers that are drawn so often."""
+    """Yield the result for one problem with each of several draws of numbers."""
     source = Random(f"{name} {seed}")
     problem = load_problem(ROOT, name)
     with tempfile.TemporaryDirectory() as folder:
@@ -78,7 +79,7 @@ def tried(name: str, draws: int, seed: int) -> Iterator[Outcome]:
 
 
 def _course(folder: Path) -> Path:
-    """The sets as files that may be written."""
+    """Copy the sets to files that may be changed."""
     (folder / "templates").symlink_to(ROOT / "templates")
     for name in SETS:
         for file in (ROOT / "problems" / name).rglob("*.*"):
@@ -89,13 +90,13 @@ def _course(folder: Path) -> Path:
 
 
 def _conditions(problem: Problem) -> list[Relation]:
-    """What the page of the problem in letters assumes."""
+    """Return the assumptions of the page of the problem without numbers."""
     *_, run = derived(problem, None)
     return list(run.assumed)
 
 
 def drawn(problem: Problem, conditions: Sequence[Relation], source: Random) -> dict[str, str]:
-    """A number with its unit for each declared letter that has none, so that the conditions hold."""
+    """Return a number with its unit for each declared letter that has none, such that the conditions hold."""
     letters = [each for each in problem.symbols.values() if each.symbol not in {*problem.amounts, TIME}]
     used = [each for each in letters if each.name in _text_of(problem)]
     for _ in range(TRIES):
@@ -108,7 +109,7 @@ def drawn(problem: Problem, conditions: Sequence[Relation], source: Random) -> d
 
 
 def _moments(letters: Sequence[Declared], source: Random) -> dict[str, tuple[str, Any]]:
-    """Moments of inertia of which none is more than two others together."""
+    """Return moments of inertia such that none is greater than the sum of two others."""
     base = Rational(source.choice(ORDINARY + EXTREME))
     found = {}
     for letter in (each for each in letters if each.kind == "moment of inertia"):
@@ -122,7 +123,7 @@ def _text_of(problem: Problem) -> str:
 
 
 def _number(letter: Declared, source: Random) -> tuple[str, Any]:
-    """As it is written, and its value."""
+    """Return a number as text with its unit, and its value."""
     unit = unit_of_kind(letter.kind)
     if letter.lies is not None and letter.lies.least.is_finite and letter.lies.greatest.is_finite:
         share = source.choice(SHARES)
@@ -153,7 +154,7 @@ def _may_hold(condition: Relation, known: Mapping[Symbol, Any]) -> bool:
 
 
 def with_values(text: str, values: Mapping[str, str]) -> str:
-    """The file with these entries under `values:`."""
+    """Return the text of the file with these entries added under `values:`."""
     lines = "".join(f"  {name}: {value}\n" for name, value in values.items())
     if not values:
         return text

@@ -1,7 +1,8 @@
-"""Every page that builds have written, in a real Chromium, for releases: `python -P -m tests.every_page build/library`.
+"""Check all pages of a build in a real Chromium, before a release: `python -P -m tests.every_page build/library`.
 
-Each is looked at on a desk and, in the dark, on a phone, with all unfolded: axe-core finds no barrier, nothing is wider
-than its window or hidden beside it, and the browser has nothing to complain of.
+Each page is checked in a wide window in the light scheme and in a phone's window in the dark scheme, with all details
+unfolded. Axe-core must find no barrier, nothing may be wider than the window or hidden beside it, and the browser must
+report no error and no warning.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 WINDOWS = ((1280, "light"), (360, "dark"))
 UNFOLD = "document.querySelectorAll('details').forEach((each) => { each.open = true; })"
-# What scrolls can be reached; a list of contents says no more than the headings.
+# Formulas that are out of sight, except in elements that scroll and in the list of parts, which repeats the headings.
 HIDDEN = """[...document.querySelectorAll('math')].filter((each) => {
   const { left, right, width } = each.getBoundingClientRect();
   return width && !each.closest('.wide, .parts') && (left < -1 || right > document.documentElement.clientWidth + 1);
@@ -25,7 +26,7 @@ HIDDEN = """[...document.querySelectorAll('math')].filter((each) => {
 
 
 def faults(page: Page, address: str) -> list[str]:
-    """What is wrong with a page in the window that it is shown in."""
+    """Return the errors of a page in its window."""
     found: list[str] = []
 
     def complain(what: object) -> None:
@@ -43,7 +44,7 @@ def faults(page: Page, address: str) -> list[str]:
 
 
 def main(folders: list[str]) -> int:
-    """All pages in these folders; those that have faults are told."""
+    """Check all pages in these folders, and print each error."""
     files = sorted(file for folder in folders for file in Path(folder).resolve().glob("*.html"))
     count = 0
     for file in files:
@@ -52,7 +53,7 @@ def main(folders: list[str]) -> int:
                 for fault in faults(page, file.as_uri()):
                     count += 1
                     print(f"{file.parent.name}/{file.name}, {width} pixels, {scheme}: {fault}", flush=True)
-    print(f"{len(files)} pages, {count} faults")
+    print(f"{len(files)} pages, {count} errors")
     return int(count > 0 or not files)
 
 

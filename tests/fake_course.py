@@ -1,7 +1,7 @@
-"""A small course for tests of the build: real sets and files, a stand-in for the derivation, a stand-in for TeX.
+"""A small course for tests of the build: real sets and files, with substitutes for the derivation and for TeX.
 
-What a problem's file says decides what becomes of it: `loop`, `refuse`, `bug` and `die` end its derivation in those
-ways, and anything else is its text. The stand-in for TeX copies its source, and notes each run.
+The text of a problem's file decides its result: with `loop`, `refuse`, `bug` or `die` its derivation ends in that way;
+any other text becomes its solution. The substitute for TeX copies its source and notes each run.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def rendered(
         raise ZeroDivisionError("nobody thought of that")
     if said == "die":
         os.kill(os.getpid(), signal.SIGKILL)
-    if said == "replaced":  # by somebody else, while it is derived
+    if said == "replaced":  # by another program, while the problem is derived
         successor = root / "successor"
         successor.write_text("its successor")
         os.utime(successor, (0, 0))
@@ -147,7 +147,7 @@ def index_page(root: Path, heading: object, problems: list[Rendered]) -> str:
 
 
 class Course:
-    """A root with one set `hw1` of problems `one` and `two`."""
+    """A root with one set `hw1`, whose problems are `one` and `two`."""
 
     def __init__(self, root: Path):
         self.root = root
@@ -166,11 +166,11 @@ class Course:
         (self.folder / f"{name}.yaml").write_text(said + "\n", encoding="utf-8")
 
     def derived(self) -> list[str]:
-        """The problems derived since the last call."""
+        """Return the problems that were derived since the last call."""
         return self._noted("derived.txt")
 
     def typeset(self) -> list[str]:
-        """The sources that went through TeX since the last call, sorted."""
+        """Return the sources that were typeset since the last call, sorted."""
         return sorted(self._noted("runs.txt"))
 
     def _noted(self, name: str) -> list[str]:
@@ -180,12 +180,12 @@ class Course:
         return sorted(lines)
 
     def contents(self) -> dict[str, bytes]:
-        """Every visible output with its content."""
+        """Return name -> content of every visible output."""
         return {p.name: p.read_bytes() for p in self.outputs.iterdir() if p.is_file() and not p.name.startswith(".")}
 
 
 def stand_in_course(root: Path, monkeypatch: Any) -> Course:
-    """The course, with both stand-ins in place of the real ones."""
+    """Return the course, with the substitutes for the derivation and for TeX."""
     course = Course(root)
     replace_derivation(monkeypatch)
     programs = root / "bin"
@@ -200,7 +200,7 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 
 def replace_derivation(monkeypatch: Any) -> None:
-    """Put the stand-ins where the modules of `derive.building` that have these functions are imported from."""
+    """Put substitutes in place of the modules of `derive.building` with these functions."""
     documents = (
         problem_document,
         set_document,

@@ -1,6 +1,6 @@
-"""Every result of a run, changed a little: some second route must refuse it.
+"""Change every result of a run a little: some second route must refuse the changed result.
 
-`python -P -m tests.perturbation` does so for all results of all runs; the suite for a sample.
+`python -P -m tests.perturbation` does this for all results of all runs; the test suite does it for a sample.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ MARKS = ("=", "<", ">", "<=", ">=", "!=")
 LIMIT = 20  # seconds that the routes may take over one result
 SCALE, SHARE = Rational(7, 3), Rational(3, 11)
 
-# (rule, what is changed) -> why no route need refuse it
+# (rule, change) -> the reason why no route needs to refuse it
 EXCEPTIONS = {
     ("rotation.principal_axis", "sign"): "an axis has a direction and no sign: e and -e are the same axis",
     (
         "rotation.principal_axis",
         "sign of an entry",
-    ): "the same, or any axis across that of a round body, which is as good",
+    ): "the same, or another axis across the axis of a round body, which is principal too",
     (
         "rotation.principal_axis",
         "order",
-    ): "where all moments are equal every axis is as good; elsewhere a route refuses",
-    ("rest.equilibrium", "sign"): "the mirror image of a state of rest is another one, where the energy is even",
+    ): "if all moments are equal, every axis is principal; otherwise a route refuses",
+    ("rest.equilibrium", "sign"): "the mirror image of an equilibrium is an equilibrium too, if the energy is even",
     **dict.fromkeys(
         [
             (rule, "sign")
@@ -55,10 +55,10 @@ EXCEPTIONS = {
                 "vibrations.damped_frequency",
             )
         ],
-        "the routes see its square; that it is not negative is asked of it by its word",
+        "the routes compare its square; the predicate of its outcome requires that it is not negative",
     ),
     **{
-        (rule, what): "the amplitudes of a mode are in proportion: it has no size and no sign"
+        (rule, what): "only the ratios of the amplitudes of a mode matter: it has no size and no sign"
         for rule in ("vibrations.gyroscopic_motion", "vibrations.damped_shape")
         for what in ("sign", "scale", "order")
     },
@@ -66,12 +66,12 @@ EXCEPTIONS = {
         (
             "vibrations.gyroscopic_stability",
             what,
-        ): "the route sees the border; on which side it is stable is asked by its word"
+        ): "the route compares the border; the predicate of the outcome decides on which side it is stable"
         for what in ("mark", "sides")
     },
     ("rest.equilibrium", "sign of an entry"): "the angle -pi is pi",
-    ("lagrange.change_under_shift", "mark"): "nothing is left on either side",
-    ("rotation.principal_moments", "order"): "which moment of a tensor that is not diagonal is the first is a name",
+    ("lagrange.change_under_shift", "mark"): "both sides vanish",
+    ("rotation.principal_moments", "order"): "the order of the moments of a tensor that is not diagonal is arbitrary",
 }
 
 
@@ -87,7 +87,7 @@ class Established:
     moving: frozenset[Any] = frozenset()
 
     def refuses(self, other: Any) -> bool:
-        """Whether some route objects to another result, or the door, since it can never hold."""
+        """Whether some route refuses another result, or `check_can_hold` does because it can never hold."""
         try:
             derive.steps.establish.check_can_hold(self.key, other)
         except DeriveError:
@@ -100,19 +100,20 @@ class Established:
         return False
 
     def is_exception(self, what: str, other: Any) -> bool:
-        """For a reason told above; and work tells a potential energy but for a constant."""
+        """Whether no route needs to refuse: for a reason above, or because a potential energy is defined up to a
+        constant."""
         if self.rule == "lagrange.potential_energy":
             return not (explicit(other - self.result)).expand().free_symbols & {*self.moving, TIME}
         return (self.rule, what) in EXCEPTIONS
 
 
 def established_in(run: Run) -> list[Established]:
-    """Every result of a run that has second routes, those of its numbers too."""
+    """Return every result of a run that has second routes, including its numbers."""
     found: list[Established] = []
     evidence_of = derive.steps.establish.evidence_of_routes
 
     def noted(key: str, rule: Rule, result: Any, routes: Mapping[str, Route]) -> Any:
-        asking = sys._getframe(1).f_locals  # those of `establish`
+        asking = sys._getframe(1).f_locals  # the local variables of `establish`
         if routes:
             moving = frozenset(asking["scope"].coordinates)
             found.append(Established(run.name, rule.name, key, result, dict(routes), moving))
@@ -125,7 +126,7 @@ def established_in(run: Run) -> list[Established]:
 
 @dataclass(frozen=True)
 class Perturbed:
-    """A result that is changed, and what is changed of it."""
+    """A changed result, and the kind of the change."""
 
     of: Established
     what: str
@@ -144,7 +145,7 @@ class Perturbed:
 
 
 def sample(found: Sequence[Established], size: int, seed: int) -> list[Perturbed]:
-    """A fair draw among all changes of all results, half of it among the marks of relations."""
+    """Return a random sample of all changes of all results; half of the sample changes the operators of relations."""
     drawn = random.Random(seed)
     every = [Perturbed(established, *each) for established in found for each in perturbations(established.result)]
     marks = [each for each in every if each.what == "mark"]
@@ -153,9 +154,9 @@ def sample(found: Sequence[Established], size: int, seed: int) -> list[Perturbed
 
 
 def perturbations(result: Any) -> Iterator[tuple[str, Any]]:
-    """What is changed, and the changed result."""
+    """Yield the kind of each change, and the changed result."""
     for what, other in _perturbed(result):
-        same = isinstance(result, Relation) and equal(result, other)  # w = 0 says what 2 w = 0 says
+        same = isinstance(result, Relation) and equal(result, other)  # w = 0 is equivalent to 2 w = 0
         if other != result and not same:
             yield what, other
 
@@ -206,12 +207,12 @@ def _of_entries(result: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _share(value: Any) -> Any:
-    """A share of the first term, so that what is added is of the same kind."""
+    """Return a fraction of the first nonzero term, so that the added term has the same dimension."""
     return next((SHARE * term for term in Add.make_args(explicit(value)) if term != 0), SHARE)
 
 
 def verdict_on(each: Perturbed) -> str:
-    """What becomes of it; what takes the routes too long to compare is no proof of anything."""
+    """Return the verdict on a changed result; it is open if the routes take too long."""
 
     def stop(*_: Any) -> None:
         raise TimeoutError
@@ -227,7 +228,7 @@ def verdict_on(each: Perturbed) -> str:
 
 
 def main() -> int:
-    """Every perturbation of every run; those that no route refuses are told."""
+    """Try every perturbation of every run, and print those that no route refuses."""
     os.nice(5)
     counts: Counter[str] = Counter()
     for name in sys.argv[1:] or RUNS:

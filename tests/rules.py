@@ -1,4 +1,4 @@
-"""Rules as tests ask them: by name, or made up."""
+"""Rules for tests: by name, or made up."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ SOURCE = Path(derive.mechanics.__file__).parents[1]
 
 
 def made_up(name: str, *claims: str, **more: Any) -> Rule:
-    """A rule of a test, whose second ways are checks; without any it is a definition."""
+    """Return a rule for a test with these claims as checks; without claims it is a definition."""
     return Rule(name, evidence=dict.fromkeys(claims, CHECK), **more)
 
 
 def holds(rule: str, outcome: str, facts: Judged) -> bool:
-    """Whether an outcome is one that the rule has, and is true."""
+    """Whether the rule has this outcome and the outcome is true."""
     predicate = RULES[rule].outcomes.get(outcome)
     return predicate is not None and bool(predicate(facts))
 
 
 def stated_rightly(rule: str, outcome: str, facts: Judged) -> bool:
-    """Whether what its sentence says besides the chain is true."""
+    """Whether the statements of the sentence in addition to the chain are true."""
     return bool(
         made_up("test.any", statements=RULES[rule].statements, outcomes={outcome: bool_of}).verdict(outcome, facts)
     )
@@ -45,7 +45,7 @@ def theorems() -> list[Theorem]:
 
 
 def records() -> Iterator[tuple[str, str, Rule]]:
-    """Module, constant and record of every rule in the code."""
+    """Yield the module, the constant and the record of every rule in the code."""
     for folder in ("mechanics", "steps"):
         for path in sorted((SOURCE / folder).rglob("*.py")):
             name = ".".join(path.relative_to(SOURCE).with_suffix("").parts)

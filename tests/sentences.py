@@ -1,7 +1,7 @@
 """Sentences of the project drawn at random, for a reader to judge: `python -P -m tests.sentences NUMBER SEED`.
 
 A sentence comes from the documentation, the phrases, or a docstring, comment or message of the code. A reader who has
-not seen the project marks each as clear at first reading, to be read twice, or wrong.
+not seen the project marks each sentence as clear at first reading, to be read twice, or wrong.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def sentences(path: Path) -> Iterator[str]:
 
 
 def drawn(number: int, seed: int) -> list[str]:
-    """That many different sentences, each with its file."""
+    """Return this number of different sentences, each with its file."""
     found = [
         f"{path.relative_to(ROOT)}: {each}"
         for path in files("derive", "tools", "problems", *PROSE)

@@ -1,6 +1,6 @@
-"""Words that our texts do not use, by `python -P -m tests.style`: where each occurs in prose, comments and messages.
+"""`python -P -m tests.style` lists the words that our texts avoid: each place in prose, comments and messages.
 
-Texts are comments, docstrings and string literals of the code, and whole files of the documentation.
+Texts are the comments, docstrings and string literals of the code, and whole files of the documentation.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from pathlib import Path
 
 from tests.courses import ROOT
 
-# what to write -> the pattern of what it replaces
+# words to write -> pattern of the words that they replace
 INSTEAD = {
     "is not a, is not one": r"(?<!there )\b(?:is|are|was|were|be) no (?!longer|more|matter|doubt)(?=[a-z])"
     r"|\b(?:is|are) none\b",
@@ -39,7 +39,7 @@ PROSE = ("README.md", "CONTRIBUTING.md", "NOTATION.md", "docs", "templates/phras
 
 
 def texts_of_code(path: Path) -> Iterator[tuple[int, str]]:
-    """Line and text of each comment and each string of a module that has a blank in it."""
+    """Yield the line and text of each comment, and of each string with a space, in a module."""
     source = path.read_text(encoding="utf-8")
     for token in tokenize.generate_tokens(io.StringIO(source).readline):
         if token.type == tokenize.COMMENT:
@@ -65,7 +65,7 @@ def files(*under: str) -> list[Path]:
 
 
 def uses(path: Path) -> Iterator[tuple[int, str, str]]:
-    """Line, what to write, and the words that were found there."""
+    """Yield the line, the words to write, and the words that were found."""
     for line, text in texts(path):
         for instead, pattern in INSTEAD.items():
             for match in re.finditer(pattern, text):

@@ -1,6 +1,6 @@
-"""The block problem and the edits that an instructor makes to its YAML: given -> answers, words, numbers.
+"""Test the block problem and edits of its YAML by an instructor: givens -> answers, words, numbers.
 
-The expected values are those of the textbooks, worked by hand; none is read off the program.
+The expected values are those of textbooks or computed by hand; none is copied from the output of the program.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from sympy import Matrix, Rational, acos, cos, diag, simplify, sqrt, symbols
-from sympy import sympify as sympy_reads  # tests read the JSON as any stranger would
+from sympy import sympify as sympy_reads  # the tests read the JSON as any other program would
 
 from derive.errors import DeriveError, Rejected
 from derive.render.rendered import Rendered
@@ -34,7 +34,7 @@ def numbers(solution: Rendered) -> dict[str, Any]:
 
 
 def flat(solution: Rendered) -> str:
-    """The page as one line, so that it does not matter where a sentence was wrapped."""
+    """Return the page as one line, so that line breaks within sentences do not matter."""
     return " ".join(solution.texts["text"].split())
 
 

@@ -1,4 +1,4 @@
-"""Pages that were once wrong and said to be proved: each is refused with its cause named, or is right."""
+"""Pages that were once wrong but graded as proved: each is now right, or refused with its cause."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A folder of whole problems whose pages were once wrong, or refused: each has its right value, or a complaint."""
+"""Problems whose pages were once wrong or refused: each now has its right value, or a helpful error."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from unicodedata import normalize
 
 import pytest
 from sympy import Symbol, cos, diff, sqrt
-from sympy import sympify as sympy_reads  # the values by hand below; the engine itself never does
+from sympy import sympify as sympy_reads  # for the values by hand below; the engine itself never calls it
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -24,7 +24,7 @@ MARKS = (" = ", " < ", " > ")
 FALLING = "m*(g*y - x_dot**2 - y_dot**2)"
 SPINNING = "(p_phi - p_psi*cos(theta))"
 
-# By the problem: what its answers are, by hand.
+# problem -> its answers, by hand
 VALUES: dict[str, dict[str, str]] = {
     "acc_where": {
         "acceleration_q": "(F + m*R*sin(q)*q_dot**2)/(m*R*cos(q))",
@@ -77,7 +77,7 @@ VALUES: dict[str, dict[str, str]] = {
     },
     "f17_rod_points_up": {
         "acceleration_q": "-g*sin(alpha)",
-        "Gamma": "m*g*l*(cos(beta) - sin(alpha)*sin(alpha - beta))/2",  # of a rod that makes theta with the horizontal
+        "Gamma": "m*g*l*(cos(beta) - sin(alpha)*sin(alpha - beta))/2",  # for a rod at the angle theta to the horizontal
     },
     "f18_zero_mode_no_restoring_force": {"frequency_1": "0", "frequency_2": "sqrt(2*k/m)"},
     "half_cylinder_drawn_whole": {
@@ -151,7 +151,7 @@ VALUES: dict[str, dict[str, str]] = {
     },
 }
 
-# By the problem: what its page says and what it does not say.
+# problem -> the texts that its page contains, and the texts that it does not contain
 SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "acc_where": (("Provided that cos q ≠ 0, solving the equations of motion",), ()),
     "beats4": (("x_1 = A, x_2 = B, ẋ_1 = v, ẋ_2 = u at t = 0",), ("all else zero",)),
@@ -189,7 +189,7 @@ SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "values-steady_precession": (("has no real root φ̇",), ()),
 }
 
-# By the problem: the code of each complaint, its line, and a piece of its message.
+# problem -> the code of each error, its line, and a piece of its message
 REFUSED: dict[str, list[tuple[str, int, str]]] = {
     "approx_becomes_exact_numbers": [("name-clash", 14, "`period` is already the name of an answer")],
     "con_put_dot": [("letter-clash", 11, "`m` is already a symbol of this problem")],
@@ -216,7 +216,7 @@ REFUSED: dict[str, list[tuple[str, int, str]]] = {
     "sq_constraint": [("constrained", 8, "so no force can keep it")],
 }
 
-# By the problem: how its author answers the complaint, and what its answers then are, by hand.
+# problem -> the edits by which its author fixes the error, and the answers then, by hand
 CORRECTED: dict[str, tuple[list[tuple[str, str]], dict[str, str]]] = {
     "approx_becomes_exact_numbers": (
         [("    period: {value", "    swing: {value"), ("[heavy, period]", "[heavy, swing]")],
@@ -268,7 +268,7 @@ def text_of(name: str) -> str:
 
 
 def course_of(folder: Path, name: str, *edits: tuple[str, str]) -> Path:
-    """A course of this problem alone, with the script beside it."""
+    """Return a course with this problem alone, and with the scripts next to it."""
     root = course_with(folder, edited(text_of(name), *edits))
     for script in FOLDER.glob("*.py"):
         (root / "problems" / "trial" / script.name).write_text(script.read_text(encoding="utf-8"), encoding="utf-8")
@@ -280,7 +280,7 @@ def answers(folder: Path, name: str, *edits: tuple[str, str]) -> dict[str, Quant
 
 
 def page(folder: Path, name: str) -> str:
-    """The page, in one line."""
+    """Return the page as one line."""
     text = rendered(course_of(folder, name), "trial/one", only={"text"}).texts["text"]
     return normalize("NFC", " ".join(text.split()))
 
@@ -302,7 +302,7 @@ def letters_in(found: Mapping[str, Quantity]) -> dict[str, Symbol]:
 
 
 def agree(found: Mapping[str, Quantity], expected: Mapping[str, str]) -> dict[str, Any]:
-    """Those that differ from their values by hand."""
+    """Return the answers that differ from their values by hand."""
     letters = letters_in(found)
     return {
         key: found[key].value for key, value in expected.items() if not equal(found[key].value, by_hand(value, letters))
@@ -336,7 +336,7 @@ def test_a_problem_whose_author_answers_the_complaint_has_its_right_value(name: 
 
 
 def test_a_length_that_the_constraint_changes_does_not_stay(tmp_path: Path) -> None:
-    """r = l - vt, so r' = -v, and the problem must not put in r' = 0."""
+    """r = l - v t, so r' = -v, and the problem must not substitute r' = 0."""
     text = edited(
         text_of("con_put_dot"), ("    m: {put_in", "    motion: {put_in"), ("results: m}", "results: motion}")
     )
@@ -353,7 +353,8 @@ def test_a_letter_of_gravity_that_nothing_uses_is_warned_of(tmp_path: Path) -> N
 
 
 def test_a_disc_on_a_wavy_road_has_its_equations_and_rolls(tmp_path: Path) -> None:
-    """The centre moves along the road, by W - R h''/W^2 for each unit of x, and the disc turns by that over R."""
+    """For each unit of x, the centre moves along the road by W - R h''/W^2, and the disc rotates by this length over
+    R."""
     found = answers(tmp_path, "f15_wavy_road_timeout")
     letters = letters_in(found)
     m, R, A, b, g, x = (letters[name] for name in ("m", "R", "A", "b", "g", "x"))
@@ -371,7 +372,8 @@ def test_a_disc_on_a_wavy_road_has_its_equations_and_rolls(tmp_path: Path) -> No
 
 
 def test_the_friction_of_a_disc_in_a_bowl_is_that_on_a_slope(tmp_path: Path) -> None:
-    """A third of the weight along the road, and up the road, as on any slope."""
+    """The friction is a third of the component of the weight along the road, and points up the road, as on any
+    slope."""
     long = "sqrt(1 + x**2/b**2)"
     text = edited(
         text_of("f15_wavy_road_timeout"),

@@ -1,4 +1,4 @@
-"""Numbers, odd values and impossible bodies: what was wrong, or an internal error, is right or refused in words."""
+"""Numbers, odd values and impossible bodies that once gave wrong pages or internal errors: now right, or refused."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ k, m, g, l, M, R = symbols("k m g l M R", positive=True)
 
 
 def problem(symbols_: str, given: str, answer: str, more: str = "", solve: str = "system") -> str:
-    """A problem of one part; each line of `given` is one of its keys."""
+    """Return a problem with one part; each line of `given` is one key under `given:`."""
     keys = "\n".join(f"  {line}" for line in given.strip().splitlines())
     end = f"statement: A system.\nparts:\n  - {{ask: Find it., answer: {answer}}}\n{more}"
     return f"title: A trial\nsolve: {solve}\nsymbols: {{{symbols_}}}\ngiven:\n{keys}\n{end}"
 
 
 def page(folder: Path, text: str) -> str:
-    """The page, in one line."""
+    """Return the page as one line."""
     return " ".join(rendered(course_with(folder, text), "trial/one", only={"text"}).texts["text"].split())
 
 
@@ -170,7 +170,7 @@ def test_a_hole_outside_of_its_body_is_refused(tmp_path: Path) -> None:
     (told,) = complaints(tmp_path, holed("[R, 0]"))
     assert told.code == "no-such-body" and told.place is not None
     solved(tmp_path, holed("[R/2, 0]"))
-    solved(tmp_path, holed("[b, 0]", "a"))  # which it may lie within
+    solved(tmp_path, holed("[b, 0]", "a"))  # the body may contain the hole
 
 
 def test_a_map_that_covers_places_twice_is_refused(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""What `results:` made wrong once: approximations that became equalities, roots of a cosine, ranges, signs."""
+"""Errors that `results:` once made: approximations that became equalities, roots of a cosine, ranges, signs."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ figures: 5
 
 
 def printed(folder: Path, text: str, form: str = "text") -> str:
-    """The page of a problem in a format."""
+    """Return the page of a problem in a format."""
     found = rendered_once(course_with(folder, text), "trial/one", only={form})
     return found.texts.get(form) or getattr(found, form)
 
@@ -143,7 +143,7 @@ def test_a_letter_has_one_value_in_a_run() -> None:
 
 def test_a_result_that_breaks_off_is_refused_under_the_letter_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("derive.mechanics.answers.limits.letter_of_limit", lambda whole, *_: whole)
-    with pytest.raises(Unverified, match="needs another letter"):
+    with pytest.raises(Unverified, match="needs a letter other than"):
         limiting_case(given(sqrt((M + m) * g / (m * l)), "w", symbol="w"), M)
 
 
@@ -248,7 +248,7 @@ def test_what_an_equation_has_below_already_must_not_vanish_either() -> None:
 
 
 def test_a_root_with_a_number_replaces_its_unknown() -> None:
-    """f14: the second time at which y = v t - g t^2/2 vanishes, put into x = u t."""
+    """f14: the second time at which y = v t - g t^2/2 vanishes, substituted in x = u t."""
     (u, v), t = symbols("u v", positive=True), symbols("t", real=True)
     landing = roots(given(v * t - g * t**2 / 2, "up", symbol="y"), t)
     assert str(landing[1].symbol) == "t_2"
@@ -353,7 +353,7 @@ def test_there_is_no_resonance_with_too_much_damping(tmp_path: Path) -> None:
 
 
 def test_the_greatest_speed_is_the_root_of_its_square(tmp_path: Path) -> None:
-    """f11: v^2 = k (A^2 - x^2)/m at x = 0, so that v = A sqrt(k/m)."""
+    """f11: v^2 = k (A^2 - x^2)/m at x = 0, so v = A sqrt(k/m)."""
     text = edited(
         DRIVEN,
         ("    steady: {amplitude: motion_x, for: x}\n", "    fast: {speed: energy_function, for: x, start: -F/k}\n"),
@@ -392,7 +392,7 @@ parts:
     assert "ẋ_1 = v at t = 0 and all else zero, determine" in fewer
 
 
-# --- what is assumed of letters ---
+# --- assumptions about letters ---
 
 SATELLITE = """\
 title: A dumbbell satellite
@@ -433,7 +433,7 @@ def test_what_is_not_known_is_named_with_the_way_to_state_it(tmp_path: Path) -> 
 
 
 def test_a_force_that_changes_its_sign_at_a_pole_is_not_zero_there(tmp_path: Path) -> None:
-    """U = A d^2/(d - x)^2 + A d^2/(d + x)^2: the force vanishes at x = 0 alone, and U'' = 12 A/d^2 there."""
+    """U = A d^2/(d - x)^2 + A d^2/(d + x)^2: the force vanishes only at x = 0, and U'' = 12 A/d^2 there."""
     text = """\
 title: Between two walls
 solve: system
@@ -453,6 +453,6 @@ parts:
 
 
 def test_a_frequency_is_compared_with_a_letter_that_stands_alone() -> None:
-    """sqrt(g/l) > S is S < sqrt(g/l), though the quotient of the two differences holds roots."""
+    """sqrt(g/l) > S is S < sqrt(g/l), although the quotient of the two differences contains roots."""
     found = where(given(sqrt(g / l), "w", symbol="w"), ">", S, S)
     assert found.value.operator == "<" and found.value.left == S and equal(found.value.right, sqrt(g / l))

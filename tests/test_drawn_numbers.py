@@ -1,4 +1,5 @@
-"""Problems with drawn numbers for all letters are printed, or refused in words: a sample of `tests.drawn_numbers`."""
+"""Problems with random numbers for all letters are printed, or refused with a message: a sample of
+`tests.drawn_numbers`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Faults: how one is shown, how many are collected, and which name was meant."""
+"""Errors: how an error is shown, how errors are collected, and which name was probably meant."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from derive.errors import (
 
 def test_a_fault_is_shown_with_its_line_a_caret_and_what_to_do() -> None:
     place = Place("a.yaml", 12, 9, "  mass: a\n", 1)
-    fault = Complaint("wrong-kind", "`mass` must be a mass", place, ("why",), "mend it")
+    fault = Complaint("wrong-kind", "`mass` must be a mass", place, ("why",), "change it")
     assert fault.shown().splitlines() == [
         "a.yaml:12:9: error[wrong-kind]: `mass` must be a mass",
         "  12 |   mass: a",
         "     |         ^",
         "     = why",
-        "     = help: mend it",
+        "     = help: change it",
     ]
 
 
@@ -57,7 +57,7 @@ def test_faults_are_told_once_and_in_the_order_of_the_file() -> None:
     for line in (3, 1, 3):
         faults.error("y", "there", Place("a", line))
     with faults:
-        rejected("z", "kept, and what follows goes on", Place("a", 2))
+        rejected("z", "kept, and the work continues", Place("a", 2))
     with pytest.raises(Rejected) as caught:
         faults.stop()
     assert [(c.code, c.place.line if c.place else 0) for c in caught.value.complaints] == [

@@ -1,4 +1,5 @@
-"""The figures of the homework as they are printed: all that a statement names has its letter, and nothing covers it."""
+"""The printed figures of the homework: each quantity that a statement names has its letter, and nothing covers a
+label."""
 
 from __future__ import annotations
 
@@ -25,7 +26,7 @@ PROBLEMS = ("euler", "block", "top", "cone", "slab")
 CM = 72 / 2.54
 BESIDE_TEXT, HIGH = 0.45 * 17.0, 6.0  # centimetres
 IMPORTANT = {"edge", "asked", "given", "rod", "bar", "ground", "angle", "turn", "spring"}
-NAMED = {  # what a statement names, as labels of its figure
+NAMED = {  # quantities that a statement names, as labels of its figure
     "euler": {"x", "y", "z", "omega", "L"},
     "block": {"x", "y", "z", "a", "2*a", "3*a", "omega"},
     "top": {"x", "y", "z", "Z", "phi", "theta", "psi", "a", "a/2", "C", "M*g"},
@@ -36,7 +37,7 @@ NAMED = {  # what a statement names, as labels of its figure
 
 @cache
 def figures(name: str) -> tuple[Problem, dict[str, tuple[Drawing, str]]]:
-    """The drawings of a problem that are no plots, with the part at which each stands."""
+    """Return the drawings of a problem except plots, each with the part next to which it appears."""
     problem, solved = solved_once(ROOT, f"hw9/{name}")
     placed = json.loads(rendered_once(ROOT, f"hw9/{name}", only={"json"}).texts["json"])["drawings"]
     where = {each["key"]: each["at"] for each in placed}
@@ -50,7 +51,7 @@ def drawn(problem: Problem, drawing: Drawing) -> list[Piece]:
 
 
 def spots_of(stroke: Stroke) -> list[tuple[float, float]]:
-    """A spot at every point of a line."""
+    """Return a spot for each typographic point along a line."""
     found: list[tuple[float, float]] = []
     for (x, y), (u, v) in pairwise(stroke.spots):
         steps = max(1, round(hypot(u - x, v - y)))

@@ -1,4 +1,4 @@
-"""What scripts import of their givens: every kind there is, and what must hold between them."""
+"""The names that scripts import from `derive.given`: every kind of given, and `require`."""
 
 from __future__ import annotations
 

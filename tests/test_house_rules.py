@@ -1,4 +1,4 @@
-"""The rules of the house: where a module stands, what it may import, and what every verb must say of itself."""
+"""The rules of the code: the place of each module, its allowed imports, and the required docstring of every verb."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ MODULES = {
     if path.name != "__init__.py"
 }
 
-# From the ground up: a room imports from the floors below it, and two rooms of one floor not from each other. What
-# scripts import, `given`, what notebooks import, and the front door stand before the rooms.
+# The packages (rooms) from the lowest level up: a room imports from lower levels, and not from another room of its
+# level. Three modules are outside of the rooms: `given` for scripts, `notebook` for notebooks, and `__main__`.
 FLOORS = (
     ("errors",),
     ("algebra",),
@@ -67,7 +67,7 @@ def tree(name: str) -> ast.Module:
 
 @cache
 def imported(name: str) -> set[str]:
-    """The modules of ours that a module imports, anywhere in it."""
+    """Return the modules of derive that a module imports, at its top or within functions."""
     found: set[str] = set()
     for node in ast.walk(tree(name)):
         if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == "derive":
@@ -79,7 +79,7 @@ def imported(name: str) -> set[str]:
 
 
 def strings(name: str) -> Iterator[ast.Constant]:
-    """The string literals of a module but for its docstrings."""
+    """Yield the string literals of a module, except its docstrings."""
     documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
     docstrings = {
         id(node.body[0].value)
@@ -108,7 +108,7 @@ def test_each_room_says_what_it_is_for() -> None:
 
 
 def test_the_tests_stand_in_the_rooms() -> None:
-    """Beside the house itself, its pages, its manual and what is tried on everything: mutants, perturbations, lines."""
+    """Three more folders have the tests of the manual, of printed pages and of the tools."""
     folders = {path.relative_to(ROOT / "tests").parts[0] for path in (ROOT / "tests").glob("*/**/test_*.py")}
     assert folders - set(FLOOR) == {"manual", "printed", "tools"}
 
@@ -134,7 +134,7 @@ def test_a_page_names_no_rule(name: str) -> None:
     assert [each.value for each in strings(name) if re.fullmatch(rf"({'|'.join(chapters)})\.[a-z_]*", each.value)] == []
 
 
-# The chapters of mechanics, from the ground up: each imports from those before it.
+# The chapters of mechanics in their order: each imports only from earlier ones.
 RECORDS = list(records())
 CHAPTERS = (
     "kinematics",
@@ -154,7 +154,7 @@ CHAPTERS = (
 @pytest.mark.parametrize("name", VERB_MODULES)
 def test_a_chapter_of_mechanics_imports_from_those_before_it(name: str) -> None:
     *_, chapter, _ = ("", *name.split("."))
-    if chapter == "mechanics":  # what all chapters share
+    if chapter == "mechanics":  # modules that all chapters share
         assert not any(module.startswith("mechanics.") and module.count(".") > 1 for module in imported(name))
         return
     allowed = CHAPTERS[: CHAPTERS.index(chapter) + 1]
@@ -168,7 +168,7 @@ CLAIMS = [name for name in VERB_MODULES if name.endswith(".claims")]
 
 @pytest.mark.parametrize("name", CLAIMS)
 def test_predicates_share_no_code_with_the_verbs_next_to_them(name: str) -> None:
-    """They may read what a result hands on, its facts, and what bodies and systems are."""
+    """Predicates may read the facts of a result, and the descriptions of bodies and systems."""
     makers = {module for module, _, rule in RECORDS if module.startswith("mechanics.")}
     assert imported(name) & makers - SHARED_BY_CLAIMS == set()
 
@@ -193,7 +193,8 @@ def test_the_engine_holds_no_tex(name: str) -> None:
 
 @pytest.mark.parametrize("name", sorted(ENGINE))
 def test_the_engine_holds_no_sentence(name: str) -> None:
-    """A message of the engine begins with a small letter and has no full stop; what does not is meant for the page."""
+    """A message of the engine begins with a small letter and has no full stop. Any other text would be a sentence of a
+    page."""
     spoken = [node.value for node in strings(name) if re.search(r"^[A-Z][a-z]+ [a-z]+ |[a-z]{2}[.!?]( |$)", node.value)]
     assert spoken == []
 
@@ -208,7 +209,7 @@ def test_only_the_command_line_prints(name: str) -> None:
 def test_nothing_is_evaluated_from_text(name: str) -> None:
     banned = {"eval", "exec", "sympify", "parse_expr", "parse_latex", "S"}
     called = {ast.unparse(n.func) for n in ast.walk(tree(name)) if isinstance(n, ast.Call)}
-    allowed = {"exec"} if name == "course.script" else set()  # a problem's own script is code, and trusted
+    allowed = {"exec"} if name == "course.script" else set()  # the script of a problem is trusted code
     assert called & banned <= allowed
 
 
@@ -227,7 +228,7 @@ def test_what_a_page_says_stands_somewhere_stands_there(page: str) -> None:
 
 
 def test_nothing_that_is_shipped_names_a_machine() -> None:
-    """No folder of whoever runs this, and no address of a package index."""
+    """No folder of the user who runs this test, and no address of a package index."""
     own = "|".join(re.escape(f"{folder}/") for folder in (ROOT, Path.home(), Path(tempfile.gettempdir())))
     for path in (
         p for folder in ("derive", "templates", "problems", "docs", "tools") for p in (ROOT / folder).rglob("*.*")
@@ -241,7 +242,7 @@ def test_nothing_that_is_shipped_names_a_machine() -> None:
 
 @cache
 def verbs() -> dict[str, Any]:
-    """Every public function of mechanics and numbers that yields a quantity."""
+    """Return every public function of `derive.mechanics` and `derive.steps.numeric` that yields a quantity."""
     modules = [
         derive.steps.numeric,
         *(import_module(f"derive.{name}") for name in VERB_MODULES),
@@ -321,7 +322,7 @@ def test_every_phrase_belongs_to_a_rule() -> None:
 
 @cache
 def uses(module: str) -> dict[str, set[str]]:
-    """The constants that each top-level function of a module, or method of a class, establishes by."""
+    """Return the rules that each top-level function or class of a module passes to `establish`, by their constants."""
     return {
         node.name: {
             ast.unparse(call.args[0])
@@ -345,7 +346,7 @@ FUNCTIONS = {
 
 @cache
 def names_from_elsewhere(module: str) -> dict[str, tuple[str, str]]:
-    """What a module has from others: the name that it uses, and where that is a function."""
+    """Return name -> (module, name there) for each name that a module imports."""
     return {
         alias.asname or alias.name: (node.module.removeprefix("derive."), alias.name)
         for node in ast.walk(tree(module))
@@ -355,7 +356,7 @@ def names_from_elsewhere(module: str) -> dict[str, tuple[str, str]]:
 
 
 def rules_of(module: str, name: str, seen: set[tuple[str, str]], but_for: Collection[str]) -> set[Rule]:
-    """The rules by which a function establishes, itself or by functions other than these."""
+    """Return the rules that a function passes to `establish`, directly or through functions other than these."""
     seen.add((module, name))
     nodes = list(ast.walk(FUNCTIONS[module, name]))
     its_own = {n.arg for n in nodes if isinstance(n, ast.arg)}
@@ -370,13 +371,15 @@ def rules_of(module: str, name: str, seen: set[tuple[str, str]], but_for: Collec
 
 
 def rules_of_verb(name: str, through_others: bool = False) -> set[Rule]:
-    """The rules by which a verb establishes, itself or by other verbs too."""
+    """Return the rules that a verb passes to `establish`, directly or with `through_others` also through other
+    verbs."""
     module = verbs()[name].__module__.removeprefix("derive.")
     return rules_of(module, name, set(), () if through_others else set(verbs()))
 
 
 def called(name: str) -> str:
-    """By what word its docstring calls the second way: the first of the two that it has."""
+    """Return the word by which the docstring calls the second derivation, "Second route" or "Check"; empty if it has
+    none."""
     found = re.search(r"^(Second route|Check): ", inspect.getdoc(verbs()[name]) or "", re.MULTILINE)
     return found[1] if found else ""
 
@@ -417,7 +420,7 @@ def test_quantities_are_made_by_establish_alone() -> None:
 
 
 def _one_value_twice(pair: ast.AST) -> bool:
-    """(x, x), (x := f, x), (x,) * 2, and an equation beside itself with its sides exchanged."""
+    """Whether a pair is (x, x), (x := f, x), (x,) * 2, or an equation and the same with its sides exchanged."""
     if isinstance(pair, ast.BinOp):
         return isinstance(pair.op, ast.Mult) and isinstance(pair.left, ast.Tuple) and ast.unparse(pair.right) == "2"
     if not isinstance(pair, ast.Tuple) or len(pair.elts) != 2:
@@ -434,7 +437,7 @@ def _written(value: ast.expr) -> list[ast.expr]:
 
 
 def _pairs_of(name: str) -> Iterator[ast.AST]:
-    """The values of tables, and what is put into them: a formula and the same by another way among them."""
+    """Yield the values in dictionaries, among them the pairs of a formula and the same formula by another route."""
     for node in ast.walk(tree(name)):
         if isinstance(node, ast.Dict):
             yield from node.values
@@ -446,13 +449,13 @@ def _pairs_of(name: str) -> Iterator[ast.AST]:
             yield node.value
 
 
-ELSEWHERE = {"mechanics.vibrations.superposition"}  # its start values get a second way of their own
+ELSEWHERE = {"mechanics.vibrations.superposition"}  # its start values have a separate second route
 SAYING_FORMULAS = [name for name in MODULES if name.startswith("mechanics.") or name == "steps.numeric"]
 
 
 @pytest.mark.parametrize("name", sorted(set(SAYING_FORMULAS) - ELSEWHERE))
 def test_a_formula_is_not_compared_with_itself(name: str) -> None:
-    """What has no other way is `named`, and a predicate judges it."""
+    """A formula without a second route belongs under `named`, where a predicate judges it."""
     assert [ast.unparse(pair) for pair in _pairs_of(name) if _one_value_twice(pair)] == []
 
 
@@ -471,9 +474,9 @@ def test_one_value_twice_is_found_in_a_pair(source: str, twice: bool) -> None:
     assert _one_value_twice(ast.parse(source, mode="eval").body) is twice
 
 
-CARRIED = {  # facts that say where a value comes from; what does not fit together is refused where they are read
+CARRIED = {  # facts about the origin of a value; where they are read, values that do not fit together are rejected
     "bodies and points, which `united` compares": {"OfBody", "AboutPoint", "Integrated", "PrincipalOf"},
-    "the matter or the law itself, of which the routes are made": {
+    "the matter or the law itself, from which the routes are computed": {
         "Matter",
         "ReducedMatter",
         "Varied",
@@ -503,7 +506,7 @@ CARRIED = {  # facts that say where a value comes from; what does not fit togeth
         "Witness",
     },
     "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Turning", "Roots", "ValueOf"},
-    "numbers that a test of their own compares": {"WholeSwing"},
+    "numbers that a separate test compares": {"WholeSwing"},
 }
 
 

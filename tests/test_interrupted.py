@@ -1,4 +1,4 @@
-"""The tests pass also where an interrupt is ignored, as in what a script starts in the background."""
+"""The tests also pass if interrupts are ignored, as in processes that a script starts in the background."""
 
 from __future__ import annotations
 

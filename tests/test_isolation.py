@@ -1,4 +1,4 @@
-"""Nothing in the folder that somebody is in is run: each Python starts with `-P` or `-I`."""
+"""No code in the current folder is run: each Python starts with `-P` or `-I`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tests.courses import ROOT, course_in
 TEXTS = ("Makefile", "README.md", "CONTRIBUTING.md", ".ci/run", ".pre-commit-config.yaml", "pyproject.toml")
 FOLDERS = ("derive", "tools", "bench", "tests", "docs", "templates", "problems")
 SUFFIXES = {".py", ".md", ".yaml", ".j2"}
-# A Python with what follows it: by its name, as the Makefile calls it, or as the one that runs.
+# Patterns of a Python and its first option: by its name, by a variable of the Makefile, or by `sys.executable`.
 STARTS = (
     re.compile(r"\bpython[\d.]*\s+(-\w+)"),
     re.compile(r"\$\(PYTHON\)\s+(\S+)"),
@@ -52,7 +52,7 @@ def test_each_place_that_starts_python_isolates_it() -> None:
 
 @pytest.fixture
 def hostile(tmp_path: Path) -> Path:
-    """A folder whose files have the names of modules that derive, its worker and SymPy import."""
+    """Return a folder whose files have the names of modules that derive, its worker and SymPy import."""
     folder = tmp_path / "here"
     folder.mkdir()
     for name in ("sympy", "random", "yaml", "pathlib", "tempfile", "mpmath", "jinja2", "json"):

@@ -1,6 +1,6 @@
-"""A law, a second route or a choice of words that is changed is refused, or prints what it printed.
+"""A changed law, second route or choice of words is refused, or the page stays the same.
 
-`make mutants` tries every mutant; here is a fair sample. What was found is told in `docs/soundness.md`.
+`make mutants` tries every mutant; these tests try a random sample. `docs/soundness.md` reports the results.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ SIZE, SEED = 12, 2026
 
 
 def in_a_process_of_its_own(found: Callable[[], Iterator[Any]]) -> Iterator[Any]:
-    """What is found, without a trace of what the trials remember."""
+    """Yield the results of `found`, computed in another process, so that caches of the trials do not stay in this
+    one."""
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
@@ -48,7 +49,7 @@ def in_a_process_of_its_own(found: Callable[[], Iterator[Any]]) -> Iterator[Any]
 
 @pytest.fixture(scope="module")
 def trials() -> Trials:
-    """The mutants themselves, made once for all tests here."""
+    """Return the mutants, which are made once for all tests of this module."""
     made = Trials(RUNS)
     assert made.mutants
     return made
@@ -64,7 +65,7 @@ def found(trials: Trials) -> list[Tried]:
 
 
 def verdicts_on(run: str, modules: Sequence[str], chosen: Callable[[Mutant], bool]) -> Sequence[Tried]:
-    """What becomes of some mutants of these modules on one run."""
+    """Return the verdicts on chosen mutants of these modules in one run."""
 
     def verdicts() -> Iterator[Tried]:
         trials = Trials((run,), modules)
@@ -82,11 +83,12 @@ def test_no_mutant_prints_another_result_or_another_sentence(found: list[Tried])
 def test_every_mutant_of_the_sample_was_tried(found: list[Tried]) -> None:
     assert len(found) == SIZE
     refused = sum(tried.verdict in {Verdict.REFUSED, Verdict.CRASHED} for tried in found)
-    assert refused >= SIZE // 4  # of others many change nothing that a page shows
+    assert refused >= SIZE // 4  # many others change nothing on a page
 
 
 def test_the_law_of_every_verb_has_mutants(trials: Trials) -> None:
-    """A definition asserts nothing, so a change of it is another definition; every other verb can be made wrong."""
+    """A definition asserts nothing, so a changed definition is another definition. Every other verb can be made
+    wrong."""
     assert {name for name in verbs() if any(rule.evidence for rule in rules_of_verb(name))} <= trials.changed()
 
 
@@ -117,7 +119,7 @@ def test_the_rate_that_follows_from_a_kept_momentum_is_compared_with_the_momentu
     assert wrong == []
 
 
-PRINTED_SOMETHING_FALSE = {  # on which run, and how the ids begin
+PRINTED_SOMETHING_FALSE = {  # run -> the beginnings of the ids of its mutants
     "block": ["steps.numeric:_outcome: outcome: 'exact' -> 'integrated'"],
     "slab": [
         "mechanics.bodies.placed:_across: comparison: getattr(body, 'filling', '') == 'length'",

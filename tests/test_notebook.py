@@ -1,4 +1,4 @@
-"""A problem opened in a notebook: its answers and drawings, and what is said of a key that it does not have."""
+"""A problem opened in a notebook: its answers and drawings, and the error for a key that it does not have."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A second route can refuse: whatever result is changed a little, a route to it objects."""
+"""Second routes can refuse: if a result is changed a little, some route to it refuses the change."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 from tests.mutation.runs import RUNS
 from tests.perturbation import EXCEPTIONS, Established, established_in, sample
 
-# Every problem, with numbers where they bring steps of their own, and bodies that no problem shows.
+# Problems, one with numbers that add steps, and a body that no problem has.
 SOLVED = ("block", "cone", "euler", "slab-numbers", "top-rates", "body-hoop")
 SIZE, SEED = 120, 2026
 

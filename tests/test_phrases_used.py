@@ -1,8 +1,9 @@
-"""Each phrase of a page is used by some page: what nobody can read is not kept.
+"""Each phrase of pages is used by some page: a phrase that no page uses is deleted.
 
-`variants/variants.yaml` has problems for phrases that no other page has, one a document. `phrases_used.yaml` says of
-each page which phrases it answers for, and of phrases without a page why there is none. After a change that is meant,
-`python -P -m tests.test_phrases_used` writes it anew: read the difference first.
+`variants/variants.yaml` has problems for phrases that no other page uses, one problem in each YAML document.
+`phrases_used.yaml` lists, for each page, the phrases for which it is the evidence, and for each phrase without a page
+the reason. After an intended change, `python -P -m tests.test_phrases_used` writes this file again: then read the
+difference.
 """
 
 from __future__ import annotations
@@ -30,17 +31,17 @@ from tests.mutation.runs import RUNS
 from tests.test_transcripts import PAGES
 
 LIST = Path(__file__).with_suffix("").with_name("phrases_used.yaml")
-OF_PAGES = ("rules", "routes", "reasons", "terms", "drawings")  # the rest are the frame of every page
+OF_PAGES = ("rules", "routes", "reasons", "terms", "drawings")  # all others belong to the frame of every page
 VARIANTS = Path(__file__).with_name("variants")
 SETS = {"mutation": ROOT / "tests" / "mutation" / "problems", "library": ROOT / "problems" / "library"}
-SORTS = ("transcript", "variant", "body", *SETS)  # the library is long: it answers only for what no other page says
+SORTS = ("transcript", "variant", "body", *SETS)  # the long library comes last, for phrases of no other page
 SIZE, SEED = 24, 2026
 NOWHERE, NOT_YET = "nowhere", "no page is written yet; this list may only shrink"
 
 
 @cache
 def variants() -> dict[str, str]:
-    """Name -> the problem: a document each of one file."""
+    """Return name -> text of the problem, from the YAML documents of one file."""
     _, *found = re.split(r"^--- # (\w+)\n", (VARIANTS / "variants.yaml").read_text(encoding="utf-8"), flags=re.M)
     return dict(zip(found[::2], found[1::2], strict=True))
 
@@ -49,7 +50,7 @@ def variants() -> dict[str, str]:
 
 
 class _Noted(dict[str, Any]):
-    """A table that remembers which of its phrases were asked for."""
+    """A table of phrases that notes the phrases that are read from it."""
 
     def __init__(self, table: Mapping[str, Any], used: set[str]):
         super().__init__({k: _Noted(v, used) if isinstance(v, Mapping) else v for k, v in table.items()})
@@ -68,7 +69,7 @@ class _Noted(dict[str, Any]):
 
 
 class _NotedPhrases(Phrases):
-    """Phrases that remember which of them a page was told with."""
+    """Phrases that note which of them a page uses."""
 
     used: set[str]
 
@@ -90,7 +91,7 @@ class _NotedPhrases(Phrases):
 def noted_phrases() -> _NotedPhrases:
     used: set[str] = set()
     read = read_phrases(ROOT / "templates" / "phrases" / "en")
-    plain = {"rules", "routes", "reasons"}  # of these the methods note what they choose
+    plain = {"rules", "routes", "reasons"}  # the methods above note the phrases that they choose from these
     noted = _NotedPhrases(
         **{f.name: read[f.name] if f.name in plain else _Noted(read[f.name], used) for f in fields(Phrases)}
     )
@@ -99,7 +100,7 @@ def noted_phrases() -> _NotedPhrases:
 
 
 def used_by(page: str, folder: Path) -> set[str]:
-    """The phrases of a page: `transcript/block-cube`, `library/atwood`; of one that says no level, also at full."""
+    """Return the phrases of a page, such as `transcript/block-cube`; without a given level, also those at `full`."""
     sort, _, name = page.partition("/")
     root, problem_id, detail = folder, f"{sort}/{name}", None
     if sort == "transcript":
@@ -144,13 +145,13 @@ def phrases_of_pages() -> list[str]:
 
 @cache
 def credited() -> dict[str, Any]:
-    """Page -> the phrases that it answers for; `nowhere` -> why -> those without a page."""
+    """Return page -> its phrases; and `nowhere` -> reason -> the phrases without a page."""
     known: dict[str, Any] = yaml.safe_load(LIST.read_text(encoding="utf-8"))
     return known
 
 
 def _sample() -> list[str]:
-    """Some of the pages, a fair sample; writing the list anew makes them all."""
+    """Return a random sample of the pages; writing the list again makes all of them."""
     pages = sorted(page for page in credited() if page != NOWHERE)
     return sorted(Random(SEED).sample(pages, min(SIZE, len(pages))))
 
@@ -163,9 +164,9 @@ def test_each_phrase_has_a_page_or_a_reason_to_have_none() -> None:
     answered = [phrase for page, told in known.items() if page != NOWHERE for phrase in told]
     excused = [phrase for told in known[NOWHERE].values() for phrase in told]
     there = phrases_of_pages()
-    assert sorted({*there} - {*answered, *excused}) == [], "no page says it: write one, or delete the phrase"
-    assert sorted({*answered, *excused} - {*there}) == [], "is no phrase any more"
-    assert sorted({*answered} & {*excused}) == [], "has a page, and needs no reason to have none"
+    assert sorted({*there} - {*answered, *excused}) == [], "no page uses it: write one, or delete the phrase"
+    assert sorted({*answered, *excused} - {*there}) == [], "is not a phrase any more"
+    assert sorted({*answered} & {*excused}) == [], "has a page, so it needs no reason"
 
 
 @pytest.mark.parametrize("page", _sample())
@@ -200,7 +201,8 @@ def _pages() -> list[str]:
 
 
 def _written(known: Mapping[str, Any]) -> str:
-    """Pages that other tests have made anyway come first; then whichever adds most."""
+    """Return the text of the list. Pages that other tests also make come first; then those that add the most
+    phrases."""
     with tempfile.TemporaryDirectory() as temporary:
         os.environ.setdefault("XDG_STATE_HOME", temporary)
         used: dict[str, set[str]] = {}
@@ -208,7 +210,7 @@ def _written(known: Mapping[str, Any]) -> str:
             try:
                 used[page] = used_by(page, Path(temporary) / page.replace("/", "-"))
             except DeriveError as refusal:
-                print(f"{page} answers for nothing: {refusal}")
+                print(f"{page} is refused: {refusal}")
     left, lines = {*phrases_of_pages()}, []
     for sort in SORTS:
         pages = {page for page in used if page.startswith(f"{sort}/")}

@@ -1,4 +1,4 @@
-"""The slab from its YAML alone: what an instructor may change, and what the page then says."""
+"""The slab from YAML alone: edits of an instructor, and the words of the page after them."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_a_frequency_that_would_be_imaginary_has_no_number(tmp_path: Path) -> No
     text = text_of(tmp_path, NUMBERS)
     assert "If ω_0² is positive, the angular frequency of small oscillations" in text
     assert "ω_0 ≈" not in text and "10 cm = 0.1 m" in text
-    assert "≈ 3.883 rad/s" in text.replace("√", "")  # kappa alone has one
+    assert "≈ 3.883 rad/s" in text.replace("√", "")  # only kappa has a number
 
 
 def test_a_length_that_is_called_as_the_angle_is_refused(tmp_path: Path) -> None:
@@ -69,7 +69,7 @@ def test_a_length_that_is_called_as_the_angle_is_refused(tmp_path: Path) -> None
 
 
 def test_a_part_alone_shows_the_steps_that_it_rests_on(tmp_path: Path) -> None:
-    """With the first four parts dropped, the last one derives the equation of motion before it points at it."""
+    """Without the first four parts, the last part derives the equation of motion before it refers to it."""
     root = course_in(tmp_path, problem="slab")
     file = root / "problems" / "hw9" / "slab.yaml"
     written = file.read_text(encoding="utf-8")

@@ -1,14 +1,14 @@
-"""Words that our texts do not use: none in what users read; in the code their number only falls."""
+"""Words that our texts avoid: texts for users have none of them, and their number in the code only falls."""
 
 from __future__ import annotations
 
 from tests.style import PROSE, counts, files, uses
 
-MOST_IN_CODE = 45  # a real term of the field may be among them
+MOST_IN_CODE = 45  # terms of the field may be among them
 
 
 def test_what_users_read_has_none_of_these_words() -> None:
-    """The generated list of errors quotes the code, and is counted with it."""
+    """The generated pages quote the code, so they are counted with it."""
     pages = [path for path in files(*PROSE) if path.name not in {"errors.md", "rules.md", "yaml.md"}]
     assert [(path.name, *use) for path in pages if path.suffix == ".md" for use in uses(path)] == []
 

@@ -1,7 +1,7 @@
-"""The plain-text page of each pinned problem, as a reviewer reads it; of its variants only the lines that differ.
+"""The plain-text page of each pinned problem, for a reviewer; for variants of it only the lines that differ.
 
-So a sentence that all pages share is in one file. After an intended change, `python -P -m tests.test_transcripts`
-writes the files again: read the difference first.
+So a sentence that all pages share is in one file only. After an intended change, `python -P -m tests.test_transcripts`
+writes the files again: then read the difference.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import pytest
 from tests.courses import course_in, rendered_once
 
 FOLDER = Path(__file__).parent / "transcripts"
-# page -> edits of the pinned problem that its name begins with, and the detail
+# page -> edits of the pinned problem with which its name begins, and the level of detail
 PAGES: dict[str, tuple[dict[str, str], str | None]] = {
     "block": ({}, None),
     "block-brief": ({}, "brief"),
@@ -89,7 +89,8 @@ def page(name: str, folder: Path) -> str:
 
 
 def differences(base: str, variant: str) -> str:
-    """The lines that a variant has in place of others, place by place, and how many those others are."""
+    """Return the lines of a variant that differ from its base, at each place with the number of lines that they
+    replace."""
     before, after = base.splitlines(), variant.splitlines()
 
     def places() -> Iterator[str]:
@@ -102,7 +103,7 @@ def differences(base: str, variant: str) -> str:
 
 
 def pinned(name: str, folder: Path) -> str:
-    """What the file of a page holds."""
+    """Return the contents of the file of a page."""
     base = name.partition("-")[0]
     made = page(name, folder / name)
     return made if base == name else differences(page(base, folder / base), made)

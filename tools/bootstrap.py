@@ -1,11 +1,12 @@
 """Make or repair the environment in `.venv`, or leave it unchanged. Run by `make`, with the standard library only.
 
-Only packages whose files have the digests in `locks/` are installed, and only built ones, so that no code of an unknown
-package runs. The packages installed then install derive itself, without access to any registry.
+Only built packages whose files have the digests in `locks/` are installed, so no code of an unknown package runs. These
+packages then install derive itself, without access to any registry.
 
-A stamp in `.venv` shows `make` that the environment fits `pyproject.toml` and `locks/`: `.runtime` for what
-derives and typesets, `.tests` also for the linters and the test suite. A mark exists while packages are being
-installed; if it is found, that installation was interrupted and the environment is made again.
+A stamp file in `.venv` shows `make` that the environment fits `pyproject.toml` and `locks/`: `.runtime` for the
+packages that derive and typeset, `.tests` also for the linters and the test suite. The file `.unfinished` exists while
+packages are being installed. If it exists at the start, an installation was interrupted and the environment is made
+again.
 """
 
 from __future__ import annotations
@@ -30,12 +31,12 @@ OLDEST = (3, 11)
 
 
 class Stopped(Exception):
-    """The environment cannot be made; the message is one line with its fix."""
+    """The environment cannot be made; the message is one line with the fix."""
 
 
 @contextmanager
 def alone() -> Iterator[None]:
-    """Run one installation at a time: a second `make` waits here, then finds the work done."""
+    """Allow one installation at a time: a second `make` waits here, then finds the environment complete."""
     lock = os.open(ROOT / ".venv.lock", os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
     try:
         try:
@@ -49,7 +50,7 @@ def alone() -> Iterator[None]:
 
 
 def fingerprint() -> str:
-    """Return a digest that changes with anything from which the environment is made."""
+    """Return a digest of all files that determine the environment."""
     sources = [ROOT / "pyproject.toml", *(ROOT / lock for lock in LOCKS.values()), Path(__file__)]
     return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
 
@@ -77,12 +78,12 @@ def check_tools(uv: str | None) -> None:
             f"error[python]: derive needs Python 3.11 or later, and this is {this}: install a newer one, or uv"
         )
     if not uv and not has_venv():
-        mend = f"`apt install {name}-venv`, or install uv, then `make` again"
-        raise Stopped(f"error[venv]: {name} has no working venv module: {mend}")
+        fix = f"`apt install {name}-venv`, or install uv, then `make` again"
+        raise Stopped(f"error[venv]: {name} has no working venv module: {fix}")
 
 
 def run(command: list[str], failed: str) -> None:
-    """Run quietly; if an installer fails, show the few lines that give the reason, without addresses."""
+    """Run a command quietly; if it fails, raise `Stopped` with the lines that give the reason, without addresses."""
     done = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
         lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
@@ -129,7 +130,7 @@ def set_up(stamp: str) -> None:
             except Stopped as stopped:
                 if not uv or not has_venv():
                     raise
-                print(f"{stopped}\ntrying pip instead of uv", flush=True)  # pip may have settings that uv lacks
+                print(f"{stopped}\ntrying pip instead of uv", flush=True)  # pip may have settings that uv does not use
                 install(stamp, None)
         for name in {stamp, ".runtime"}:
             (VENV / name).write_text(wanted)
@@ -145,7 +146,7 @@ def main() -> int:
         print(f"error[cannot-write]: cannot set up .venv: {error.strerror}: {error.filename}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("interrupted; the next make carries on", file=sys.stderr)
+        print("interrupted; the next `make` continues", file=sys.stderr)
         return 130
     return 0
 

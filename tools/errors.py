@@ -1,6 +1,7 @@
 """Write docs/errors.md: every code of an error, with its messages, its cause, its fix and an example.
 
-Messages are read from the code, examples are golden outputs of the tests, cause and fix are in tools/errors.yaml.
+The messages come from the code, the examples from golden outputs of the tests, and the causes and fixes from
+tools/errors.yaml.
 """
 
 from __future__ import annotations
@@ -27,9 +28,9 @@ _BEGINNING = """\
 
 Made by `tools/errors.py` from the code, the tests and `tools/errors.yaml`; do not edit it.
 
-An error message says where (file, line, column) and what is wrong, under a code such as `wrong-kind`. It shows the
-line, and helps if it can. All errors of a file are reported at once; earlier outputs stay unchanged. In the messages
-below, `…` replaces names and numbers of your problem.
+An error message states the place (file, line, column), a code such as `wrong-kind`, and what is wrong. It shows the
+line, and a fix if there is one. All errors of a file are reported at once; earlier outputs stay unchanged. In the
+messages below, `…` replaces names and numbers of your problem.
 """
 
 
@@ -67,7 +68,7 @@ def _code_at(call: ast.Call) -> int | None:
 
 
 def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list[ast.expr]]:
-    """Return the last value of each name in a scope, above a line of it."""
+    """Return the last value of each name in a scope, above the given line."""
     found: dict[str, list[ast.expr]] = {}
     assigned = [node for node in ast.walk(scope) if isinstance(node, ast.Assign) and node.lineno < before]
     for node in sorted(assigned, key=lambda each: each.lineno):
@@ -78,7 +79,7 @@ def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list
 
 
 def _pairs(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]:
-    """Return targets with their values, also for several at once."""
+    """Return the targets of an assignment with their values; a tuple of targets gives several pairs."""
     if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple) and len(target.elts) == len(value.elts):
         return list(zip(target.elts, value.elts, strict=True))
     return [(target, value)]

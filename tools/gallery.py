@@ -1,6 +1,6 @@
-"""Write docs/gallery.md; `--pictures` takes its pictures again in Chromium, from pages that `make library` has built.
+"""Write docs/gallery.md; `--pictures` takes new pictures in Chromium, from the pages that `make library` has built.
 
-A picture is the beginning of the page that a build has written for a browser; below it is the YAML of the problem.
+A picture shows the beginning of a problem's page in a browser; the YAML of the problem is below it.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "gallery"
 WIDTH, HEIGHT = 860, 1060
 
-# What each problem shows.
+# name of a problem -> what its page shows
 SHOWN = {
     "turning_hoop": "A system on rotating axes: equilibria, and the conditions of their stability",
     "double_pendulum": "Two coordinates, their equations of motion and the normal modes",
@@ -36,7 +36,7 @@ your own with a copy of one.
 
 
 def document() -> str:
-    """The whole page."""
+    """Return the whole page."""
     return "\n".join([_BEGINNING, *(_entry(name, shows) for name, shows in SHOWN.items())])
 
 
@@ -50,7 +50,7 @@ def _entry(name: str, shows: str) -> str:
 
 
 def _told(text: str) -> str:
-    """Return the problem without the comparison with a book."""
+    """Return the YAML of a problem without its comparison with a book."""
     return re.sub(r"^# yaml-language-server.*\n", "", text.partition("\nreference:")[0], flags=re.MULTILINE).strip()
 
 

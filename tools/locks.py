@@ -1,6 +1,7 @@
 """Write `locks/`, the installed packages with the digests of their files: `python -P -m tools.locks`.
 
-Versions are those of `constraints.txt`; `uv` is asked for each of them on every platform, and no registry is named.
+The versions are those of `constraints.txt`. `uv` finds the files of each for every platform, and `locks/` names no
+registry.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 CONSTRAINTS = ROOT / "constraints.txt"
 OLDEST = "3.11"
-BUILDS = "hatchling\neditables\n"  # packages that install derive itself
+BUILDS = "hatchling\neditables\n"  # packages needed to install derive itself
 HEADS = {
     "runtime": "# Packages to derive, to typeset and to install derive: written by `python -P -m tools.locks`.\n",
     "tests": "# The additional packages of the tests and linters: written by `python -P -m tools.locks`.\n",
@@ -24,7 +25,7 @@ _ENTRY = re.compile(r"^([a-z0-9][a-z0-9._-]*)==.*(?:\n +--hash=.*)*", re.MULTILI
 
 
 def entries(text: str) -> dict[str, str]:
-    """Return each package of a lock by its name, with its version, its conditions and its digests."""
+    """Return name -> entry of a lock, for each package: its version, its conditions and its digests."""
     return {found[1]: found[0] for found in _ENTRY.finditer(text)}
 
 

@@ -1,4 +1,4 @@
-"""Write the page of all rules, and the list of those with checks only, from the records next to the verbs."""
+"""Write the page of all rules, and the list of rules with checks only, from the records next to the verbs."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def rules() -> list[Rule]:
 
 
 def verbs() -> str:
-    """A row for each verb that a script can call, with what it yields."""
+    """Return a table with a row for each verb that a script can call, with what it yields."""
     public = {name: each for name, each in vars(derive.mechanics).items() if isfunction(each) and name[0] != "_"}
     asked: dict[str, str] = {}
     for name, verb in RESULT_VERBS.items():
@@ -49,7 +49,7 @@ def verbs() -> str:
 
 
 def document() -> str:
-    """Return the verbs, and a section for each folder, with a row for each of its rules."""
+    """Return the page: the verbs, and a section for each folder, with a row for each of its rules."""
     parts = [HEAD, verbs()]
     for folder, own in groupby(rules(), key=lambda rule: rule.name.partition(".")[0]):
         parts.append(
@@ -75,7 +75,7 @@ def with_checks_only() -> str:
 
 
 def soundness(text: str) -> str:
-    """Return the page with the current list."""
+    """Return the page on soundness with the current list."""
     before, _, rest = text.partition(START)
     return before + START + with_checks_only() + END + rest.partition(END)[2]
 

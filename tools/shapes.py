@@ -1,4 +1,4 @@
-"""Write the table of shapes in the documentation: the position of each in its own axes, and its points."""
+"""Write the table of shapes in the documentation: the position of each shape in its own axes, and its points."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The letters of formulas on web pages: the glyphs of STIX Two Math that a page can have, in
-`templates/html/math.woff`.
+"""Write `templates/html/math.woff`: the glyphs of STIX Two Math that formulas on web pages need.
 
 Run it with the font as its argument where `fonttools` is installed; the package `ziamath`, among others, includes the
 font. The subset keeps the licence of the font, the SIL Open Font License.
@@ -43,7 +42,7 @@ def subset(whole: str, made: Path) -> None:
 
 
 def narrow_roots(font: Any) -> None:
-    """Give all root signs about the same width: Chromium puts the width of the widest sign after every root."""
+    """Give all root signs about the same width: Chromium reserves the width of the widest sign for every root."""
     variants = font["MATH"].table.MathVariants
     root = variants.VertGlyphConstruction[variants.VertGlyphCoverage.glyphs.index(font.getBestCmap()[ord("√")])]
     for variant in root.MathGlyphVariantRecord[1:]:

@@ -25,12 +25,12 @@ bold is required.
 An *expression* is a formula of declared letters, or a number with its unit: `2*a`, `sqrt(g/l)`, `2 cm`, `900 rpm`.
 """
 
-MANY = 8  # from this number on, shared keys are not listed again
+MANY = 8  # if two tables share at least this number of keys, the second does not list them again
 Schema = dict[str, Any]
 
 
 class Sections:
-    """A table for each mapping of the files; two places with the same keys share one table."""
+    """A table for each mapping of the files; two mappings with the same keys share one table."""
 
     def __init__(self) -> None:
         self.tables: list[str] = []
@@ -50,11 +50,11 @@ class Sections:
             self._table(f"### {name}", found)
 
     def _table(self, heading: str, schema: Schema) -> None:
-        self._at = heading.rpartition(" ")[2].strip("`")  # for keys below it whose name is taken
+        self._at = heading.rpartition(" ")[2].strip("`")  # for the titles of later tables
         needed, keys = schema.get("required", []), schema["properties"]
         like, shared = self._shared_with_another(keys)
         lines = [heading, "", *([f"The keys of {like}, and", ""] if like else [])]
-        lines += ["| key | holds | is |", "|---|---|---|"]
+        lines += ["| key | value | meaning |", "|---|---|---|"]
         for name, under in keys.items():
             if name in shared:
                 continue
@@ -63,7 +63,7 @@ class Sections:
         self.tables.append("\n".join([*lines, ""]))
 
     def _shared_with_another(self, keys: Schema) -> tuple[str, Schema]:
-        """Return the table above whose keys are all among these, with its keys, if it has many."""
+        """Return the title of an earlier table with many keys, all of them among these, and its keys; else empty."""
         for title, other in self._titled.items():
             if MANY <= len(other) < len(keys) and all(keys.get(name) == under for name, under in other.items()):
                 return f"[{title}](#{_anchor(title)})", other
@@ -89,7 +89,7 @@ class Sections:
             return f"list: {count}({each})" if " or " in each and count else f"list: {count}{each}"
         if sort == "object" or isinstance(sort, list) and "object" in sort:
             each = schema.get("additionalProperties")
-            return f"names, each with {self._holds(each, name)}" if each else "what `solve` asks for"
+            return f"names, each with {self._holds(each, name)}" if each else "the inputs that `solve` asks for"
         return _plain(schema)
 
     def _link(self, schema: Schema, name: str) -> str:
@@ -130,7 +130,7 @@ def _plain(schema: Schema) -> str:
         case "string" if "^[A-Za-z]" in schema.get("pattern", ""):
             return "name"
         case "string" if " in " in schema.get("pattern", ""):
-            return "one with a range, `angle in (0, pi/2)`"
+            return "a kind with a range, `angle in (0, pi/2)`"
         case ("string", "boolean"):
             return "key of a step"
         case ():

@@ -10,7 +10,7 @@ from sympy.core.symbol import Str
 from derive.algebra.dimensions import Dimension
 from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, Value, explicit
 
-IN_DEGREES = frozenset({"deg", "degree", "degrees", "\u00b0"})  # units of angle that are kept as written
+IN_DEGREES = frozenset({"deg", "degree", "degrees", "\u00b0"})  # units of angle that are displayed as written
 
 
 class Amount(ScalarNode):

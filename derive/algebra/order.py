@@ -14,7 +14,7 @@ from math import prod
 
 from sympy import Add, Dummy, Expr, Integer, Rational, Symbol, cancel, expand, together
 
-PARTS = 12  # number of sizes of an amount that are tried, each an eighth of the one before
+PARTS = 12  # number of sizes of an amount that are tried, each an eighth of the size before
 LARGEST = 400  # number of operations of an expression that is expanded after the replacement
 
 SignOf = Callable[[Expr], int | None]

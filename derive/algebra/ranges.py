@@ -131,7 +131,7 @@ def _fits(letter: Any, number: Expr) -> bool:
 
 
 def without_abs(value: Any) -> Any:
-    """The value without those absolute values whose argument has a definite sign in the ranges of its symbols."""
+    """Remove the absolute values whose argument has a definite sign in the ranges of its symbols."""
     known = _KNOWN.get()
     if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):
         return value

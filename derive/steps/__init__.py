@@ -1,1 +1,1 @@
-"""A verified step, the one function that makes it, and the path from the answers back to what they depend on."""
+"""Verified steps: the function that makes them, and the steps on which each answer depends."""

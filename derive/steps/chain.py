@@ -1,5 +1,6 @@
 """The lines of a step: the values of the names in them, and the evidence that each line follows from the one before.
-A second route is compared with the result here too, by the same decision of what is equal.
+
+This module also compares each second route with the result, by the same function `equal`.
 """
 
 from __future__ import annotations
@@ -18,12 +19,13 @@ from derive.errors import Complaint, Unverified
 from derive.steps.rule import Rule
 from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Level, Quantity, Route
 
-BY_MOTION = "by the equations of motion"  # ends a claim that holds only for motions that obey these equations
+BY_MOTION = "by the equations of motion"  # the end of a claim that holds only for motions that obey these equations
 
 
 def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
-    """Leave out a form that looks just like the one before it, and keep the lower level of the two.
-    Leave out a form that is only the symbol of the step, unless there is no other form.
+    """Leave out a form with the same expression as the form before it, and keep the lower level of the two.
+
+    Also leave out a form that is only the symbol of the step, unless there is no other form. Rounded forms are kept.
     """
     kept: list[Form] = []
     for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
@@ -36,7 +38,7 @@ def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
 
 
 def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
-    """Return the values of the names in a formula; a vector's name adds the names of its components."""
+    """Return the values of the names in a formula; the name of a vector adds those of its components."""
     values: dict[Any, Any] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -45,28 +47,28 @@ def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
         if isinstance(quantity.symbol, MatrixSymbol) and quantity.symbol.shape == (3, 1):
             names = component_names(quantity.symbol.name)
             values.update(zip(names, list(quantity.value), strict=True))
-        elif isinstance(quantity.symbol, MatrixBase):  # several things established together, such as I_1, I_2, I_3
+        elif isinstance(quantity.symbol, MatrixBase):  # several results of one step, such as I_1, I_2, I_3
             values.update(zip(quantity.symbol, quantity.value, strict=True))
-    # A name cannot have a value that contains the same name (a general omega has components omega_x, ...).
+    # A name whose value is the name itself is left out (a general omega has the components omega_x, omega_y, omega_z).
     return {name: value for name, value in values.items() if name != value}
 
 
 def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
-    """Check that the left side equals the first line, where it is an expression and not only a name."""
+    """Check that the left side equals the first line, if the left side is an expression and not only a name."""
     is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
     if is_name or isinstance(first.expr, Relation):
         return []
     left, right = (bound(explicit(bound(each, bindings)), bindings) for each in (symbol, first.expr))
     verdict = equal(left, right)
     if not verdict:
-        raise refused(key, f"its left side {symbol} is not its first line", left, right, verdict)
+        raise refused(key, f"its left side {symbol} does not equal its first line", left, right, verdict)
     return [Evidence("line 1 equals the left side", Compared.LINES, verdict.grade, verdict.detail)]
 
 
 def check_last_line(
     key: str, chain: Sequence[Form], result: Any, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
 ) -> None:
-    """Check that the result equals the last line, whether or not it is written out once more."""
+    """Check that the last line that is neither a number nor a truncated series equals the result."""
     last = next(
         form for form in reversed(chain) if form.because not in NUMBERS and not isinstance(form.expr, Truncated)
     )
@@ -75,7 +77,7 @@ def check_last_line(
         return
     verdict = equal(bound(shown, motion), bound(result, motion), [explicit(bound(f, bindings)) for f in last.nonzero])
     if not verdict:
-        raise refused(key, "its result is not its last line", shown, result, verdict)
+        raise refused(key, "its result does not equal its last line", shown, result, verdict)
 
 
 def evidence_of_routes(key: str, rule: Rule, result: Any, routes: Mapping[str, Route]) -> list[Evidence]:
@@ -96,7 +98,7 @@ def line_evidence(
     key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
 ) -> Evidence:
     form, before = chain[i], chain[i - 1]
-    if form.because in NUMBERS:  # each number of a result is compared with the result, not with the number before it
+    if form.because in NUMBERS:  # compare each number with the symbolic result, not with the number before it
         before = next(other for other in reversed(chain[:i]) if other.because not in NUMBERS)
     left, right = (explicit(bound(each.expr, bindings)) for each in (before, form))
     claim = f"line {i + 1} equals line {i}"
@@ -115,8 +117,8 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Check the sign after a line with an expansion: an equality needs the whole expression there, and a limit must
-    not contain the letter that goes to it."""
+    """Check the sign after a line with an expansion. An equals sign requires that the next line equals the whole
+    expression, and a limit must not contain the symbol that goes to it."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return
@@ -128,8 +130,8 @@ def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
 
 
 def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
-    """Check a truncated series: at its point of expansion it has the value of the whole and the derivatives up to its
-    order, and it has no term beyond that order."""
+    """Check a truncated series: at its point of expansion it has the value of the whole expression and its derivatives
+    up to the order, and it has no term beyond that order."""
     polynomial, x, place, order = series.args
     if not vanishes(diff(explicit(polynomial), x, int(order) + 1)):
         raise Unverified(Complaint("unverified", f"`{key}`: the series has terms beyond order {order} in {x}"))
@@ -153,13 +155,13 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """Return what the result approximates, whether its symbol only approximates its first line, and the evidence.
-    A truncated result needs a different symbol from the whole. A result with the symbol of a truncated one approximates
-    the same whole; every other result derived from a truncated one is approximate too.
+    """Return what the result approximates, whether its symbol only approximates its first line, and the evidence. A
+    truncated result needs another symbol than the whole expression. A result with the symbol of a truncated result
+    approximates the same whole. Every other result derived from a truncated one is approximate too.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
-        raise Unverified(Complaint("unverified", f"`{key}`: an approximation needs another letter than {symbol}"))
+        raise Unverified(Complaint("unverified", f"`{key}`: an approximation needs a letter other than {symbol}"))
     if whole is not None:
         return whole, False, []
     found = [quantity for quantity in rests if not quantity.exact]
@@ -173,7 +175,7 @@ def approximation_evidence(
 def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
-    """Return the evidence of a route or a check, which gives two values to compare, or a numerical verdict."""
+    """Return the evidence of a route or a check, which returns two values to compare or a numerical verdict."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

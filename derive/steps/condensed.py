@@ -1,6 +1,7 @@
-"""The lines of a step with the values of some names substituted, for a page that does not show their steps.
-Each new line is compared with the old line by the values that `establish` kept with the step, so it is a checked line
-like any other.
+"""The lines of a step with the values of some names substituted, if a page does not show the steps of these names.
+
+Each new line is compared with the old line, with the values that `establish` stored in the step. So each new line is
+checked like any other.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ def condensed(step: Step, known: Mapping[Any, Any]) -> Step:
 
 
 def _put_in(form: Form, known: Mapping[Any, Any]) -> Form:
-    """Substitute the known values in a line; numbers and truncated series stay, since a series has an order in its
-    letters."""
+    """Substitute the known values in a line, unless it is a number or a truncated series. A series keeps its symbols
+    because its order refers to them."""
     if form.because in NUMBERS or isinstance(form.expr, Truncated):
         return form
     return replace(form, expr=bound(form.expr, known))

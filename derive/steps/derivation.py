@@ -1,5 +1,6 @@
-"""The steps that the answers of each part depend on; and a derivation written as JSON and read again.
-A part shows, depth first, the steps behind its answers that no earlier part has shown.
+"""The steps on which the answers of each part depend, and a derivation written as JSON and read again.
+
+A part shows the steps on which its answers depend, depth first, except those that an earlier part has shown.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ W = TypeVar("W", bound=str)
 
 @dataclass(frozen=True)
 class Derivation:
-    """Every step that the answers depend on, in the order of the page, their division into parts, and the assumptions.
+    """Every step on which the answers depend, in the order of the page, their division into parts, and the assumptions.
+
     `groups` are names that ask for several steps, with the keys of these steps.
     """
 
@@ -40,11 +42,11 @@ class Derivation:
         return next(step for step in self.steps if step.key == key)
 
     def answering(self, asked: Iterable[str]) -> tuple[Step, ...]:
-        """Return the steps that answer what a part asks for, each once: with these keys, or in their place."""
+        """Return the steps with the requested keys, or the steps that replace them, each once."""
         return tuple(self.step(key) for key in answering(asked, self.steps, dict(self.groups)))
 
     def warnings(self, place: Place) -> tuple[Complaint, ...]:
-        """Return a warning for each step that no answer depends on; `place` is where the script is named."""
+        """Return a warning for each step that no answer depends on; `place` is the line that names the script."""
         said, help_line = "`{}` is established but no answer depends on it", "let a part ask for it, or leave it out"
         return tuple(Complaint("not-shown", said.format(k), place, (), help_line, "warning") for k in self.unshown)
 
@@ -62,9 +64,10 @@ class Derivation:
 
 
 def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity]:
-    """Return the quantities that a script returned, flattened; reject all but quantities in tuples, lists and mappings.
+    """Return the quantities that a script returned, as one list; reject all but quantities in tuples, lists and
+    mappings.
 
-    `place` is where the script returns it.
+    `place` is the line of the script that returns them.
     """
     found: list[Quantity] = []
     waiting = [(value, 0)]
@@ -91,7 +94,7 @@ def returned_groups(value: Any, place: Place | None = None) -> dict[str, tuple[s
 
 
 def _is_whole(value: Any) -> bool:
-    """Whether the value is a quantity that `establish` made, and not an empty one."""
+    """Whether the value is a quantity with a step, as `establish` makes it."""
     return isinstance(value, Quantity) and isinstance(getattr(value, "step", None), Step)
 
 
@@ -100,13 +103,14 @@ def _named(value: Any) -> str:
     if value is None or value == ():
         return "nothing"
     if isinstance(value, tuple | list) and value:
-        return "lists within lists without end"
+        return "lists that are nested too deeply"
     kind = type(value).__name__
     return f"{'an' if kind[:1] in 'aeiou' else 'a'} `{kind}`"
 
 
 def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -> dict[str, Quantity]:
-    """Return these quantities and all that they depend on, parents first, by key; reject two with the same key."""
+    """Return these quantities and all quantities on which they depend, by key, parents first. Reject two different
+    steps with the same key."""
     found: dict[str, Quantity] = {}
 
     def visit(quantity: Quantity) -> None:
@@ -126,14 +130,16 @@ def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -
 
 
 def standing_in(steps: Iterable[Step]) -> dict[str, str]:
-    """Return, for each key without a step that another step replaces, the key of that other step."""
+    """Return key -> key of the step that replaces it, for each key that has no step of its own."""
     found = {step.key: step for step in steps}
     return {key: step.key for step in found.values() for key in step.stands_for if key not in found}
 
 
 def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
-    """Return the keys of the steps that answer the request, with the word that asks for each.
-    A name that is the first key of several asks for all of them: one of two conditions would claim too much.
+    """Return key -> requested name, for each step that answers the request.
+
+    A name asks for the group with this name, unless it is the key of a step outside of that group. So the key of one of
+    two conditions asks for both: one alone would claim too much.
     """
     steps = list(steps)
     own, instead = {step.key for step in steps}, standing_in(steps)
@@ -153,7 +159,7 @@ def derivation_of(
     groups: Mapping[str, tuple[str, ...]] | None = None,
     closing: Iterable[Iterable[Quantity]] = (),
 ) -> Derivation:
-    """Divide the steps among the parts; `answers` holds the keys that each part asks for.
+    """Divide the steps among the parts; `answers` are the keys that each part asks for.
 
     closing   the quantities of each limiting case; steps that only they depend on are in no part
     """

@@ -1,9 +1,10 @@
 """The one function that makes steps.
+
 A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes one, and only if
 
-    (a) each line of the chain equals the line before it, the first the left side where that is an expression, and the
-        last is the value that is returned;
-    (b) every second route to the result, and every check of it, agrees with it;
+    (a) each line of the chain equals the line before it, the first line equals the left side if that is an expression,
+        and the last line equals the returned value;
+    (b) every second route to the result, and every check of it, agrees with the result;
     (c) the subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
 
 A verb states its law once, as a function. `establish` calls it with the *names* of its inputs, which gives the
@@ -52,12 +53,12 @@ class Lines:
     """How the law becomes the lines of a chain, and how the result is written.
 
     before    forms before the law; `between`: between the law and the result; `after`: after the result
-    law       the level at which the law is shown
-    put_in    the level at which the law with substituted values is shown; None leaves it out
+    law       the level from which the law is shown
+    put_in    the level from which the law with substituted values is shown; None leaves it out
     result    whether the result has a separate line
-    arranged  how the result is written; it changes no value
-    motion    rate -> its value by the equations of motion, substituted in the last line, which holds only then
-    means     values of names on the left side, where that is an expression with names that the law does not have
+    arranged  a function that rewrites the result without changing its value
+    motion    rate -> its value by the equations of motion; the last line uses it and holds for such motions only
+    means     values of names on the left side, if that is an expression with names that do not occur in the law
     """
 
     before: Sequence[Form] = ()
@@ -81,7 +82,7 @@ class Lines:
 
 @dataclass(frozen=True)
 class PhraseData:
-    """The data that the sentence of a step has in addition to its chain, and further data for judging its outcome.
+    """The data of the sentence of a step in addition to its chain, and further data for judging its outcome.
 
     words       name -> key of a term that phrases put into words ("about": "corner")
     formulas    role -> a formula that only the sentence has, with the same formula by another route
@@ -106,11 +107,12 @@ class PhraseData:
 
 @dataclass(frozen=True)
 class Scope:
-    """The subject of a result, and where its symbol comes from.
-    about         the subject beyond that of the inputs; or a function of the result that returns it
+    """The subject of a result, and the origin of its symbol.
+
+    about        the subject in addition to that of the inputs, or a function that returns it for the result
     differ       the properties in which the subjects of the inputs may differ
     coordinates  coordinates that the step introduces, with their kinds
-    case_of      the general quantity of the same symbol that this is a particular case of
+    case_of      the general quantity with the same symbol, of which the result is a particular case
     approximates the symbol of the whole that a limit or a series approximates, or the key of an equation
     """
 
@@ -121,7 +123,7 @@ class Scope:
     approximates: Any = None
 
     def around(self, together: Subject, result: Any) -> Subject:
-        """Return the common subject of the inputs, extended by the subject of the result."""
+        """Return the common subject of the inputs, extended by the subject in `about`."""
         return together.with_more(self.about(result) if callable(self.about) else self.about)
 
 
@@ -144,14 +146,14 @@ def establish(
     """Make a step, or raise an error.
 
     rule        the law, its source, its outcomes and its evidence; a rule without evidence is a definition
-    symbol      what the page calls the result
+    symbol      the symbol of the result on the page
     law         a function of the inputs, in their order; it is called with names and with values
     inputs      role -> Quantity, or plain SymPy value
-    routes      claim of the rule -> function of the result, giving two values that must be equal
-    outcome     a word, or a function of the result that gives one; it selects the phrase
-    parents     other quantities that it depends on, in addition to its inputs
+    routes      claim of the rule -> function of the result, which returns two values that must be equal
+    outcome     a word that selects the phrase, or a function of the result that returns one
+    parents     other quantities on which the result depends, in addition to its inputs
     facts       facts that the quantity carries in addition to its value
-    Raises `Unverified`, naming the step, when a line or a route disagrees.
+    Raises `Unverified`, which names the step, if a line or a route disagrees.
     """
     key = key or rule.key
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
@@ -173,7 +175,8 @@ def establish(
     check_can_hold(key, result)
     _check_has_value(key, result)
     chain = lines.chain(symbol, formula, substituted, result)
-    told = lines.means.keys() & getattr(symbol, "free_symbols", set())  # x_dot of x_dot^2, whatever a parent says
+    # Names on the left side with values in `means`, as x_dot in x_dot^2; a parent's value of x_dot^2 is not used then.
+    told = lines.means.keys() & getattr(symbol, "free_symbols", set())
     others = {name: value for name, value in bindings.items() if name != symbol or not told}
     evidence = left_side_evidence(key, symbol, chain[0], {**others, **lines.means})
     evidence += [line_evidence(key, chain, i, bindings, lines.motion) for i in range(1, len(chain))]
@@ -227,7 +230,7 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
     found = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
     by_kind = {kind: [fact for fact in found if type(fact) is kind] for kind in {type(fact) for fact in found}}
     if any(len(facts) > 1 for facts in by_kind.values()):
-        return quantity  # it is about several systems
+        return quantity  # the quantity depends on several systems
     said = [facts[0].testimony(quantity, judged, quantity.step.outcome) for facts in by_kind.values()]
     verdict = next((each for each in sorted((s for s in said if s is not None), key=bool)), None)
     if verdict is None:
@@ -235,7 +238,7 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
     if not verdict:
         at = ", ".join(f"{name} = {value}" for name, value in verdict.point)
         message = f"`{quantity.key}` contradicts the motion of the described system: {verdict.detail}"
-        help_line = "if it holds for some values of the letters only, state them with `assume:`, or give numbers"
+        help_line = "if it holds only for some values of the letters, state these with `assume:`, or give numbers"
         notes = (f"for example at {at}",) if at else ()
         raise Unverified(Complaint("contradicts-motion", message, help=help_line, notes=notes))
     evidence = Evidence("motion", Compared.WITNESS, verdict.grade, verdict.detail)
@@ -243,25 +246,25 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
 
 
 def _told_centre(words: Mapping[str, str], body: Any) -> Mapping[str, str]:
-    """Give the centre of mass its full name, if the body has another point that may be called its centre."""
+    """Call the point the centre of mass in full, if the body has another point that may be called its centre."""
     is_unclear = words.get("about") == "centre" and bool(getattr(body, "other_centre", ""))
     return {**words, "about": "centre_of_mass"} if is_unclear else words
 
 
 def _place_of_verb(frame: FrameType) -> str:
-    """Return the place in the code where a verb passes its law; empty for a verb from outside `derive`."""
+    """Return the place in the code where a verb states its law; empty for a verb outside `derive`."""
     module = str(frame.f_globals["__name__"])
     return f"{module.replace('.', '/')}.py:{frame.f_lineno}" if module.partition(".")[0] == "derive" else ""
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
-    """Compare each formula of the sentence with its second route, as lines are compared."""
+    """Compare each formula of the sentence with its second route, in the same way as lines."""
     for role, (formula, otherwise) in told.items():
         verdict = equal(formula, otherwise)
         if not verdict:
             raise refused(key, f"its sentence has a wrong `{role}`", formula, otherwise, verdict)
         if isinstance(formula, Relation) and not explicit(formula).free_symbols:
-            message = f"`{key}`: its sentence gives {formula} as a condition, but it contains no letter"
+            message = f"`{key}`: its sentence gives {formula} as a condition, but this contains no letter"
             raise Unverified(Complaint("unverified", message))
 
 
@@ -288,8 +291,9 @@ def _called(value: Any) -> Any:
 
 def _check_outcome(key: str, rule: Rule, outcome: str, facts: Judged, may_be_zero: bool) -> None:
     """Check that the word that chooses the sentence is true of the result.
-    For every rule, "zero" needs a result that vanishes, and a result that vanishes is not `generic` where a function
-    chose the outcome.
+
+    For every rule, the outcome "zero" requires a result that vanishes. If a function chose the outcome, a result that
+    vanishes must not be `generic`.
     """
     vanishing = is_zero(facts.result)
     if outcome == ZERO and not vanishing:
@@ -307,7 +311,7 @@ def _not_confirmed(key: str, doubt: Doubt) -> Unverified:
 
 
 def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) -> None:
-    """Check that everything that only the sentence names has a predicate, and that the predicate is true of it."""
+    """Check that each object that only the sentence names has a predicate, and that this predicate is true."""
     role = rule.wrongly_named(facts, named)
     if role is not None:
         message = f"`{key}`: its sentence names {short(named[role])} as `{role}`, which does not fit the result"
@@ -362,7 +366,7 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
 
 
 def check_can_hold(key: str, result: Any) -> None:
-    """Reject a relation that nothing can fulfil: a value is not less than itself, greater, or different."""
+    """Reject a relation that can never hold: no value is less than, greater than or different from itself."""
     if isinstance(result, Relation) and result.operator in {"<", ">", "!="} and result.left == result.right:
         raise Unverified(Complaint("unverified", f"`{key}` can never hold: {short(result)}"))
 

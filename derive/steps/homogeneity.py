@@ -1,7 +1,7 @@
 """The dimension of an expression, and the check that every line of a derivation is homogeneous.
 
-Only the declared symbols need a dimension: the symbol of a step gets the dimension of its result, and a variable of
-integration that of its limits. `None` fits any dimension: it is that of zero, and of numbers with units.
+Only the declared symbols need a dimension. The symbol of a step gets the dimension of its result, and a variable of
+integration that of its limits. Zero and numbers with units have the dimension `None`, which fits any other.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
         return common(list(expr), of)
     if isinstance(expr, Symbol | MatrixSymbol):
         return table[expr]
-    if expr in table:  # such names as cos(theta) and |tau|
+    if expr in table:  # names that are expressions, such as cos(theta) and |tau|
         return table[expr]
     if isinstance(expr, Identity):
         return NUMBER
@@ -75,7 +75,8 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
 
 
 def _number_of(exponent: Any) -> Fraction:
-    """Return an exponent; if it contains letters, at some numbers: what is homogeneous there always is."""
+    """Return an exponent as a number. Fixed numbers replace its symbols: a line that is homogeneous for these is
+    homogeneous for all."""
     some = {s: Rational(101 + crc32(s.name.encode()) % 97, 89) for s in exponent.free_symbols}
     value = ex.explicit(exponent.xreplace(some))
     if not isinstance(value, Rational):
@@ -94,9 +95,10 @@ def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:
 def dimension_table(
     declared: Mapping[Any, Dimension | None], steps: Iterable[Step], script: Place | None = None
 ) -> tuple[Table, list[Complaint]]:
-    """Return every name's dimension, step by step, and an error for each line that is not homogeneous.
-    A letter of the `script` that is neither given nor a coordinate is rejected: its meaning, and whether it moves, are
-    unknown.
+    """Return the dimension of every name, step by step, and an error for each step that is not homogeneous.
+
+    A symbol of the `script` that is neither given nor a coordinate is rejected: its meaning is unknown, and so is
+    whether it depends on time.
     """
     table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
     complaints: list[Complaint] = []
@@ -109,8 +111,8 @@ def dimension_table(
             message = f"`{step.key}` contains {unknown.args[0]}, which is neither given nor a coordinate"
             help_line = 'ask for it in `solve()`, or name a variable with `coordinate("...")`'
             raise Rejected(Complaint("unknown-letter", message, script, help=help_line)) from None
-        except Inhomogeneous as fault:
-            complaints.append(_complaint(step, str(fault)))
+        except Inhomogeneous as mismatch:
+            complaints.append(_complaint(step, str(mismatch)))
             dimension = dimension_of_kind(step.kind) if step.kind else None
         if step.kind and dimension is not None and dimension != dimension_of_kind(step.kind):
             wanted = f"{kind_with_article(step.kind)} must have {exponents(dimension_of_kind(step.kind))}"
@@ -131,7 +133,7 @@ def _moving_names(step: Step) -> Table:
 
 
 def _opened_names(step: Step, table: Table) -> Table:
-    """Give the names that a definition introduces, such as the components of any angular velocity, its dimension."""
+    """Return the dimensions of names that a definition introduces, such as components of any angular velocity."""
     if step.kind is None or all(e.grade is not Grade.DEFINITION for e in step.evidence):
         return {}
     free: set[Basic] = set().union(*(_free(form.expr) for form in step.chain))

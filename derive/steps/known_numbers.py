@@ -12,11 +12,11 @@ from derive.steps.record import current_run, question
 
 @question
 def with_numbers(expr: Expr) -> Expr:
-    """Substitute the given numbers for the letters of the expression, as far as there are any."""
+    """Substitute the numbers that the problem gives for symbols of the expression."""
     run = current_run.get()
     return explicit(bound(explicit(expr), run.numbers if run else {}))
 
 
 def have_numbers(*values: Any) -> bool:
-    """Whether the problem gives a number for each of their letters."""
+    """Whether the problem gives a number for each symbol of these vectors."""
     return not any(with_numbers(entry).free_symbols for value in values for entry in value)

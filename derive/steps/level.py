@@ -1,4 +1,4 @@
-"""How much algebra a page shows, and how a step appears; this module works without SymPy."""
+"""The amount of algebra on a page, and the manner in which a step appears; this module works without SymPy."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ class Manner(StrEnum):
     """How a step appears on a page."""
 
     OWN = "own"  # with its sentence and its lines
-    TOLD = "told"  # in a clause after the first lines that have its letter: "where rho = M/V"
-    TAKEN_IN = "taken_in"  # by the step that uses it, which has its value in place of its letter
+    TOLD = "told"  # in a clause after the first lines that contain its symbol: "where rho = M/V"
+    TAKEN_IN = "taken_in"  # within the step that uses it, whose lines have its value in place of its symbol
     LEFT_OUT = "left_out"
-    POINTED_OUT = "pointed_out"  # with its sentence, which points to lines that have its result
+    POINTED_OUT = "pointed_out"  # with its sentence, which points to earlier lines that contain its result
 
 
 class Level(StrEnum):
@@ -32,14 +32,14 @@ class Level(StrEnum):
 
 @dataclass(frozen=True)
 class Display:
-    """How a page shows a step below the level `full`, as its rule says.
+    """The manner in which a page shows a step below the level `full`, as its rule specifies.
 
     brief, standard   the manner at these levels
     told_along        whether the sentence of the step before may state the result too
     first_only        whether only the first of several such steps is shown
     result_again      up to this level, a step after one of the same form shows only its result
     each_worked_out   whether the step is written out even if another one of the same form came before
-    unless_long       whether a long step is left out
+    unless_long       whether the step is left out if its result is long
     abbreviates       whether the symbol of the step replaces its formula in later steps
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
                       needs no left side
@@ -77,7 +77,7 @@ class Shown:
     taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
     repeats       a function of the step that returns the key of the equation that it repeats, or ""
     result_in     outcome -> rules of the inputs whose lines may have the result
-    The others are those of `Display`.
+    The other fields are those of `Display`.
     """
 
     brief: Manner = Manner.OWN

@@ -1,8 +1,9 @@
-"""Earlier calls of verbs: their results are reused, with everything that they left on the record.
-A verb returns the same result if its arguments are the same, if as much is known of the letters, and if all that it
-asks of the record has the same answer. Arguments are identified by digests of their content, so a call is recalled
-even if its arguments were derived again. A call whose arguments have no description, such as a function of a script,
-is made.
+"""Reuse the results of earlier calls of verbs, with everything that these calls added to the record.
+
+A call is recalled if three things are the same: its arguments; the coordinates, assumptions and ranges that are known
+before it; and the answers of the record to its questions. Arguments are identified by digests of their content, so a
+call is recalled even if its arguments were derived again. A call with an argument that has no description, such as a
+function of a script, is always made.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """A call: the digest of all that decides it, the objects in that, and the steps that these objects had found."""
+    """A call: the digest of its arguments and of the assumptions, the names of the objects in these, and the steps in
+    cached properties of these objects."""
 
     key: str
     objects: list[str]
@@ -39,7 +41,7 @@ class _Asked:
 
 @dataclass(frozen=True)
 class _State:
-    """How much was on the record before a call."""
+    """The lengths of the lists on the record before a call."""
 
     established: int
     assumed: int
@@ -64,14 +66,14 @@ class Memory:
         return Memory(self.store)
 
     def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
-        """Return the result of a call, recalled or made now; a call within another is a part of that one."""
+        """Return the result of a call, recalled or made now; a call within another call is a part of the outer one."""
         if run.call is not None:
             return make()
         run.call = Call(len(run.established))
         try:
             return self._result(verb, given, run, make)
         except OutOfTime as late:
-            late.finished = finished_steps(run)  # without the steps of this call, which are not kept
+            late.finished = finished_steps(run)  # except the steps of this call, which are not stored
             raise
         finally:
             run.call = None
@@ -102,7 +104,7 @@ class Memory:
         return _Asked(sha256(text.encode()).hexdigest(), objects, found)
 
     def _left(self, result: Any, asked: _Asked, before: _State, run: Run) -> str:
-        """Return everything that a call left, as text, with the objects that it made."""
+        """Return everything that a call added to the record, as text, with the objects that it made."""
         assert run.call is not None
         steps = tuple(zip(run.established, run.cases, strict=True))[before.established :]
         conditions = tuple((each, each in run.in_words[before.in_words :]) for each in run.assumed[before.assumed :])
@@ -117,7 +119,7 @@ class Memory:
         return "\n".join([*lines, json.dumps([data, data_found])])
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
-        """Read what a call left; None if it was not made, or if the record now answers its questions differently."""
+        """Read what a call added to the record; None if that is not stored or if a question has another answer now."""
         kept = self.store.recalled(key)
         if kept is None:
             return None

@@ -1,6 +1,7 @@
 """Objects of derive written as data and read again: quantities, bodies, systems, and all that they contain.
-An object has a name, the digest of its class and of its content, in which other objects appear by their names. So an
-object that two others share is one object again when they are read, and two equal quantities stay two. Cached
+
+The name of an object is the digest of its class and its content. Other objects appear in the content by their names. So
+an object that two others share is still one object after reading, and two equal quantities stay two. Cached
 properties, which an object computes on first use, are not part of its content.
 """
 
@@ -24,15 +25,15 @@ from derive.steps.step import Form, Quantity
 
 PLAIN: tuple[Any, ...] = (str, bool, int, float, type(None))
 GATHERED: Mapping[str, Any] = {"list": list, "set": set, "frozenset": frozenset}
-VALUES = (Form, Evidence)  # too many and too small for a name each
+VALUES = (Form, Evidence)  # too many and too small to have names
 
 
 class NoDescription(Exception):
-    """An object, or a part of it, has no description; or a description fits no object."""
+    """An object or a part of it has no description, or a description does not describe an object."""
 
 
 class Objects:
-    """The objects of a run, and the letters that equal no other letter, by their names."""
+    """The objects of a run and its dummy symbols, by their names."""
 
     def __init__(self) -> None:
         self._objects: dict[str, Any] = {}
@@ -95,7 +96,7 @@ class Objects:
         return data
 
     def _letter(self, letter: Dummy, told: list[str]) -> str:
-        """Return the name of a letter that equals no other letter, not even one with the same name."""
+        """Return the name of a dummy symbol, which differs from all other symbols, even from one with the same name."""
         known = self._letters.get(letter)
         if known is None:
             alike = sum(each.name == letter.name for each in self._letters)
@@ -137,7 +138,7 @@ class Objects:
             self._seekers.add(name)
 
     def below(self, names: Iterable[str]) -> dict[str, None]:
-        """Return these objects and letters with all their parts, parts first."""
+        """Return these objects and dummy symbols with all their parts, parts first."""
         found: dict[str, None] = {}
         waiting = [(name, False) for name in reversed(list(names))]
         while waiting:
@@ -150,7 +151,8 @@ class Objects:
         return found
 
     def texts(self, names: Iterable[str]) -> list[tuple[str, str]]:
-        """Return the texts from which `enter` makes these objects; a letter made again would be another letter."""
+        """Return the texts from which `enter` makes these objects; raise `NoDescription` for dummy symbols, which
+        cannot be made again."""
         for name in names:
             if name not in self._texts:
                 raise NoDescription(f"of {name}, which exists only once")
@@ -167,7 +169,7 @@ class Objects:
         self._enter(name, value, text, parts)
 
     def read(self, data: Any, told: list[str] | None = None) -> Any:
-        """Return the described value, and add the names of objects and letters in it; raise `NoDescription`."""
+        """Return the described value, and add the names of the objects in it to `told`; raise `NoDescription`."""
         told = [] if told is None else told
         if isinstance(data, list):
             return tuple(self.read(each, told) for each in data)
@@ -192,7 +194,7 @@ class Objects:
         return self._objects[name]
 
     def found_once(self, names: Iterable[str]) -> list[tuple[str, str, Any]]:
-        """Return the steps in cached properties of these objects: the name of the object, the property, its value."""
+        """Return the cached properties of these objects that contain steps: name of the object, property, value."""
         objects = ((name, self._objects[name]) for name in names if name in self._seekers)
         return [
             (name, key, vars(each)[key])
@@ -202,7 +204,7 @@ class Objects:
         ]
 
     def has_found(self, name: str, key: str, value: Any) -> None:
-        """Enter the value of a cached property of an object."""
+        """Set a cached property of an object, unless it already has a value."""
         vars(self._objects[name]).setdefault(key, value)
 
 

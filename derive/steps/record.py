@@ -1,5 +1,6 @@
-"""The quantities that one run of a script has established, the coordinates that it has named, and what therefore moves.
-One letter is one quantity in a run, and an expression with a coordinate, a rate or the time is known to change.
+"""The record of one run of a script: the quantities that it has established, and the coordinates that it has named.
+
+A symbol denotes one quantity in a run. An expression with a coordinate, a rate or the time is known to change.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ class Recalling(Protocol):
 @dataclass
 class Call:
     """A call of a verb while it runs.
-    before   how many quantities were established before it
+
+    before   the number of quantities that were established before it
     asked    its questions to the record: the question, its arguments, the answer
     """
 
@@ -39,13 +41,14 @@ class Call:
 @dataclass
 class Run:
     """The state of a running script, and its record.
-    established   every quantity, in order; `cases`: for each of them the quantity that it is a particular case of
-    coordinates   the coordinates that it has named, with their kinds
-    assumed       conditions that its letters leave open; `in_words`: those that a step states
+
+    established   every quantity, in order; `cases`: for each quantity, the general quantity of which it is a case
+    coordinates   the coordinates that the script has named, with their kinds
+    assumed       assumed conditions on the symbols; `in_words`: those that a step states in words
     drawings      the drawings of the page
-    numbers       the numbers of the letters of its problem, as given
-    places        where each given was written
-    letters       letters of the problem for givens, coordinates and forces: no result takes them
+    numbers       the numbers that the problem gives for its symbols
+    places        the place in a file where each given is written
+    letters       letters of the problem for givens, coordinates and forces; results must not use them
     memory        earlier calls of verbs; `call`: the call that is being made
     """
 
@@ -62,7 +65,7 @@ class Run:
     call: Call | None = None
 
 
-# other textbook letters for a result, for a problem that uses the usual letter for something else
+# other textbook letters for a result, if the problem uses the usual letter for another quantity
 OTHER_LETTERS: Mapping[str, tuple[str, ...]] = {
     "T": ("K",),
     "U": ("V",),
@@ -96,12 +99,13 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
         current_run.reset(token)
 
 
-QUESTIONS: dict[str, Callable[..., Any]] = {}  # further questions of a verb to the record
+QUESTIONS: dict[str, Callable[..., Any]] = {}  # the functions by which a verb asks the record, by name
 A = TypeVar("A")
 
 
 def question(answered: Callable[..., A]) -> Callable[..., A]:
-    """Note each question of a verb to the record: if the answer changes, the verb is called again."""
+    """Decorate a question to the record: while a verb runs, each question and its answer are noted. If the answer is
+    different in a later run, the verb is called again."""
     QUESTIONS[answered.__name__] = answered
 
     @wraps(answered)
@@ -119,7 +123,7 @@ def question(answered: Callable[..., A]) -> Callable[..., A]:
 
 @question
 def is_taken(name: str) -> bool:
-    """Whether the problem or an earlier result has this letter."""
+    """Whether the problem or an earlier result uses this letter."""
     run = current_run.get()
     if run is None:
         return False
@@ -128,7 +132,8 @@ def is_taken(name: str) -> bool:
 
 def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
     """Return a symbol for the limit of a result where a letter goes to a value: omega_2_lim, or omega_2_infty.
-    If this symbol is taken, the other one also contains the letter that goes to the limit.
+
+    If this symbol is taken, the returned symbol also contains the letter that goes to the limit.
     """
     if isinstance(symbol, MatrixBase):
         return symbol.applyfunc(lambda each: letter_of_limit(each, letter, to))
@@ -149,7 +154,7 @@ def _name_of_limit(name: str, letter: Symbol, to: Any) -> str:
 
 
 def coordinate_named(symbol: Symbol, kind: str) -> None:
-    """Record a coordinate that a script names: from now on every expression with it is known to move."""
+    """Record a coordinate that a script names: from now on every expression with it is known to change."""
     run = current_run.get()
     if run is not None:
         run.coordinates[symbol] = kind
@@ -157,7 +162,7 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 
 @question
 def free_letter(name: str, *indices: str) -> str:
-    """Return the letter of a result, with its index; another one if the problem has it, with any of the indices."""
+    """Return the letter of a result with its index; another one if the problem has it, alone or with an index."""
     run = current_run.get()
     base, _, own = name.partition("_")
     if run is None:
@@ -177,7 +182,7 @@ def given_letters() -> set[str]:
 
 
 def assume(condition: Relation, in_words: bool = False) -> None:
-    """Assume a condition that the letters leave open: the page states the assumption, or a step does, in words."""
+    """Assume a condition on the symbols. The page states the assumption, or with `in_words` a step does."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
         run.assumed.append(condition)
@@ -235,7 +240,7 @@ def coordinates_in(result: Any) -> dict[Symbol, str]:
 
 
 def add(quantity: Quantity, case_of: Quantity | None) -> None:
-    """Put a quantity on the record of the run, if there is one; its letter must be free, or keep its meaning."""
+    """Put a quantity on the record of the run, if there is a run; its symbol must be new, or keep its meaning."""
     run = current_run.get()
     known = {**quantity.coordinates, **(run.coordinates if run else {})}
     _check_one_meaning(quantity, case_of, known, run.established if run else quantity.parents)
@@ -252,8 +257,9 @@ def _is_the_same(one: Quantity, other: Quantity) -> bool:
 def _check_one_meaning(
     quantity: Quantity, case_of: Quantity | None, coordinates: Iterable[Symbol], others: Iterable[Quantity]
 ) -> None:
-    """Check that one letter is one quantity in a script: another value with the same letter must be a case of it.
-    The value of a coordinate or its rate in one motion keeps the letter of that coordinate.
+    """Check that a symbol denotes one quantity in a script: another value with the same symbol must be a case of it.
+
+    The value of a coordinate or of its rate in one motion keeps the symbol of that coordinate.
     """
     symbol = quantity.symbol
     moving = {s for q in coordinates for s in (q, rate(q), rate(q, 2))}
@@ -266,7 +272,7 @@ def _check_one_meaning(
             continue
         if case_of is not None and (_is_the_same(other, case_of) or other.key in case_of.step.inputs):
             continue
-        message = f"`{other.key}` and `{quantity.key}` are both called {symbol}, but they are different things"
+        message = f"`{other.key}` and `{quantity.key}` are both called {symbol}, but they are different quantities"
         raise Rejected(
             Complaint(
                 "letter-clash",
@@ -280,13 +286,13 @@ def _check_one_meaning(
 
 
 def _is_open(quantity: Quantity) -> bool:
-    """Whether only the names of a vector's components are known: any other vector with its letter is a case of it."""
+    """Whether a vector has only names as components. Any other vector with its symbol is a case of it."""
     symbol, value = quantity.symbol, quantity.value
     return isinstance(symbol, MatrixSymbol) and list(value) == list(component_names(symbol.name))
 
 
 def changes(value: Any, coordinates: Iterable[Symbol] = ()) -> Symbol | None:
-    """Return the letter that makes a value change: the time, a coordinate or a rate; None if it is constant."""
+    """Return the symbol that makes a value change: the time, a coordinate or a rate; None if the value is constant."""
     letters = explicit(value).free_symbols
     moving = [TIME, *(s for q in coordinates for s in (q, rate(q), rate(q, 2)))]
     return next((s for s in moving if s in letters), None)

@@ -1,7 +1,8 @@
 """Rules: one record for each law that makes steps, next to the verb that uses it.
-A verb chooses an outcome, "zero", "unstable", "slow", and a page chooses its sentence by that word. For each such word
-the rule has a predicate that must be true of the result. Predicates are in the `claims.py` of their folder and share no
-code with the verbs. `establish` evaluates them.
+
+A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page chooses its sentence by that word. For each
+outcome the rule has a predicate that must be true of the result. Predicates are in the `claims.py` of their folder and
+share no code with the verbs. `establish` evaluates them.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Any
 
 from derive.algebra.equality import Compared
 from derive.steps.level import SHOWN
-from derive.steps.level import Shown as Shown  # by this name to all who make rules
+from derive.steps.level import Shown as Shown  # other modules import it from here
 from derive.steps.subject import NOTHING, Mixed, Subject
 
 GENERIC = "generic"  # the outcome if there is nothing to choose
@@ -25,9 +26,10 @@ ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
 @dataclass(frozen=True)
 class Judged:
     """The data that a predicate judges.
+
     result      the value of the step
     inputs      role -> value
-    quantities  role -> the quantity whose value it is, if any, and the quantities that the sentence points to
+    quantities  role -> the quantity with this value, if it is one; also the quantities that the sentence points to
     symbol      the symbol of the result on the page
     subject     the subject of the result
     words       the terms of the phrase
@@ -43,7 +45,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Doubt:
-    """The reason why a sentence is not confirmed, in words: a predicate may return this in place of False."""
+    """The reason why a sentence is not confirmed, in words. A predicate may return a doubt in place of False."""
 
     reason: str
     help: str | None = None
@@ -69,7 +71,7 @@ class Theorem:
     formula   its formula
     source    book and section
     letters   other letters that the phrase names, with their names there
-    prepared  whether it is stated before a step that prepares those that use it
+    prepared  whether it is stated before a step that prepares the steps that use it
     """
 
     name: str
@@ -82,8 +84,9 @@ class Theorem:
 @dataclass(frozen=True)
 class Quote:
     """The use of a theorem by the steps of a rule.
+
     outcomes   outcomes that use it; empty for all
-    law_in     outcomes in which the theorem is the law of the step, which need not write it again
+    law_in     outcomes in which the theorem is the law of the step, so the step need not write it again
     between    the required words `between` of the steps that use it; empty if any word will do
     """
 
@@ -109,7 +112,7 @@ class Rule:
                 find a wrong law; a check starts from the result or from the same formula and would find a slip. A
                 rule without evidence is a definition
     statements  predicates of roles, points and formulas that only the sentence has, for every outcome
-    named       role -> the predicate of a thing that only the sentence names; `value` also judges `value_1`
+    named       role -> the predicate of an object that only the sentence names; `value` also judges `value_1`
     shown       how a page shows its steps
     quotes      the theorems that its steps use
     prepares    the theorem that a page states before such a step, for the steps that depend on it
@@ -130,7 +133,7 @@ class Rule:
 
     @property
     def key(self) -> str:
-        """Return the key of its steps if a verb gives none."""
+        """Return the default key of its steps."""
         return self.name.rpartition(".")[2]
 
     @property
@@ -138,7 +141,7 @@ class Rule:
         return not self.evidence
 
     def verdict(self, outcome: str, facts: Judged) -> bool | Doubt:
-        """Whether the rule has this outcome, the outcome is true, and so are the other statements of its sentence."""
+        """Whether the rule has this outcome, and the outcome and the other statements of its sentence are true."""
         predicate = self.outcomes.get(outcome)
         verdict = predicate is not None and predicate(facts)
         return verdict and self._stated(outcome, facts)
@@ -153,7 +156,7 @@ class Rule:
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
 
     def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:
-        """Return the theorems of a step as a `Step` has them: those that it uses, states and prepares."""
+        """Return the theorems of a step as a `Step` has them: the theorems that the step uses, states and prepares."""
         quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
         return {
             "theorems": tuple(each.theorem for each in quotes),
@@ -162,7 +165,7 @@ class Rule:
         }
 
     def wrongly_named(self, facts: Judged, named: Mapping[str, Any]) -> str | None:
-        """Return the first role for which a sentence names the wrong thing, or that has no predicate."""
+        """Return the first role that has no predicate, or for which the sentence names the wrong object."""
         for role, value in named.items():
             judge = self.named.get(role) or self.named.get(role.rstrip("0123456789").removesuffix("_"))
             if judge is None or not judge(facts, value):
@@ -170,12 +173,12 @@ class Rule:
         return None
 
 
-RULES: dict[str, Rule] = {}  # by name, as the modules of the verbs are loaded
+RULES: dict[str, Rule] = {}  # by name; filled as the modules of the verbs are loaded
 _HANDED_ON: dict[type[Any], Naming] = {}
 
 
 def handed_on_by(kind: type[Any], predicate: Naming) -> None:
-    """Register the predicate between a step and a fact of this kind that it returns with its value."""
+    """Register the predicate that judges whether a fact of this kind fits the step that returns it."""
     _HANDED_ON[kind] = predicate
 
 
@@ -190,7 +193,7 @@ def judged_facts() -> frozenset[type[Any]]:
 
 
 def _names_its_point(facts: Judged) -> bool:
-    """Whether the named point is the one that the result is about, if that is known."""
+    """Whether the words name the reference point of the result, if this point is known."""
     known = getattr(facts.subject.point, "name", None)
     in_full = {CENTRE_OF_MASS: "centre"} if known == "centre" else {}
     named = {in_full.get(facts.words[word], facts.words[word]) for word in ("about", "point") if word in facts.words}
@@ -198,7 +201,7 @@ def _names_its_point(facts: Judged) -> bool:
 
 
 def _names_its_axis(facts: Judged) -> bool:
-    """Whether the named axis is the one that the result is about, if that is known."""
+    """Whether the words name the axis of the result, if this axis is known."""
     axis = facts.subject.axis
     named = {facts.words[word] for word in ("axis", "axis_letter") if word in facts.words}
     return not isinstance(axis, str) or named <= {axis}

@@ -33,7 +33,7 @@ from derive.steps.step import is_zero
 
 DIGITS, SHORT = 30, 20
 SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
-DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is unknown
+DECIDES = "give ranges or numbers of the letters that decide whether"  # an unknown relation follows
 
 
 def sign_for_all(value: Expr) -> int | None:
@@ -146,7 +146,7 @@ def _odd_factors(value: Expr) -> list[Expr]:
 
 
 def undecided(value: Any) -> Doubt:
-    """Return the reason: the unknown order of two terms in the value, l < r_0; else that numbers contradict it."""
+    """Return the reason for a doubt: the unknown order of two terms in the value, l < r_0; else contrary numbers."""
     parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
     exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
     sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]

@@ -1,4 +1,4 @@
-"""A verified step, the value it yields, and small functions on values for every verb.
+"""A verified step, the quantity that it yields, and small functions on values for every verb.
 
 A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.steps.establish` makes one.
 """
@@ -18,21 +18,21 @@ from derive.algebra.kinds import kind_with_article
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.level import ON_ITS_OWN, Display
-from derive.steps.level import Level as Level  # of the forms below, and by this name to all who make them
 from derive.steps.rule import Theorem
+from derive.steps.level import Level as Level  # modules that make forms import it from here
 from derive.steps.subject import NOTHING, Subject
 
-NUMBERS = ("value", "rounded")  # why a form is at the end of a chain: the number in a unit, exact or rounded
-ONLY_ABOUT = ("limit", "series")  # why a form is only approximately equal to the form before it
+NUMBERS = ("value", "rounded")  # reasons of the last forms of a chain: the number in a unit, exact or rounded
+ONLY_ABOUT = ("limit", "series")  # reasons of forms that are only approximately equal to the form before
 
 
 @dataclass(frozen=True)
 class Form:
-    """One line of a chain: an expression and why it equals the line before it.
+    """One line of a chain: an expression, and the reason why it equals the line before.
 
-    `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal.
-    A form may be a `Relation`; then it is equivalent to the relation before it after division by the `nonzero`
-    factors, which do not vanish in the case considered, or are positive in an inequality.
+    `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal. A
+    form may be a `Relation`. It is equivalent to the relation before it after division by the `nonzero` factors, which
+    do not vanish in the case considered, or are positive in an inequality.
     """
 
     expr: Any
@@ -44,14 +44,17 @@ class Form:
 @dataclass(frozen=True)
 class Step:
     """An established result: the symbol, the chain that leads to its value, and the evidence.
-    The symbol of a step that yields a relation is None: the page refers to it by its number. `coordinates` are those
-    that the step introduces, with their kinds. `stands_for` are keys of steps that would exist in another case: two
-    roots where there is only one. `names` are the names in its lines that came from earlier steps, with their values;
-    `motion` are the rates by the equations of motion, for a line that holds by them. `law_at` is the place of the law
-    in the code, as `derive/mechanics/rotation/vectors.py:120`.
-    The result of a limit or a series has a separate letter; `approximates` is the letter of the whole, or the key of
-    an equation. `about` means that the step is derived from such a result, so its letter only approximately equals its
+
+    A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are
+    those that the step introduces, with their kinds. `stands_for` are keys of steps that would exist in another case:
+    two roots where there is only one. `names` are the names in its lines that came from earlier steps, with their
+    values. `motion` are the values of rates by the equations of motion, for a line that holds only for such motions.
+    `law_at` is the place of the law in the code, as `derive/mechanics/rotation/vectors.py:120`.
+
+    The result of a limit or a series has a separate symbol; `approximates` is the symbol of the whole, or the key of
+    an equation. `about` means that the step is derived from such a result, so its symbol only approximately equals its
     first line.
+
     `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that it
     uses, the names of those that state its law, and the theorem that a page states before it for the steps that depend
     on it.
@@ -81,7 +84,7 @@ class Step:
 
     @property
     def exact(self) -> bool:
-        """Whether its letter equals its result: the step is not derived from a limit or a series."""
+        """Whether its symbol equals its result: the step is not derived from a limit or a series."""
         return self.approximates is None and not self.about
 
     @property
@@ -95,7 +98,8 @@ class Step:
 
     @property
     def grade(self) -> Grade:
-        """Return the lower of two grades: the least sure of its lines, all of which must hold, and its surest route."""
+        """Return the less certain of two grades: the least certain of its lines, and the most certain of its routes.
+        All lines must hold, but one route is enough."""
         lines = [e.grade for e in self.evidence if e.compared is Compared.LINES]
         routes = [e.grade for e in self.evidence if e.compared is not Compared.LINES]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
@@ -103,17 +107,18 @@ class Step:
 
 
 class Fact:
-    """Data that a quantity carries, in addition to its value, for the verbs that need it.
-    Each kind of fact is a frozen dataclass next to the verb that returns it; `missing` completes the message about a
-    quantity without such a fact.
+    """Data that a quantity carries, in addition to its value, for the verbs that need them.
+
+    Each kind of fact is a frozen dataclass next to the verb that returns it. The text `missing` completes the message
+    about a quantity without such a fact.
     """
 
     missing: ClassVar[str] = "is not of the kind that is needed here"
-    eliminates: tuple[Symbol, ...] = ()  # coordinates of its parents that it no longer depends on
+    eliminates: tuple[Symbol, ...] = ()  # coordinates of the parents on which the quantity no longer depends
 
 
 class Witness(Fact):
-    """The described system that a quantity belongs to, whose motion can be integrated numerically."""
+    """The described system to which a quantity belongs; its motion can be integrated numerically."""
 
     def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:
         """Test numerically whether a step is true of the motion; return None if there is no test for it."""
@@ -125,8 +130,9 @@ F = TypeVar("F", bound=Fact)
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """A value with the step that made it, the steps that this step depends on, and its subject.
-    Arithmetic on a quantity would lose its history, so it is rejected; the verb `let` does it.
+    """A value with the step that made it, the quantities on which this step depends, and its subject.
+
+    Arithmetic on a quantity would lose its history, so it is rejected; the verb `let` makes it a step.
     """
 
     value: Any
@@ -148,9 +154,9 @@ class Quantity:
         """Whether the value is exact: it is not derived from a limit or a series."""
         return self.step.exact
 
-    @cached_property  # cached: the quantities that it depends on are asked many times
+    @cached_property  # cached: it is asked many times for the parents of other quantities
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates that it may depend on, with their kinds: those of its step and of its parents."""
+        """Return the coordinates on which it may depend, with their kinds: those of its step and of its parents."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}
@@ -167,7 +173,7 @@ class Quantity:
         return found
 
     def ancestors(self) -> Iterator[Quantity]:
-        """Yield every quantity that it depends on, itself first."""
+        """Yield the quantity itself, then every quantity on which it depends."""
         seen: set[int] = set()
         waiting = [self]
         while waiting:
@@ -197,7 +203,7 @@ class Quantity:
 
 
 def lettered(quantity: Quantity) -> Quantity:
-    """Return the quantity with its letter as its value: results keep the letter until values are substituted."""
+    """Return the quantity with its symbol as its value: results keep the symbol until values are substituted."""
     return replace(quantity, value=quantity.symbol, parents=(quantity,))
 
 
@@ -220,7 +226,7 @@ def compared_with(other: Callable[[], Any]) -> Route:
 
 
 def same_value(one: Any, other: Any) -> bool:
-    """Whether two values of subjects are equal: lengths, masses, places."""
+    """Whether two values that describe subjects are equal: lengths, masses, places."""
     try:
         if isinstance(one, tuple) and isinstance(other, tuple):
             return len(one) == len(other) and all(same_value(a, b) for a, b in zip(one, other, strict=True))
@@ -232,7 +238,7 @@ def same_value(one: Any, other: Any) -> bool:
 
 
 def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
-    """Reject a quantity of another kind: arguments in the wrong order, a tensor for a vector."""
+    """Reject a quantity of another kind, as for arguments in the wrong order, or a tensor in place of a vector."""
     if isinstance(quantity, Quantity) and quantity.step.kind == kind:
         return
     got = (

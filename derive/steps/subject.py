@@ -1,6 +1,7 @@
 """The subject of a value: the body, the point, the axes, the rotation and the place in space that it belongs to.
+
 A moment of inertia belongs to one body and one point; an angular momentum belongs to one rotation. Every quantity
-carries its subject, and `establish` unites the subjects of the inputs: two bodies, two points or two rotations in one
+carries its subject, and `establish` unites the subjects of the inputs. Two bodies, two points or two rotations in one
 law are rejected, unless the law is about two of them.
 """
 
@@ -17,7 +18,7 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """The property of a subject that unites different ones: it agrees with nothing."""
+    """The value of a property in which united subjects differ: it agrees with no value."""
 
     SEVERAL = "several"
 
@@ -27,10 +28,10 @@ class Subject:
     """What is known of the subject of a value; `None` for a property that is not specified.
 
     body      the body, as a script made it
-    mass      its mass, if there is no body that has it, kg
+    mass      the mass, if there is no body with this mass, in kg
     point     the reference point of moments, momenta and torques
     axes      the axes of the components: by default those of the body
-    axis      for a moment about one axis: the axis that it is parallel to
+    axis      for a moment about one axis: the axis of the body to which that axis is parallel
     rotation  the angular velocity, as components
     place     the place of the centre of mass in space, as components in m
     """
@@ -44,7 +45,7 @@ class Subject:
     place: Any = None
 
     def with_more(self, other: Subject) -> Subject:
-        """Return the properties of the other subject, and those that only this one has."""
+        """Return the properties of the other subject, and those that only this subject has."""
         both = zip(self._all, other._all, strict=True)
         return Subject(*(theirs if theirs is not None else ours for ours, theirs in both))
 
@@ -74,7 +75,7 @@ def united(
     key     the step, for the message
     named   the key of each input, and its subject
     differ  the properties in which the inputs may differ; the result is `SEVERAL` if they do
-    same    the test whether two values are equal
+    same    the function that decides whether two values are equal
     Errors: two inputs have different subjects.
     """
     found: dict[str, Any] = {}
@@ -87,7 +88,7 @@ def united(
             if first is None:
                 first = name, value
             elif not _agree(first[1], value, same):
-                if field not in differ and field != "axis":  # two moments of one body may have different axes
+                if field not in differ and field != "axis":  # moments of one body may have different axes
                     raise _apart(key, field, first, (name, value))
                 first = name, Mixed.SEVERAL
         if first is not None:
@@ -99,7 +100,7 @@ def _agree(one: Any, other: Any, same: Callable[[Any, Any], bool]) -> bool:
     if isinstance(one, Mixed) or isinstance(other, Mixed):
         return False
     if getattr(one, "called", "") != getattr(other, "called", ""):
-        return False  # two bodies of one shape are two bodies
+        return False  # two bodies of the same shape are still two bodies
     return bool(one is other or one == other or same(one, other))
 
 

@@ -1,4 +1,4 @@
-"""The symbols that a page allows for a result: letters with meaningful indices, and the arrow of the result's kind."""
+"""Check the symbol of a result: a letter with meaningful indices, a scalar, vector or tensor like the result."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from sympy.matrices.expressions import MatrixSymbol
 
 from derive.errors import Complaint, Unverified
 
-EMPTY = {"", "None", "True", "False"}  # indices that a program writes if it has none
+EMPTY = {"", "None", "True", "False"}  # texts that code may insert where an index is missing
 
 
 def check_symbol(key: str, symbol: Any, result: Any) -> None:
-    """Reject a letter that no page can print, and one for another kind of value than the result."""
+    """Reject a symbol that no page can print, or that denotes another kind of value than the result."""
     for letter in symbol.atoms(Symbol, MatrixSymbol) if hasattr(symbol, "atoms") else ():
         if not is_notation(str(letter.name)):
             raise Unverified(Complaint("unverified", f"`{key}`: {letter.name} is not a letter with indices"))

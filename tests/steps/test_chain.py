@@ -111,14 +111,14 @@ def test_a_left_side_that_is_a_name_needs_no_evidence(left: Any) -> None:
 def test_a_left_side_that_is_an_expression_equals_the_first_line() -> None:
     assert left_side_evidence("key", 2 * s, Form(2 * a + 2 * b, "law"), {s: a + b})[0].grade is Grade.PROVED
     assert left_side_evidence("key", 2 * s, Form(Relation(a, "=", b), "law"), {}) == []
-    with pytest.raises(Unverified, match="its left side 2\\*s is not its first line"):
+    with pytest.raises(Unverified, match="its left side 2\\*s does not equal its first line"):
         left_side_evidence("key", 2 * s, Form(a, "law"), {s: a + b})
 
 
 def test_what_is_handed_on_is_the_last_line_before_numbers() -> None:
     chain = [Form(s, "law"), Form(Float("0.3"), "rounded")]
     check_last_line("key", chain, a + b, {s: a + b}, {})
-    with pytest.raises(Unverified, match="its result is not its last line"):
+    with pytest.raises(Unverified, match="its result does not equal its last line"):
         check_last_line("key", chain, a, {s: a + b}, {})
 
 

@@ -176,8 +176,8 @@ def within_itself() -> list[Any]:
 @pytest.mark.parametrize(
     ("value", "got"),
     [
-        (within_itself(), "lists within lists without end"),
-        (nested(10_000), "lists within lists without end"),
+        (within_itself(), "lists that are nested too deeply"),
+        (nested(10_000), "lists that are nested too deeply"),
         (Quantity.__new__(Quantity), "a `Quantity`"),
         ([], "a `list`"),
         (None, "nothing"),

@@ -58,7 +58,7 @@ def test_one_letter_is_one_thing_in_a_run() -> None:
     with recorded():
         named("first", a + b)
         named("again", b + a)
-        with pytest.raises(Rejected, match="`first` and `second` are both called s, but they are different things"):
+        with pytest.raises(Rejected, match="`first` and `second` are both called s, but they are different quantities"):
             named("second", a - b)
     named("second", a - b)
 
