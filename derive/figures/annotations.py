@@ -234,7 +234,7 @@ class Weight(Arrow):
         line, *_ = found = super().pieces(paper)
         (x, y), (u, v) = line.spots
         along = direction(*line.spots)
-        half = 0.85 * (u - x), 0.85 * (v - y)  # up to the tip
+        half = 0.85 * (u - x), 0.85 * (v - y)  # the label may move to the tip
         beside = Tag(self.label, midway(*line.spots), (along[1], -along[0]), way=half)
         return [beside if isinstance(piece, Tag) else piece for piece in found]
 

@@ -19,7 +19,7 @@ from derive.figures.pieces import InNumbers, Paper, Piece
 from derive.figures.space import Vector
 from derive.steps.record import current_run
 
-Position: TypeAlias = Any  # a column of three expressions
+Position: TypeAlias = Any  # a column of three expressions, or of two in a plane
 InWords: TypeAlias = tuple[str, dict[str, Any]]  # the phrase that describes a mark, and the values of its placeholders
 LAST = 99  # the layer of marks that are placed next to all others
 SPACE, PLANE = "space", "plane"

@@ -15,7 +15,7 @@ from derive.figures.space import NOUGHT, Spot, Stance, Vector
 
 @dataclass(frozen=True)
 class Stroke:
-    """A line on paper, drawn with a pen of `derive.render.drawing.canvas`, with optional arrowheads at its ends."""
+    """A line on the paper, drawn with a pen of `derive.render.drawing.canvas`; `head` and `tail` are arrowheads."""
 
     spots: tuple[Spot, ...]
     pen: str
@@ -25,7 +25,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Patch:
-    """A surface on paper that hides earlier pieces; `fill` is one of the colours of `drawing.canvas`."""
+    """A surface on the paper that hides earlier pieces; `fill` is a colour of `derive.render.drawing.canvas`."""
 
     spots: tuple[Spot, ...]
     fill: str = "blank"
@@ -33,7 +33,7 @@ class Patch:
 
 @dataclass(frozen=True)
 class Bullet:
-    """A point on paper, drawn as a disc with a size in points."""
+    """A point on the paper, drawn as a disc; `size` is its radius in points."""
 
     spot: Spot
     size: float = 1.6
@@ -70,7 +70,7 @@ class Tag:
 
 Piece: TypeAlias = Stroke | Patch | Bullet | Tag
 Edge: TypeAlias = tuple[int, int]  # two corners, by their indices in a list
-EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # a name, and the edges with this length
+EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # pairs of a label and the edges with this length
 
 
 class InNumbers(Protocol):
