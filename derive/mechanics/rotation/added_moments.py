@@ -1,4 +1,4 @@
-"""The moment of inertia of a composite body about one axis: a sum over its parts, with the parallel-axis theorem."""
+"""The moment of inertia of a composite body about an axis: a sum over its parts by the parallel-axis theorem."""
 
 from __future__ import annotations
 

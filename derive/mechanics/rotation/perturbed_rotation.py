@@ -370,7 +370,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         raise Rejected(Complaint("no-symmetry", "`body_cone_rate` needs a body whose moments about x and y are equal"))
     if is_zero(about - across):
         raise Rejected(Complaint("no-cone", "the three moments are equal, so the angular velocity is constant"))
-    coupling = tidied(-diff(lefts[1], x, z))  # (I_z - I_x) omega_z omega_x drives omega_y
+    coupling = tidied(-diff(lefts[1], x, z))  # of omega_z omega_x in the equation for omega_y
 
     def rate_of_angle() -> Expr:
         torque = explicit(of.by_particles())

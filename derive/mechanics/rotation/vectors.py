@@ -169,7 +169,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     """
     body = along.subject.body
     if body is not None:
-        body.point(through)  # raises an error if the body has no such point
+        body.point(through)  # an error if the body has no such point
     length = tidied(Norm(along.value))
     return establish(
         SPIN,
