@@ -1,4 +1,4 @@
-"""Drawings as a script describes them: `drawing("vectors", outline(block), arrow(omega, ...), ...)`."""
+"""Drawings that a script describes: `drawing("vectors", outline(block), arrow(omega, ...), ...)`."""
 
 from derive.figures.bodies import *
 from derive.figures.elements import *

@@ -1,4 +1,4 @@
-"""Marks drawn over the bodies: axes, arrows, arcs, rotation arrows, dimension lines, points and the ground."""
+"""Marks that are drawn over the bodies: axes, arrows, arcs, rotation arrows, dimension lines, points and supports."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ from derive.figures.space import (
     unit,
 )
 
-PAST = 0.3  # length of axes beyond a body, relative to its size
-ASIDE = 12.0  # points between a body and its dimension line
-SHORT = 3  # most operations in the description of a place
-RING = 0.16  # the radius of an arrow round an axis, relative to the size of the body
-ROUND = 10.0  # points: the least radius of an arrow round a direction
-STAND, CLEARANCE = 16.0, 8.0  # points: the least height of a stand, and between a body and the ground under it
+PAST = 0.3  # length of an axis beyond a body, relative to the size of the body
+ASIDE = 12.0  # distance between a body and its dimension line, in points
+SHORT = 3  # greatest number of operations in the components of a point that are described
+RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
+ROUND = 10.0  # least radius of a rotation arrow, in points
+STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and of a body above the ground, in points
 
 
 @dataclass(frozen=True)
 class _Between(Mark):
-    """A mark from one place to another."""
+    """A mark from one point to another."""
 
     start: Position
     end: Position
@@ -51,7 +51,7 @@ class _Between(Mark):
 
 @dataclass(frozen=True)
 class _Single(Mark):
-    """A mark at one place."""
+    """A mark at one point."""
 
     at: Position
 
@@ -65,7 +65,7 @@ class _Single(Mark):
 
 @dataclass(frozen=True)
 class Line(_Between):
-    """A line; its pen is `edge`, `construction`, `hidden` or `axis`."""
+    """A line, drawn with the pen `edge`, `construction`, `hidden` or `axis`."""
 
     pen: str = "construction"
 
@@ -77,7 +77,7 @@ class Line(_Between):
 
 @dataclass(frozen=True)
 class Axis(_Between):
-    """A coordinate axis: a thin arrow from its start to its end, or beyond the end in the direction `past`."""
+    """A coordinate axis: a thin arrow from start to end; with a direction `past`, it continues beyond the end."""
 
     past: Position = None
     together: ClassVar[str | None] = "axes"
@@ -92,9 +92,9 @@ class Axis(_Between):
 
 @dataclass(frozen=True)
 class AxisOfRotation(Mark):
-    """The whole line through a point along a direction, a little longer than the body on both sides.
+    """The axis through a point along a direction, a little longer than the body on both sides.
 
-    With a rate, an arrow goes round its far end, right-handed if the rate is positive; the label names the rate.
+    With a rate, a rotation arrow surrounds the far end, right-handed if the rate is positive; the label is the rate.
     """
 
     through: Position
@@ -119,7 +119,7 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
-        """The additional distance along the axis at which the arrow round it is clear of all surfaces."""
+        """Return the additional distance along the axis at which the rotation arrow overlaps no surface."""
         outline = hull(paper.spots(*paper.fixed))
         tried = [PAST * paper.reach * step / 4 for step in range(9)]
         for off in tried:
@@ -135,9 +135,13 @@ class AxisOfRotation(Mark):
 
 @dataclass(frozen=True)
 class LengthMark(_Between):
-    """A dimension line between two points, shifted in the direction `aside`, by default to the left in the drawing.
-    The shift is the length `clear`, plus a fixed number of points for any scale, plus `beyond` points, which make room
-    for inner dimension lines. A length of zero is not drawn.
+    """A dimension line between two points, shifted to one side; a length of zero is not drawn.
+
+    aside    the direction of the shift; by default to the left in the drawing
+    clear    the part of the shift that is a length in the drawing
+    beyond   a further part of the shift, in points, which leaves room for other dimension lines
+
+    The shift also contains a constant number of points.
     """
 
     aside: Position | None
@@ -178,8 +182,12 @@ class LengthMark(_Between):
 
 @dataclass(frozen=True)
 class Arrow(Mark):
-    """A vector in its true direction. Vectors of different kinds have no common scale: `size` is only the drawn length,
-    relative to the size of the body. A zero vector is not drawn; if `pushes` is set, the arrow ends at its place.
+    """A vector in its true direction; a zero vector is not drawn.
+
+    start    the point at which the arrow starts
+    size     the drawn length relative to the size of the body, because vectors of different kinds have no common scale
+    asked    whether the problem asks for the vector, so the arrow is emphasised
+    pushes   whether the arrow ends at `start` instead
     """
 
     start: Position
@@ -216,14 +224,17 @@ class Arrow(Mark):
 
 @dataclass(frozen=True)
 class Weight(Arrow):
-    """A weight at its point of action. It is visible from each viewpoint, so it does not affect the choice of the view.
-    The space below its tip is often occupied, so its label may be anywhere along its side."""
+    """A weight at its point of action.
+
+    A weight does not affect the choice of the view, because it is visible from every viewpoint. Its label may be
+    anywhere along its side, because the space below its tip is often occupied.
+    """
 
     def pieces(self, paper: Paper) -> list[Piece]:
         line, *_ = found = super().pieces(paper)
         (x, y), (u, v) = line.spots
         along = direction(*line.spots)
-        half = 0.85 * (u - x), 0.85 * (v - y)  # up to the tip
+        half = 0.85 * (u - x), 0.85 * (v - y)  # the label may move to the tip
         beside = Tag(self.label, midway(*line.spots), (along[1], -along[0]), way=half)
         return [beside if isinstance(piece, Tag) else piece for piece in found]
 
@@ -234,7 +245,8 @@ class Weight(Arrow):
 
 @dataclass(frozen=True)
 class AngleMark(Mark):
-    """The arc between two directions at a vertex, along a great circle; by default its radius has a readable size.
+    """The arc between two directions at a vertex; by default its radius is readable.
+
     No arc is drawn between parallel directions.
     """
 
@@ -253,7 +265,7 @@ class AngleMark(Mark):
         size = angle_of(a, b)
         if not size_of(a) or not size_of(b) or not 0.02 < size < pi - 0.02:
             return []
-        # A small angle has an arc with a large radius, so that the arc is visible.
+        # The arc of a small angle has a large radius, so that the arc is visible.
         comfortable = max(0.3, min(0.8, 0.3 / size))
         radius = paper.numbers.of(self.radius) if self.radius is not None else paper.reach * comfortable
         beside = unit(plus(b, a, -dot(a, b)))
@@ -275,7 +287,7 @@ class AngleMark(Mark):
 
 @dataclass(frozen=True)
 class Turn(Mark):
-    """A right-handed arrow round a direction; `size` is relative to the size of the body."""
+    """A right-handed rotation arrow about a direction; `size` is its radius relative to the size of the body."""
 
     centre: Position
     along: Position
@@ -293,7 +305,7 @@ class Turn(Mark):
 
 
 def _circling(centre: Vector, along: Vector, radius: float, label: Any, paper: Paper) -> list[Piece]:
-    """Most of a circle, open on the side away from the viewer, with an arrowhead at its right-handed end."""
+    """Return most of a circle, open on the side away from the viewer, with an arrowhead at its right-handed end."""
     u, v = across(along)
     front = max(range(360), key=lambda degree: dot(_round(u, v, degree), paper.stance.eye))
     places = [plus(centre, _round(u, v, front + degree), radius) for degree in range(-125, 126, 5)]
@@ -319,7 +331,7 @@ class PointMark(_Single):
         return [Bullet(spot), Tag(self.label, spot, (0.7, 0.7), 4.0)]
 
     def in_words(self) -> InWords | None:
-        """The description, with the place if that is short."""
+        """Return the description, with the components of the point if these are short."""
         entries = tuple(tidied(entry) for entry in self.at)
         is_short = any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT
         return self._if_named("point", place=entries if is_short else None)
@@ -327,7 +339,7 @@ class PointMark(_Single):
 
 @dataclass(frozen=True)
 class CentreMark(PointMark):
-    """A centre of mass that is still to be found: its place is drawn, but not described."""
+    """A centre of mass that the problem asks for, so its position is drawn but not described."""
 
     def in_words(self) -> InWords | None:
         return self._if_named("point", place=None)
@@ -335,8 +347,7 @@ class CentreMark(PointMark):
 
 @dataclass(frozen=True)
 class Support(_Single):
-    """The fixed ground under a pivot: a pointed stand on hatched ground, high enough that a body rotating about the
-    pivot does not touch the ground."""
+    """The support of a pivot: a triangle on hatched ground, which is below all bodies of the drawing."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = spot = paper.spot(paper.numbers.vector(self.at))
@@ -358,7 +369,7 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """The direction of a vector as plain numbers, if symbols occur only in a common factor; None for a zero vector."""
+    """Return the direction of a vector in numbers, or None if symbols occur outside a common factor of known sign."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

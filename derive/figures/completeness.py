@@ -1,5 +1,6 @@
-"""Whether a drawing shows the whole system. A drawing without one of its bodies, springs, walls or strings would show
-different physics, so it is not made.
+"""Whether a drawing shows the whole system.
+
+A drawing that lacks a body, spring, wall or string would show different physics, so no such drawing is made.
 """
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ def is_whole(
 ) -> bool:
     """Whether no part of the system is missing.
 
-    pairs   particles that are joined by a string or a rod
+    links      the links to particles that are drawn
+    pairs      the particles that are joined by a string or a rod
+    touching   the supports of bodies and particles that are drawn
     """
     return (
         _bodies_are_seen(system)
@@ -49,12 +52,12 @@ def is_whole(
 
 
 def _is_loose(system: System, link: Link) -> bool:
-    """Whether there is no mass at the start of the link."""
+    """Whether no mass is at the start of the link."""
     return not any(same(link.start, at) for _, at in system.masses)
 
 
 def _bodies_are_seen(system: System) -> bool:
-    """Whether each body has an outline, or in space an axis from its fixed point, or rolls as a wheel."""
+    """Whether each body has an outline, or rolls as a wheel, or has an axis from its fixed point in space."""
     return all(
         placed_outline(with_its_shape(placed))
         or (len(placed.at.components) == 3 and not same(placed.at, placed.centre))
@@ -66,7 +69,7 @@ def _bodies_are_seen(system: System) -> bool:
 def _conditions_are_seen(
     system: System, links: Collection[Link], pairs: Iterable[tuple[int, int]], touching: Touching
 ) -> bool:
-    """Whether each constraint and rolling condition is shown as a wall, a length, a string or a rolling surface."""
+    """Whether each constraint and rolling condition is shown: as a wall, a length, a string or a rolling surface."""
     lengths = {link.length for link in links if kept_length(system, link.length) is not None}
     tied = {system.particles[i].at: None for pair in pairs for i in pair}
     tracks = {t.by for at in tied if (t := track_of(system, at)) is not None}
@@ -80,7 +83,7 @@ def _conditions_are_seen(
 
 
 def _energies_are_seen(system: System) -> bool:
-    """Whether no separate potential energy couples parts or acts on a body: springs for it would not be drawn."""
+    """Whether all energies given as formulas are linear, or act on a single particle: others would not be visible."""
     charged = len([each for each in system.charges if any(each.electric)])
     own = system.stored[: len(system.stored) - charged]
     many = len(system.particles) + len(system.bodies) > 1 or system.bodies
@@ -114,7 +117,7 @@ def _is_joined(system: System, links: Collection[Link], pairs: Iterable[tuple[in
 
 
 def _neighbours(system: System, links: Collection[Link], places: Sequence[Location]) -> Iterator[tuple[int, int]]:
-    """Pairs of place numbers that are joined by a link, a force or the line of a slide."""
+    """Yield the indices of two positions that are joined by a link, a force, or a line on which a particle slides."""
     ends = [(link.start, link.end) for link in links] + [(each.start, each.end) for each in system.between]
     for a, b in ends:
         found = [i for i, place in enumerate(places) if same(place, a) or same(place, b)]
@@ -131,7 +134,7 @@ def _neighbours(system: System, links: Collection[Link], places: Sequence[Locati
 
 
 def _shows_something(system: System, marks: Sequence[Mark], links: Collection[Link]) -> bool:
-    """Whether the drawing shows more than particles, bodies and angles, or a body's pivot, or a free body in space."""
+    """Whether the drawing shows more than particles, bodies and angles, or a pivot, or a free body in space."""
     outlines = [mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))]
     if any(not isinstance(mark, ALONE) and mark not in outlines for mark in marks):
         return True

@@ -1,4 +1,4 @@
-"""Fixed surfaces on which bodies roll, from rolling conditions that give the place of contact."""
+"""Fixed surfaces on which bodies roll, from rolling conditions that specify the point of contact."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-# Place of a rotation arrow on an axis, and length of the axis, relative to the distance of the centre of mass.
+# The distance of a rotation arrow, and of the end of its axis, relative to that of the centre of mass.
 ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
 
 
 def contact_marks(system: System) -> Iterable[Mark]:
-    """For each body that rolls on a fixed surface, the surface that it touches, and the point of contact."""
+    """Yield, for each body that rolls on a fixed surface, the marks of this surface and of the point of contact."""
     for condition in system.conditions:
         rolling = condition.fact(Rolling)
         if rolling is None or rolling.ground is not None:
@@ -42,8 +42,10 @@ def contact_marks(system: System) -> Iterable[Mark]:
 
 
 def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable[Mark]:
-    """In space, for a body with a fixed point in a horizontal plane: the circle on which it touches that plane, its
-    line of contact, and its spin about its own axis."""
+    """Yield the marks of a body in space that rolls on a horizontal plane through its fixed point.
+
+    The marks are the circle of the points of contact, the line of contact, and the spin about the axis of the body.
+    """
     body = rolling.body
     way = contact - body.at
     moving = moving_in(system, *way.components)
@@ -69,7 +71,7 @@ def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable
 
 
 def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
-    """The cylinder seen along its axis, with the line from the axis to the contact and the angle of this line."""
+    """Yield the marks of a cylinder seen along its axis: the circle, the line to the contact, and its angle."""
     centre, contact = column_of(link.start), column_of(link.end)
     outside = _is_outside(system, link, rolling)
     yield Circle(centre, ACROSS, link.length, outside, name="fixed_cylinder")
@@ -84,14 +86,14 @@ def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
 
 
 def _between_axes(system: System, link: Link, rolling: Rolling) -> Expr | None:
-    """The distance between the two axes, if it is constant."""
+    """Return the distance between the axes of the cylinder and of the body, if it is constant and not zero."""
     way = [c.subs(system.known) for c in (rolling.body.centre - link.start).components]
     length = sqrt(tidied(Add(*(c**2 for c in way))))
     return None if length == 0 or moving_in(system, length) else length
 
 
 def _is_outside(system: System, link: Link, rolling: Rolling) -> bool:
-    """Whether the body is farther from the axis than the contact, with all symbols 1 and all coordinates 0."""
+    """Whether the body rolls outside the cylinder, for all symbols 1 and all coordinates 0."""
     middle = rolling.body.centre - link.start
     beyond = Add(*(c**2 for c in middle.components)) - link.length**2
     there = beyond.xreplace(dict.fromkeys(system.coordinates, Integer(0))).subs(system.known)

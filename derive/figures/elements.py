@@ -1,8 +1,8 @@
-"""Functions that draw the parts of a machine and its surroundings, at the places of its system.
+"""Functions that return marks for the parts of a machine and for its surroundings.
 
     drawing("pendulum", pivot(origin), rod(origin, bob, l), angle_mark(origin, "down", bob, theta), particle(bob, m))
 
-Places are results of `point` and `place`, all in a plane or all in space. Parts without a size are drawn in a readable
+Points are results of `point` and `place`, all in a plane or all in space. Parts without a given size have a readable
 size. The order of the marks does not matter: particles are drawn over rods, and rods over walls.
 """
 
@@ -53,8 +53,8 @@ __all__ = [
     "wheel",
 ]
 
-CLEAR = 7.0  # points between a block and a dimension line
-UNDER = {BlockMark: BLOCK[1] / 2, CartMark: CART[1] / 2 + 2 * CASTER}  # points from the place to the floor below
+CLEAR = 7.0  # distance between a block and a dimension line, in points
+UNDER = {BlockMark: BLOCK[1] / 2, CartMark: CART[1] / 2 + 2 * CASTER}  # distance from `at` to the floor, in points
 
 # --- parts -----------------------------------------------------------------------------------------------------------
 
@@ -62,27 +62,30 @@ UNDER = {BlockMark: BLOCK[1] / 2, CartMark: CART[1] / 2 + 2 * CASTER}  # points 
 def particle(at: Any, label: Any = None) -> Mark:
     """A particle, a bob or a bead.
 
-    at      place
-    label   its mass
+    at      the point
+    label   the mass
     """
     place, keys = vector_of(at)
     return ParticleMark(place, label=name_of(at, label), keys=keys)
 
 
 def rod(start: Any, end: Any, label: Any = None) -> Mark:
-    """A light rod, or another straight part, from one place to another; the label is its length."""
+    """A light rod, or another straight part, from one point to another; the label is its length."""
     (a, b), keys = vectors_of(start, end)
     return BarMark(a, b, label=name_of(None, label), keys=keys)
 
 
 def spring_mark(start: Any, end: Any, label: Any = None) -> Mark:
-    """A spring from one place to another; the label is its constant."""
+    """A spring from one point to another; the label is the spring constant."""
     (a, b), keys = vectors_of(start, end)
     return SpringMark(a, b, label=name_of(None, label), keys=keys)
 
 
 def rope(*along: Any, label: Any = None) -> Mark:
-    """A taut string through places and round wheels, on the side to which it bends: `rope(first, pulley, second)`."""
+    """A taut string through points and round wheels: `rope(first, pulley, second)`.
+
+    At each wheel the string is on the side that its bend requires.
+    """
     if len(along) < 2:
         raise Rejected(Complaint("wrong-argument", "a rope needs two places or more"))
     wheels = [each if isinstance(each, WheelMark) else None for each in along]
@@ -95,9 +98,9 @@ def rope(*along: Any, label: Any = None) -> Mark:
 def wheel(centre: Any, radius: Any = None, label: Any = None, pointer: Any = None) -> WheelMark:
     """A disc seen along its axis: a pulley, or a rolling wheel.
 
-    centre    place
-    radius    length; by default the size of a small pulley
-    pointer   vector: a direction that rotates with the disc, drawn as a line from its centre to its rim
+    centre    the centre of the disc
+    radius    a length; by default that of a small pulley
+    pointer   a vector that rotates with the disc, drawn as a line from its centre to its rim
     """
     place, keys = vector_of(centre)
     ahead = vector_of(pointer)[0] if pointer is not None else None
@@ -109,9 +112,9 @@ def block(
 ) -> Mark:
     """A block that slides along a direction.
 
-    at              its centre, or the centre of its base if `stands` is true
-    label           its mass, written on the block if it is short
-    along           vector, or "right", "up": the direction of its base
+    at              the centre of the block; if `stands` is true, the centre of its base
+    label           the mass, written on the block if it is short
+    along           the direction of the base: a vector, or "right", "up", ...
     width, height   lengths; by default a readable size
     """
     place, keys = vector_of(at)
@@ -119,13 +122,13 @@ def block(
 
 
 def cart(at: Any, label: Any = None, along: Any = "right", width: Any = None, height: Any = None) -> Mark:
-    """A cart on two wheels; its place is the centre of its body."""
+    """A cart on two wheels; `at` is the centre of its body."""
     place, keys = vector_of(at)
     return CartMark(place, _way(along, place.rows), width, height, label=name_of(None, label), keys=keys)
 
 
 def wedge(*corners: Any, label: Any = None) -> Mark:
-    """A wedge, or another solid seen from its side, by its corners in order."""
+    """A wedge, or another solid seen from its side, given by its corners in order."""
     if len(corners) < 3:
         raise Rejected(Complaint("wrong-argument", "a wedge needs three corners or more"))
     places, keys = vectors_of(*corners)
@@ -136,20 +139,20 @@ def wedge(*corners: Any, label: Any = None) -> Mark:
 
 
 def floor(start: Any, end: Any, under: Any = None) -> Mark:
-    """Hatched ground from one place to another, with its solid side below.
+    """Hatched ground from one point to another, with its solid side below.
 
-    under   a block or a cart on the ground, so that the line is drawn below its base
+    under   a block or a cart on the ground, so the line is drawn at its base
     """
     return _ground(start, end, "down", under)
 
 
 def ceiling(start: Any, end: Any) -> Mark:
-    """A hatched line from one place to another, with its solid side above."""
+    """A hatched line from one point to another, with its solid side above."""
     return _ground(start, end, "up", None)
 
 
 def wall(start: Any, end: Any, solid: str = "left") -> Mark:
-    """A hatched line from one place to another; `solid` is the hatched side, "left" or "right"."""
+    """A hatched line from one point to another; `solid` is the hatched side, "left" or "right"."""
     return _ground(start, end, solid, None)
 
 
@@ -160,7 +163,7 @@ def _ground(start: Any, end: Any, side: str, under: Any) -> Mark:
 
 
 def pivot(at: Any, label: Any = None, away: Any = "down") -> Mark:
-    """A fixed joint; the part that hangs from it points downwards, or in the direction `away`."""
+    """A fixed joint; the part on the joint points downwards, or in the direction `away`."""
     place, keys = vector_of(at)
     return FixedEnd(place, _way(away, place.rows), True, label=name_of(None, label), keys=keys)
 
@@ -177,10 +180,10 @@ def fixed_end(at: Any, other: Any) -> Mark:
 def angle_mark(vertex: Any, start: Any, end: Any, label: Any = None) -> Mark:
     """The arc between two directions from a vertex.
 
-    vertex   place
-    start    place, or "down", "up", "right" or "left" for a direction, which is drawn as a dashed line
-    end      place
-    label    its name, or the quantity of the angle
+    vertex   the point at which the directions start
+    start    a point in the first direction; or "down", "up", "right" or "left", drawn as a dashed line
+    end      a point in the second direction
+    label    the name of the angle, or a quantity
     """
     dashed = isinstance(start, str)
     (at, b), keys = vectors_of(vertex, end)
@@ -189,10 +192,11 @@ def angle_mark(vertex: Any, start: Any, end: Any, label: Any = None) -> Mark:
 
 
 def length_mark(start: Any, end: Any, label: Any, aside: Any = None, past: Any = None) -> Mark:
-    """A dimension line from one place to another.
+    """A dimension line from one point to another.
 
-    aside   vector, or "up", "left" and so on: the side of the line; by default away from the centre of the drawing
-    past    a block or a cart at one of its ends, which the line must clear
+    aside   the side to which the line is shifted: a vector, or "up", "left", ...; by default away from the centre of
+            the drawing
+    past    a block or a cart at one end, which the line must not touch
     """
     (a, b), keys = vectors_of(start, end)
     side = None if aside is None else _way(aside, a.rows)
@@ -204,10 +208,12 @@ def length_mark(start: Any, end: Any, label: Any, aside: Any = None, past: Any =
 def way(
     place: Any, letter: Any, between: tuple[Any, Any] = (0, 2 * pi), label: Any = None, solid: bool = False
 ) -> Mark:
-    """The curve of a place as one of its symbols varies from one value to another, with all others fixed.
+    """The curve of a point as one symbol varies from one value to another, with all other symbols fixed.
 
-    letter   a coordinate, or another symbol of the place
-    solid    whether the curve is a solid object, such as a hoop or a wire, and not only a path
+    place     the point, a formula in the symbol
+    letter    the symbol, a coordinate or another symbol of the formula
+    between   the two values
+    solid     whether the curve is a solid object, such as a hoop or a wire, and not only a path
     """
     formula, keys = vector_of(place)
     symbol = letter.symbol if isinstance(letter, Coordinate) else letter
@@ -219,7 +225,7 @@ def way(
 
 
 def gravity_mark(label: Any = None, in_space: bool = False) -> Mark:
-    """An arrow downwards next to the parts: the gravitational acceleration."""
+    """The gravitational acceleration: an arrow downwards next to all parts."""
     return GravityMark(towards("down", 3 if in_space else 2), label=name_of(None, label or scalar("g")))
 
 

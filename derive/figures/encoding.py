@@ -1,4 +1,4 @@
-"""Encode drawings as JSON data and decode them: the fields of each mark, with expressions as in `algebra.encoding`."""
+"""Encode drawings as JSON data, and decode them; `algebra.encoding` encodes the expressions in the fields of marks."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The extrema of a curve: zeros of its exact derivative, found by its sign changes, which also give their kind.
+"""The extrema of a curve: sign changes of its exact derivative, which also determine whether each is a minimum.
 
-The second route is the curve itself, which must lie on one side of the extremum's value near it.
+The second route is the curve: near an extremum, its values are all greater, or all less, than that of the extremum.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from sympy import Expr, Symbol, diff, lambdify
 
 from derive.errors import Complaint, Rejected, Unverified
 
-STEPS = 1009  # odd and prime, so that the centre of a symmetric range lies within a step and not at its end
+STEPS = 1009  # odd and prime, so that the centre of a symmetric range is inside a step and not at its end
 MINIMUM, MAXIMUM = "minimum", "maximum"
 
 
 @dataclass(frozen=True)
 class Extremum:
-    """An extremum of a curve: its place, its value and its kind."""
+    """An extremum of a curve: the value of the variable, the value of the curve, and whether it is a minimum."""
 
     at: float
     value: float
@@ -28,7 +28,7 @@ class Extremum:
 
 
 def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps: int) -> list[tuple[float, float]]:
-    """Evenly spaced points of the curve; a curve that is not real and finite everywhere is rejected."""
+    """Return evenly spaced points of the curve; a curve that is not real and finite everywhere is rejected."""
     f = lambdify([variable], expr, "math")
     points = [lower + (upper - lower) * i / steps for i in range(steps + 1)]
     try:
@@ -41,7 +41,7 @@ def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps
 
 
 def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[Extremum, ...]:
-    """The extrema of an expression in one symbol, strictly within the range; the slope may be infinite somewhere."""
+    """Return the extrema of an expression in one symbol inside the range; the slope may be infinite at some points."""
     f, derivative = (lambdify([variable], each, "math") for each in (expr, diff(expr, variable)))
 
     def slope(x: float) -> float:
@@ -79,7 +79,7 @@ def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
 
 
 def _confirm(f: Callable[[float], Any], at: float, step: float, kind: str) -> None:
-    """Check that the curve is higher one step on either side of a minimum, or lower for a maximum."""
+    """Check that the curve is higher one step to either side of a minimum, and lower for a maximum."""
     rises = [f(at + side * step) - f(at) for side in (-1, 1)]
     if not all(rise > 0 if kind == MINIMUM else rise < 0 for rise in rises):
         raise Unverified(Complaint("unverified", f"at {at:g} the curve has no {kind}, but its slope changes sign"))

@@ -22,9 +22,10 @@ __all__ = ["dashed_at"]
 
 @dataclass(frozen=True)
 class Ghost(Surface):
-    """The outline of a surface at another place.
+    """The dashed outline of a surface for another value of a coordinate.
 
-    letter, value   the coordinate that has another value there
+    of              the surface with this value
+    letter, value   the coordinate and this value
     """
 
     of: Surface = None  # type: ignore[assignment]
@@ -45,9 +46,9 @@ class Ghost(Surface):
 
 
 def dashed_at(system: System, values: Mapping[Any, Any]) -> list[Mark]:
-    """The outlines of the bodies of a system for another value of one coordinate, such as its equilibrium.
+    """Return dashed outlines of the bodies of a system for another value of one coordinate, such as an equilibrium.
 
-    values   the coordinate and its value there: `{theta: 0}`
+    values   the coordinate and this value: `{theta: 0}`
     """
     known: dict[Any, Expr] = {name_of(None, letter): as_expr(value) for letter, value in values.items()}
     if len(known) != 1 or not known.keys() <= {*system.coordinates}:

@@ -1,8 +1,8 @@
-"""The marks of a drawing, as data: their places and directions are SymPy expressions in the problem's symbols.
+"""The marks of a drawing, as data: positions and directions are SymPy expressions in the symbols of the problem.
 
-A mark defines its pieces, given numbers for the symbols, its size, and its description in words. Hidden lines and the
-positions of labels are decided by `derive.render.drawing`.
-Positions are columns (x, y, z), or (x, y) in a plane, in one frame, the same for all marks of a drawing.
+With numbers for the symbols, a mark returns its pieces and its outermost points; it also returns its description in
+words. `derive.render.drawing` decides which lines are hidden and where labels are.
+Positions are columns (x, y, z), or (x, y) in a plane, along the same axes for all marks of a drawing.
 """
 
 from __future__ import annotations
@@ -19,26 +19,28 @@ from derive.figures.pieces import InNumbers, Paper, Piece
 from derive.figures.space import Vector
 from derive.steps.record import current_run
 
-Position: TypeAlias = Any  # a column of three expressions
-InWords: TypeAlias = tuple[str, dict[str, Any]]  # the phrase that describes a mark, and the values for its placeholders
-LAST = 99  # the layer of marks next to all others
+Position: TypeAlias = Any  # a column of three expressions, or of two in a plane
+InWords: TypeAlias = tuple[str, dict[str, Any]]  # the phrase that describes a mark, and the values of its placeholders
+LAST = 99  # the layer of marks that are placed next to all others
 SPACE, PLANE = "space", "plane"
 
-BESIDE = {"beside": True}  # metadata of a field that is only a label and does not affect the drawing
-MARK_CLASSES: dict[str, type[Mark]] = {}  # all kinds of marks by their names
+BESIDE = {"beside": True}  # metadata of a field that is only a label, so its symbols need no numbers
+MARK_CLASSES: dict[str, type[Mark]] = {}  # name -> class, for all classes of marks
 
 _DRAWING_NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mark:
-    """Base class of all marks: a label, which is a name or an expression, and the keys of the steps that it uses.
-    The keys ensure that no drawing shows an answer too early.
+    """Base class of all marks.
+
+    label   a name or an expression
+    keys    the keys of the steps that the mark uses, so that no drawing shows an answer before its step
     """
 
     label: Any = field(default=None, metadata=BESIDE)
     keys: tuple[str, ...] = ()
-    together: ClassVar[str | None] = None  # a phrase that describes all such marks together by their labels
+    together: ClassVar[str | None] = None  # the phrase that describes all marks of this class together, by their labels
     layer: ClassVar[int] = 9  # marks with a lower layer are drawn first
 
     def __init_subclass__(cls) -> None:
@@ -48,12 +50,12 @@ class Mark:
         MARK_CLASSES[cls.__name__] = cls
 
     def pieces(self, paper: Paper) -> list[Piece]:
-        """The drawn pieces of the mark; empty if nothing is visible."""
+        """Return the pieces that are drawn; empty if nothing is visible."""
         raise AttributeError(f"{type(self).__name__} must define `pieces`")
 
     @property
     def ends(self) -> tuple[Position, ...]:
-        """Places that determine the size of a drawing without bodies."""
+        """Points that determine the size of a drawing without bodies."""
         return ()
 
     @property
@@ -62,11 +64,11 @@ class Mark:
         return ()
 
     def tip(self, numbers: InNumbers, reach: float) -> Vector | None:
-        """The place of its arrowhead in space, which must not look like a corner of a body of size `reach`."""
+        """Return the position of the arrowhead, which must not coincide with a corner of a body of size `reach`."""
         return None
 
     def in_words(self) -> InWords | None:
-        """The description for readers who cannot see the drawing; None for a line that only guides the eye."""
+        """Return the description for readers who cannot see the drawing; None for an auxiliary line."""
         return None
 
     def _if_named(self, phrase: str, **names: Any) -> InWords | None:
@@ -86,11 +88,11 @@ class Surface(Mark):
     layer: ClassVar[int] = 0
 
     def vertices(self, numbers: InNumbers) -> list[Vector]:
-        """The places at which edges meet."""
+        """Return the points at which edges meet."""
         return []
 
     def places(self, numbers: InNumbers) -> list[Vector]:
-        """The outermost places of the surface."""
+        """Return the outermost points of the surface."""
         raise AttributeError(f"{type(self).__name__} must define `places`")
 
     def in_words(self) -> InWords | None:
@@ -102,10 +104,12 @@ Marks: TypeAlias = Mark | Iterable["Marks"]
 
 @dataclass(frozen=True)
 class Drawing:
-    """A scene: its name on the page, its marks, and whether they are shown in space or in their plane (x, y).
+    """A drawing.
 
-    coordinates   the coordinates that it shows, with their kinds
-    values        values of symbols for the drawing, in terms of others, unless the problem gives numbers
+    key           the name of the drawing on the page
+    view          whether the marks are shown in space or in the plane (x, y)
+    coordinates   the coordinates in the marks, with their kinds
+    values        values of symbols in terms of other symbols, used if the problem gives no numbers
     """
 
     key: str
@@ -128,9 +132,9 @@ class Drawing:
 class Plot:
     """A curve: a quantity as a function of one symbol, over a range of this symbol.
 
-    expr, variable   the quantity's value and the symbol on the horizontal axis
-    lower, upper     the range, unless the problem gives another
-    kind, of         the kinds of the quantity and of the symbol, for their units
+    expr, variable   the value of the quantity, and the symbol on the horizontal axis
+    lower, upper     the range, used if the problem gives no other range
+    kind, of         the kind of the quantity, and the kind of the symbol, for their units
     """
 
     key: str
@@ -149,7 +153,7 @@ class Plot:
 
 
 def components_in(thing: Any) -> set[int]:
-    """The numbers of components of all places and directions of marks, at any depth."""
+    """Return the numbers of components, 2 or 3, of all positions and directions in marks, at any depth."""
     if isinstance(thing, tuple | list):
         return {count for each in thing for count in components_in(each)}
     if isinstance(thing, Mark):
@@ -158,7 +162,7 @@ def components_in(thing: Any) -> set[int]:
 
 
 def letters_in(thing: Any) -> set[Symbol]:
-    """All symbols in the positions and directions of marks, at any depth, without those in labels."""
+    """Return all symbols in the positions and directions of marks, at any depth, except those in labels."""
     if isinstance(thing, tuple | list):
         return {letter for each in thing for letter in letters_in(each)}
     if isinstance(thing, Mark):
@@ -170,7 +174,7 @@ Recorded: TypeAlias = Drawing | Plot
 
 
 def noted(drawing: Recorded) -> Recorded:
-    """Record the drawing and return it; each name may be used for one drawing only."""
+    """Record the drawing and return it; a name that another drawing has is rejected."""
     if not _DRAWING_NAME.fullmatch(drawing.key):
         help_line = "use lower-case letters, digits and _"
         raise Rejected(Complaint("drawing-name", f"`{drawing.key}` cannot name a drawing", help=help_line))
@@ -184,7 +188,7 @@ def noted(drawing: Recorded) -> Recorded:
 
 
 def flat(marks: Marks) -> Iterator[Mark]:
-    """All marks, one by one, from nested lists."""
+    """Yield all marks of nested lists."""
     if isinstance(marks, Mark):
         yield marks
     else:

@@ -1,7 +1,7 @@
 """The parts of machines: particles, rods, ropes, springs, blocks, carts, wheels and wedges.
 
-Particles, blocks and wheels without given lengths, and the width of a spring, have a size in points. So they are
-visible in drawings of any scale.
+Particles, springs, and blocks and wheels without given lengths have a size in points, so they are readable in drawings
+of any scale.
 """
 
 from __future__ import annotations
@@ -17,20 +17,22 @@ from derive.figures.marks import InWords, Position, Surface
 from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, direction, midway, plus
 
-BOB = 4.3  # points: the radius of a particle
-WHEEL = 9.0  # the radius of a pulley
-BLOCK = (22.0, 18.0)  # the width and the height of a block
-CART = (38.0, 13.0)
-CASTER = 3.6  # the radius of a cart's wheels
+# Lengths in points.
+BOB = 4.3  # radius of a particle
+WHEEL = 9.0  # radius of a pulley
+BLOCK = (22.0, 18.0)  # width and height of a block
+CART = (38.0, 13.0)  # width and height of a cart
+CASTER = 3.6  # radius of the wheels of a cart
 COIL = 4.6  # half the width of a spring
-PITCH = 5.0  # between two turns of a spring
-LEAD = 7.0  # the straight ends of a spring
-SHORT = 3  # most letters of a name that is written on a block
+PITCH = 5.0  # distance between two turns of a spring
+LEAD = 7.0  # length of each straight end of a spring
+
+SHORT = 3  # greatest number of characters in a name that is written on a block
 
 
 @dataclass(frozen=True)
 class _Piecewise(Surface):
-    """A part drawn from place to place, with a description that depends on its class."""
+    """A part of a machine, with the name of its class as its description."""
 
     @property
     def told_as(self) -> str:
@@ -41,7 +43,7 @@ class _Piecewise(Surface):
 
 
 def beside(label: Any, start: Spot, end: Spot, gap: float = 3.0) -> Tag:
-    """The label of a line, preferably above it, because hanging parts and the angle with the vertical are below."""
+    """Return the label of a line, preferably above the line, because hanging parts and angles are below it."""
     x, y = direction(start, end)
     normal = (-y, x) if x > 1e-9 or abs(x) <= 1e-9 and y < 0 else (y, -x)
     return Tag(label, midway(start, end), normal, gap, ((end[0] - start[0]) / 2, (end[1] - start[1]) / 2))
@@ -49,7 +51,7 @@ def beside(label: Any, start: Spot, end: Spot, gap: float = 3.0) -> Tag:
 
 @dataclass(frozen=True)
 class _Stretched(_Piecewise):
-    """A part from one place to another."""
+    """A straight part from one point to another."""
 
     start: Position
     end: Position
@@ -64,7 +66,7 @@ class _Stretched(_Piecewise):
 
 @dataclass(frozen=True)
 class BarMark(_Stretched):
-    """A massless rod; it is drawn over the part to which it is fixed."""
+    """A massless rod, which is drawn over the part to which it is fixed."""
 
     layer: ClassVar[int] = 3
     pen: ClassVar[str] = "bar"
@@ -76,7 +78,7 @@ class BarMark(_Stretched):
 
 @dataclass(frozen=True)
 class ConnectionMark(_Stretched):
-    """A dashed line between two places with their distance as its label, and no physical part there."""
+    """A dashed line between two points, with their distance as its label; it does not show a physical part."""
 
     layer: ClassVar[int] = 0
 
@@ -90,7 +92,7 @@ class ConnectionMark(_Stretched):
 
 @dataclass(frozen=True)
 class SpringMark(_Stretched):
-    """A spring: a zigzag with straight ends; not drawn if both ends are at one place."""
+    """A spring: a zigzag with straight ends, which is not drawn if both ends coincide."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         (x, y), (u, v) = spots = paper.spots(*self.places(paper.numbers))
@@ -113,9 +115,10 @@ class SpringMark(_Stretched):
 
 @dataclass(frozen=True)
 class RopeMark(_Piecewise):
-    """A taut string from place to place; it goes round each wheel on the side to which it bends there.
+    """A taut string through points; at each wheel it is on the side that its bend requires.
 
-    radii   the radii of the wheels at these places: zero for no wheel, None for a wheel of the usual size
+    along   the points
+    radii   the radius of the wheel at each point: zero for no wheel, None for a wheel of the usual size
     """
 
     along: tuple[Position, ...]
@@ -139,12 +142,12 @@ class RopeMark(_Piecewise):
 
 
 def _bend(a: Spot, b: Spot, c: Spot) -> float:
-    """1 if the path from a to c bends to the left at b; -1 if it bends to the right or is straight."""
+    """Return 1 if the path from a to c bends to the left at b, or -1 if it bends to the right or is straight."""
     return 1.0 if (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) > 0 else -1.0
 
 
 def _tangent(a: Spot, p: float, b: Spot, q: float) -> tuple[Spot, Spot]:
-    """The tangent from one circle to the next; the centre of a circle with positive radius is to the left."""
+    """Return the tangent from a circle (a, p) to the next (b, q); for a positive radius the centre is on the left."""
     x, y = b[0] - a[0], b[1] - a[1]
     far = hypot(x, y)
     if far <= abs(q - p) or far == 0:
@@ -158,7 +161,7 @@ def _tangent(a: Spot, p: float, b: Spot, q: float) -> tuple[Spot, Spot]:
 
 
 def _round(middle: Spot, radius: float, start: Spot, end: Spot) -> list[Spot]:
-    """The spots of an arc, anticlockwise if the radius is positive."""
+    """Return the spots of an arc from `start` to `end`, counterclockwise if the radius is positive."""
     if abs(radius) < 1e-9:
         return [start]
     first, last = (atan2(spot[1] - middle[1], spot[0] - middle[0]) for spot in (start, end))
@@ -172,8 +175,9 @@ def _round(middle: Spot, radius: float, start: Spot, end: Spot) -> list[Spot]:
 
 @dataclass(frozen=True)
 class CornerRopeMark(_Piecewise):
-    """A taut string with a small pulley in its corner; `lifts` are the outward shifts of its straight parts, which
-    make room for bodies on the lines.
+    """A taut string with a small pulley at its corner.
+
+    lifts   the outward shifts of the two straight parts, in points, which leave room for bodies under the string
     """
 
     start: Position
@@ -192,7 +196,7 @@ class CornerRopeMark(_Piecewise):
         half = acos(max(-1.0, min(1.0, cosine))) / 2
         if not 0.05 < half < pi / 2 - 0.05:
             return [Stroke((a, corner, b), "string")]
-        # The direction from the corner to one end, and the normal of this line on the side of the other end.
+        # For the direction from the corner to each end, the normal on the side of the other end.
         inwards = [_normal(e, other) for e, other in zip(ways, ways[::-1], strict=True)]
         sine = sin(2 * half)
         shares = [(lift - WHEEL) / sine for lift in self.lifts[::-1]]
@@ -211,7 +215,7 @@ class CornerRopeMark(_Piecewise):
 
 
 def _normal(along: Spot, side: Spot) -> Spot:
-    """The unit normal of a direction on the side of another."""
+    """Return the unit normal of one direction that is on the side of another direction."""
     normal = -along[1], along[0]
     return normal if normal[0] * side[0] + normal[1] * side[1] > 0 else (along[1], -along[0])
 
@@ -233,9 +237,10 @@ class ParticleMark(_Piecewise):
 
 @dataclass(frozen=True)
 class BlockMark(_Piecewise):
-    """A block on a line along which it moves; its centre, or the centre of its base if `stands`, is at the place.
+    """A block on a line along which it moves.
 
-    width, height   lengths, or None for a block of the usual size
+    at              the centre of the block; if `stands` is true, the centre of its base
+    width, height   lengths, or None for the usual size
     """
 
     at: Position
@@ -259,7 +264,7 @@ class BlockMark(_Piecewise):
         return wide, high
 
     def _framed(self, paper: Paper, wide: float, high: float) -> tuple[Spot, tuple[Spot, ...]]:
-        """The centre, and the corners anticlockwise from the lower left to the upper left."""
+        """Return the centre, and the corners counterclockwise from the lower left to the upper left."""
         at, ahead = paper.numbers.vector(self.at), paper.numbers.vector(self.along)
         spot = paper.spot(at)
         e = direction(spot, paper.spot(plus(at, ahead)))
@@ -270,7 +275,7 @@ class BlockMark(_Piecewise):
         return spot, tuple((spot[0] + e[0] * a - e[1] * b, spot[1] + e[1] * a + e[0] * b) for a, b in half)
 
     def _named(self, middle: Spot, corners: tuple[Spot, ...]) -> Tag:
-        """The label: on the block if it is a short name, otherwise above it."""
+        """Return the label: on the block if it is a short name, otherwise above the block."""
         if not isinstance(self.label, Symbol) or len(self.label.name.replace("_", "")) > SHORT:
             return Tag(self.label, middle, (0.0, 1.0), self.usual[1] / 2 + 3.0)
         (x, y), (u, v) = corners[:2]
@@ -279,7 +284,7 @@ class BlockMark(_Piecewise):
 
 @dataclass(frozen=True)
 class CartMark(BlockMark):
-    """A cart on two wheels; the place is the centre of its body."""
+    """A cart on two wheels; `at` is the centre of its body."""
 
     usual: ClassVar[tuple[float, float]] = CART
 
@@ -297,7 +302,10 @@ class CartMark(BlockMark):
 
 @dataclass(frozen=True)
 class WheelMark(_Piecewise):
-    """A disc or hoop seen along its axis: a pulley or a rolling wheel; `pointer` is a direction fixed in it."""
+    """A disc or hoop seen along its axis: a pulley or a rolling wheel.
+
+    pointer   a direction that rotates with the disc, drawn as a radius
+    """
 
     centre: Position
     radius: Any = None
@@ -333,7 +341,7 @@ def _ring(middle: Spot, radius: float) -> list[Piece]:
 
 @dataclass(frozen=True)
 class WedgeMark(_Piecewise):
-    """A wedge, or another solid seen from its side, by its corners."""
+    """A wedge, or another solid seen from its side, given by its corners."""
 
     corners: tuple[Position, ...]
 
@@ -342,7 +350,7 @@ class WedgeMark(_Piecewise):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spots = paper.spots(*self.places(paper.numbers))
-        # The label is away from the sharp corner, where the angle of a slope is labelled.
+        # The label is not near the sharpest corner, where the angle of a slope has its label.
         sharp = min(range(len(spots)), key=lambda i: _opening(spots[i - 1], spots[i], spots[(i + 1) % len(spots)]))
         shares = [0.2 if i == sharp else 0.8 / (len(spots) - 1) for i in range(len(spots))]
         x, y = (sum(share * spot[k] for share, spot in zip(shares, spots, strict=True)) for k in (0, 1))

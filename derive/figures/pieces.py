@@ -1,6 +1,6 @@
-"""The pieces of a drawing, and the interface `Paper` that a mark uses to be drawn.
+"""The pieces of a drawing, and the interface `Paper`, from which a mark computes its pieces.
 
-`derive.render.drawing` draws only these pieces; each mark defines its own pieces.
+`derive.render.drawing` draws these pieces only.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from derive.figures.space import NOUGHT, Spot, Stance, Vector
 
 @dataclass(frozen=True)
 class Stroke:
-    """A line on paper, drawn with a pen of `derive.render.drawing.canvas`, with optional arrowheads at its ends."""
+    """A line on the paper, drawn with a pen of `derive.render.drawing.canvas`; `head` and `tail` are arrowheads."""
 
     spots: tuple[Spot, ...]
     pen: str
@@ -25,7 +25,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Patch:
-    """A surface on paper that hides earlier pieces; `fill` is one of the colours of `drawing.canvas`."""
+    """A surface on the paper that hides earlier pieces; `fill` is a colour of `derive.render.drawing.canvas`."""
 
     spots: tuple[Spot, ...]
     fill: str = "blank"
@@ -33,7 +33,7 @@ class Patch:
 
 @dataclass(frozen=True)
 class Bullet:
-    """A point on paper, drawn as a disc with a size in points."""
+    """A point on the paper, drawn as a disc; `size` is its radius in points."""
 
     spot: Spot
     size: float = 1.6
@@ -46,10 +46,14 @@ class Bullet:
 
 @dataclass(frozen=True)
 class Tag:
-    """A label: its content, the spot to which it belongs, and its preferred side.
+    """A label near a spot.
 
-    way   for the label of a line, half of the line: the label may slide along it or change to its other side
-    on    whether it is on the spot itself, or shifted by `towards` or its opposite, if these places are free
+    towards   the direction from the spot to the label
+    gap       the distance between the spot and the label, in points
+    way       for the label of a line, half of the vector along the line: the label may move along the line, or to its
+              other side
+    on        whether the label is on the spot; then it may be shifted by `towards` or in the opposite direction, if
+              the spot is occupied
     """
 
     label: Any
@@ -66,11 +70,11 @@ class Tag:
 
 Piece: TypeAlias = Stroke | Patch | Bullet | Tag
 Edge: TypeAlias = tuple[int, int]  # two corners, by their indices in a list
-EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # a name, and the edges with this length
+EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # pairs of a label and the edges with this length
 
 
 class InNumbers(Protocol):
-    """The values of expressions, given numbers for their symbols."""
+    """Values of expressions for the numbers of their symbols."""
 
     def of(self, expr: Any) -> float: ...
 
@@ -81,8 +85,15 @@ class InNumbers(Protocol):
 
 @dataclass(frozen=True)
 class Paper(ABC):
-    """Everything that a mark needs to be drawn: numbers, the viewing direction, points per unit of length, and the
-    size, centre and outermost places of the bodies. It draws the outlines of surfaces, which hide marks behind them.
+    """The data that a mark needs to be drawn, and the outlines of solids, which hide marks behind them.
+
+    numbers   the values of expressions
+    stance    the projection onto the paper
+    scale     points on the paper per unit of length
+    reach     the size of the bodies
+    middle    the centre of the bodies
+    fixed     the outermost points of the bodies
+    drawn     spots that are already in use, for the last layer of marks
     """
 
     numbers: InNumbers
@@ -91,7 +102,7 @@ class Paper(ABC):
     reach: float = 1.0
     middle: Vector = NOUGHT
     fixed: tuple[Vector, ...] = field(default=(), repr=False)
-    drawn: tuple[Spot, ...] = field(default=((0.0, 0.0),), repr=False)  # spots already in use, for the last marks
+    drawn: tuple[Spot, ...] = field(default=((0.0, 0.0),), repr=False)
 
     def spot(self, place: Vector) -> Spot:
         right, up = self.stance.spot(place)
@@ -102,8 +113,8 @@ class Paper(ABC):
 
     @abstractmethod
     def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
-        """A solid with flat faces, each given by its corners, with labels at some of its edges."""
+        """Return the pieces of a solid with flat faces, each given by its corners, with labels at some edges."""
 
     @abstractmethod
     def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:
-        """A solid of revolution, as circles from one end to the other."""
+        """Return the pieces of a solid of revolution, given by circles from one end to the other."""

@@ -1,6 +1,6 @@
-"""Places, directions and names that a script gives to a drawing, with the keys of the steps that they use.
+"""Positions, directions and names that a script gives to a drawing, with the keys of the steps that they use.
 
-A place is a `Location` of `derive.mechanics`, a column, a point of a body or a derived quantity. A place with two
+A position is a `Location` of `derive.mechanics`, a column, a point of a body or a derived quantity. A position with two
 components is in the plane of the drawing, with x to the right and y upwards.
 """
 
@@ -22,7 +22,7 @@ SIDES = {"down": (0, -1), "up": (0, 1), "right": (1, 0), "left": (-1, 0)}
 
 
 def vector_of(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """The components of a vector or a place, and its keys; anything else is rejected."""
+    """Return the components of a vector or a position, and the keys of its steps; any other value is rejected."""
     value, keys = value_and_keys(thing)
     if not isinstance(value, MatrixBase) or value.shape not in {(2, 1), (3, 1)}:
         got = f"`{thing.key}` is not one" if isinstance(thing, Quantity) else f"it is a {type(thing).__name__}"
@@ -31,7 +31,7 @@ def vector_of(thing: Any) -> tuple[Any, tuple[str, ...]]:
 
 
 def vectors_of(*things: Any) -> tuple[list[Any], tuple[str, ...]]:
-    """The components of each vector or place, all in a plane or all in space, and all their keys."""
+    """Return the components of vectors or positions, all in a plane or all in space, and the keys of their steps."""
     found = [vector_of(thing) for thing in things]
     if len({value.rows for value, _ in found}) > 1:
         message = "some places of a drawing have two components, others three"
@@ -40,7 +40,7 @@ def vectors_of(*things: Any) -> tuple[list[Any], tuple[str, ...]]:
 
 
 def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """The value and keys: for a quantity its value, with its key if derived; for a point its place; else itself."""
+    """Return the value of a quantity, with its key if it is derived; or the position of a point; or `thing` itself."""
     if isinstance(thing, Quantity):
         return thing.value, (thing.key,) if _is_derived(thing) else ()
     if isinstance(thing, Point):
@@ -51,13 +51,13 @@ def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
 
 
 def _is_derived(quantity: Quantity) -> bool:
-    """Whether the quantity was derived from more than definitions."""
+    """Whether a step other than a definition contributed to the quantity."""
     own = any(evidence.grade is not Grade.DEFINITION for evidence in quantity.step.evidence)
     return own or any(_is_derived(parent) for parent in quantity.parents)
 
 
 def name_of(thing: Any, label: Any) -> Any:
-    """The label of a mark: the requested label, or by default the quantity's own name."""
+    """Return the label of a mark: the given label, or by default the symbol of the quantity `thing`."""
     if isinstance(label, Quantity):
         return label.symbol
     if isinstance(label, str):
@@ -72,7 +72,7 @@ def column_of(place: Location) -> ImmutableDenseMatrix:
 
 
 def towards(side: str, rows: int) -> Any:
-    """The unit vector to one side of the drawing, in a plane or in space, where `right` is x and `up` is z."""
+    """Return the unit vector to one side of the drawing; `right` is x, and `up` is y in a plane and z in space."""
     if side not in SIDES:
         known = ", ".join(f'"{each}"' for each in SIDES)
         help_line = did_you_mean(side, SIDES) or f"use {known}"

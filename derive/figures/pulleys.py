@@ -1,4 +1,4 @@
-"""A pulley that hangs on the string over another pulley, recognised from the lines of the hanging particles."""
+"""A pulley that hangs on a string over another pulley, recognised from the lines on which the particles move."""
 
 from __future__ import annotations
 
@@ -23,9 +23,13 @@ UP = ImmutableDenseMatrix([1, 0])
 
 
 class HangingPulley:
-    """Three particles: one on a fixed pulley, and two on the pulley at the other end of its string.
+    """Three particles on two pulleys.
 
-    hung   the numbers of the three in this order; of the two, the one whose coordinate points down comes first
+    One particle hangs on a string over a fixed pulley. At the other end of this string is a second pulley, and the two
+    other particles hang on a string over the second pulley.
+
+    hung   the indices of the particles in this order, where the coordinate of the second particle points down; empty if
+           the system is not of this kind
     """
 
     def __init__(self, system: System):
@@ -82,7 +86,7 @@ class HangingPulley:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Values for the drawing that put all parts at different heights."""
+        """Values of symbols with which all parts are drawn at different heights."""
         if not self.hung:
             return {}
         alone, down, up = self.hung

@@ -1,7 +1,6 @@
-"""Recognise a machine from the formulas of its places: which places keep their distance, which rotate by an angle, and
-which move on a straight line.
+"""Recognise a machine from the formulas of positions: constant distances, rotations by an angle, and straight lines.
 
-Algebra decides each property, after sampled numbers have excluded most wrong candidates.
+Algebra decides each property, after numerical samples have excluded most of the wrong candidates.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ SAMPLES = (0.37, 0.83)
 
 @dataclass(frozen=True)
 class Link:
-    """A vector from a place to a particle whose length is constant or a coordinate."""
+    """A vector from a point to a particle; its length is constant, or depends only on coordinates that are lengths."""
 
     start: Location
     end: Location
@@ -38,7 +37,12 @@ class Link:
 
 @dataclass(frozen=True)
 class Track:
-    """A straight line along which a particle moves as one coordinate grows; the coordinate is zero at `start`."""
+    """A straight line on which a particle moves as one coordinate changes.
+
+    start   the point at which the coordinate is zero
+    way     the displacement for a change of the coordinate by 1
+    by      the coordinate
+    """
 
     start: Location
     way: Location
@@ -46,7 +50,7 @@ class Track:
 
     @property
     def foot(self) -> Location:
-        """The place on the line that is nearest to the origin."""
+        """The point on the line that is nearest to the origin."""
         along = sum((a * b for a, b in zip(self.start.components, self.way.components, strict=True)), ZERO)
         square = sum((b * b for b in self.way.components), ZERO)
         return Location(tuple(tidied(a - along / square * b) for a, b in _pairs(self.start, self.way)))
@@ -61,7 +65,7 @@ def _pairs(a: Location, b: Location) -> zip[tuple[Expr, Expr]]:
 
 
 def moving_in(system: System, *things: Expr) -> set[Symbol]:
-    """The coordinates in these expressions, and time if it occurs."""
+    """Return the coordinates that these expressions contain, and time if they contain it."""
     known = {*system.coordinates, TIME}
     return {letter for thing in things for letter in thing.free_symbols if letter in known}
 
@@ -71,13 +75,13 @@ def is_fixed(system: System, place: Location) -> bool:
 
 
 def is_spring(each: Central) -> bool:
-    """Whether the energy is of at most second degree in the distance."""
+    """Whether the potential energy is a polynomial of at most second degree in the distance."""
     third: Expr = derivative(explicit(each.energy), each.distance, 3)
     return third.is_zero is True
 
 
 def numeric(value: Expr) -> float:
-    """The value with different numbers below one for its symbols, which suit lengths and acute angles."""
+    """Return the value for the numbers 0.6, 0.67, ... as its symbols, which are possible lengths and acute angles."""
     letters = sorted(value.free_symbols, key=str)
     return float(value.xreplace({letter: Float(0.6 + 0.07 * i) for i, letter in enumerate(letters)}).evalf())
 
@@ -90,7 +94,10 @@ def same(a: Location, b: Location) -> bool:
 
 
 def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link | None:
-    """The link to a particle from the end of its rod or from its polar origin; known and fixed places come first."""
+    """Return the link to a particle from the other end of its rod, or from the origin of its polar coordinates.
+
+    Known and fixed points are preferred as start. The result is None if there is no such link.
+    """
     end = system.particles[index].at
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
     known += [place for place in named if not same(place, end)]
@@ -104,7 +111,7 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
 
 
 def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, str]:
-    """The rank of a likely start: a known place, a fixed place, one that only slides or is carried, any other."""
+    """Return the rank of a possible start: 0 if known, 1 if fixed, 2 if it moves but contains no angle, otherwise 3."""
     order = 0 if any(same(start, each) for each in known) else 1 if is_fixed(system, start) else 2
     if order == 2 and any(system.coordinates.get(q) == "angle" for q in moving_in(system, *start.components)):
         order = 3
@@ -112,7 +119,7 @@ def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, 
 
 
 def _without(place: Location, q: Symbol) -> Location | None:
-    """The terms of a place without a symbol, if all other terms contain it in a sine or cosine."""
+    """Return the terms of a position without q, if the terms with q contain sines or cosines; otherwise None."""
     parts = [expand(c).as_independent(q, as_Add=True) for c in place.components]
     if any(rest != 0 and not rest.has(sin, cos) for _, rest in parts):
         return None
@@ -120,7 +127,7 @@ def _without(place: Location, q: Symbol) -> Location | None:
 
 
 def _link(system: System, start: Location, end: Location) -> Link | None:
-    """The link between two places, if no angle and no prescribed motion changes its length."""
+    """Return the link between two points, if no angle and no prescribed motion changes its length; otherwise None."""
     square = Add(*(c**2 for c in (end - start).components))
     turning = {q for q in moving_in(system, square) if system.coordinates.get(q) != "length"}
     if square == 0 or not turning or _varies(square, turning):
@@ -134,22 +141,22 @@ def _link(system: System, start: Location, end: Location) -> Link | None:
 
 
 def _varies(value: Expr, turning: set[Symbol]) -> bool:
-    """Whether two samples show that the value varies; if they do not, it may still vary."""
+    """Whether the value differs in two numerical samples; a value that does not differ may still vary."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    # the differences of the angles also vary between the samples: a distance may depend on differences only
+    # The differences of angles are also different in the samples, because a distance may depend on them only.
     angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))
 
 
 def link_from_fixed(system: System, end: Location) -> Link | None:
-    """The link to a moving place from a fixed place at a constant distance."""
+    """Return the link to a moving point from a fixed point at a constant distance; None if there is no such link."""
     return next((link for link in links_about_fixed(system, end) if link.is_constant), None)
 
 
 def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
-    """The links to a moving place from the fixed places about which it rotates."""
+    """Yield the links to a moving point from the fixed points about which it rotates."""
     for start in (_without(end, q) for q in moving_in(system, *end.components)):
         link = _link(system, start, end) if start is not None and is_fixed(system, start) else None
         if link is not None:
@@ -160,7 +167,7 @@ def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
 
 
 def angle_of_link(system: System, link: Link) -> tuple[Expr, Location] | None:
-    """The angle by which a link rotates, and the fixed direction in which this angle is zero."""
+    """Return the angle by which a link rotates, and its fixed direction for zero angle; None if there is no angle."""
     e = tuple(tidied(c / link.length) for c in link.way.components)
     for angle in _angles(e):
         zero = tuple(c.xreplace({sin(angle): ZERO, cos(angle): Integer(1)}) for c in e)
@@ -172,7 +179,7 @@ def angle_of_link(system: System, link: Link) -> tuple[Expr, Location] | None:
 
 
 def _angles(direction: Iterable[Expr]) -> list[Expr]:
-    """The arguments of sines and cosines; single symbols come first."""
+    """Return the arguments of sines and cosines; single symbols come first."""
     found = {function.args[0] for c in direction for function in c.atoms(sin, cos)}
     return sorted(found, key=lambda angle: (not angle.is_Symbol, str(angle)))
 
@@ -181,7 +188,7 @@ def _angles(direction: Iterable[Expr]) -> list[Expr]:
 
 
 def track_of(system: System, place: Location) -> Track | None:
-    """The line along which a place moves in a fixed direction with one length, the last such coordinate."""
+    """Return the line on which a point moves with the last coordinate that is a length and has a fixed direction."""
     for q in reversed(list(system.coordinates)):
         if system.coordinates[q] != "length":
             continue
@@ -192,7 +199,7 @@ def track_of(system: System, place: Location) -> Track | None:
 
 
 def carrier_of(system: System, index: int, track: Track) -> int | None:
-    """The particle with which the line itself moves, if any."""
+    """Return the index of the particle with which the line itself moves; None if there is no such particle."""
     for j, other in enumerate(system.particles):
         if j != index and not is_fixed(system, other.at) and is_fixed(system, track.start - other.at):
             return j
@@ -200,7 +207,7 @@ def carrier_of(system: System, index: int, track: Track) -> int | None:
 
 
 def is_rod(system: System, a: Location, b: Location) -> bool:
-    """Whether two places, one of which moves, keep their distance."""
+    """Whether two points, of which at least one moves, have a constant distance that is not zero."""
     square = Add(*(c**2 for c in (b - a).components))
     moving = moving_in(system, *a.components, *b.components)
     return bool(moving and square != 0 and not _varies(square, moving) and not moving_in(system, tidied(square)))
@@ -210,7 +217,7 @@ def is_rod(system: System, a: Location, b: Location) -> bool:
 
 
 def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
-    """Pairs of particles that move with one coordinate, one away from the foot of its line and the other towards it."""
+    """Return pairs of particles with one coordinate: one moves towards the foot of its line, the other away from it."""
     found: list[tuple[int, int]] = []
     for i, one in tracks.items():
         for j, other in tracks.items():
@@ -221,7 +228,7 @@ def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
 
 
 def strings_of(system: System, tracks: dict[int, Track]) -> list[tuple[int, int]]:
-    """Pairs of particles on lines with a constraint on the sum of their coordinates: a string joins them."""
+    """Return pairs of particles with a constraint on the sum of their coordinates, so a string joins them."""
     held = [(each, set(each.coordinates)) for each in system.constraints if not each.in_rates]
     pairs = [(i, j) for i in tracks for j in tracks if i < j and tracks[i].is_unit and tracks[j].is_unit]
     return [
@@ -235,7 +242,7 @@ def strings_of(system: System, tracks: dict[int, Track]) -> list[tuple[int, int]
 
 
 def kept_length(system: System, length: Expr) -> Expr | None:
-    """The value at which a constraint keeps a distance: R for r - R = 0."""
+    """Return the value that a constraint gives to a distance: R for r - R = 0; None without such a constraint."""
     for each in system.constraints:
         if not each.in_rates and set(each.coordinates) == {length}:
             share = each.along(length)
@@ -246,8 +253,10 @@ def kept_length(system: System, length: Expr) -> Expr | None:
 
 
 def through_hole(system: System, link: Link, other: Location) -> Symbol | None:
-    """The symbol for the length of a string from a particle through the start of its link and straight down to another
-    particle: as one moves outwards, the other rises.
+    """Return the symbol for the length of a string through a hole at the start of a link.
+
+    The string joins the particle at the end of the link to another particle vertically below the hole. The result is
+    None if there is no such string.
     """
     way = other - link.start
     *across, height = way.components
@@ -263,7 +272,7 @@ def through_hole(system: System, link: Link, other: Location) -> Symbol | None:
 
 
 def _way_from_foot(track: Track) -> float:
-    """The distance of a particle from the foot of its line, with all symbols 1 and the coordinate 1/2."""
+    """Return the signed distance of a particle from the foot of its line, for all symbols 1 and the coordinate 1/2."""
     along = Add(*(a * b for a, b in _pairs(track.start, track.way))) + track.by
     numbers = {letter: Float(1) for letter in along.free_symbols - {track.by}}
     return float(along.xreplace({**numbers, track.by: Float(0.5)}).evalf())

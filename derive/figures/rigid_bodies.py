@@ -1,4 +1,4 @@
-"""Draw a rigid body with known principal moments only, as the ellipsoid with these moments, with its axes."""
+"""Draw a rigid body of which only the principal moments are known, as the ellipsoid with these moments and axes."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from derive.steps.step import Quantity
 
 __all__ = ["principal_outline"]
 
-THICK = Rational(1, 12)  # fraction of the sum of the moments that is added so that flat or thin bodies have a thickness
+THICK = Rational(1, 12)  # fraction of the sum of the moments that gives flat and thin bodies a thickness
 LONG = Rational(6, 5), Rational(19, 20)  # lengths of arrows, relative to the body
 
 
 def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
-    """A body with these principal moments about its centre of mass, and its principal axes.
+    """Return the marks of a body with these principal moments about its centre of mass, and of its principal axes.
 
-    moments   three, about x, y and z
-    vectors   quantities: vectors (3) in these axes, drawn from the centre of mass
+    moments   three principal moments, about x, y and z
+    vectors   vectors (3) along these axes, drawn from the centre of mass
     """
     sizes = _semi_axes([moment.value if isinstance(moment, Quantity) else moment for moment in moments])
     marks: list[Mark] = [EllipsoidMark(ORIGIN, sizes, name=RigidBody.id), PointMark(ORIGIN)]
@@ -37,7 +37,7 @@ def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
 
 
 def _semi_axes(moments: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
-    """The semi-axes of a uniform ellipsoid with these moments, up to a factor: I_x is proportional to b^2 + c^2."""
+    """Return the semi-axes of a uniform ellipsoid with these moments, up to a factor: I_x is (M/5)(b^2 + c^2)."""
     whole = Add(*moments)
     a, b, c = (sqrt(whole - 2 * moment + THICK * whole) for moment in moments)
     return a, b, c

@@ -1,7 +1,7 @@
-"""Rolling on a straight line, recognised from formulas: the centre of a circle moves along the line as it rotates.
+"""Rolling on a straight line, recognised from formulas: the centre of a circle moves on a line while the body rotates.
 
-The circle consists of all body points that come to rest one after another. Its radius is the displacement of its centre
-per unit angle, and it touches the line on the side where the rotation cancels the motion of the centre.
+The radius of the circle is the displacement of the centre per unit angle. The circle touches the line where the
+velocity of rotation cancels the velocity of the centre.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from derive.mechanics.model.system import Particle, System
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-FAR = Rational(5, 2)  # displacement of a roller in the drawing, relative to its radius
+FAR = Rational(5, 2)  # displacement of a rolling body in the drawing, relative to its radius
 ROUND = "round_body"
 
 
@@ -34,9 +34,10 @@ ROUND = "round_body"
 class Roller:
     """A circle that rolls on a fixed straight line.
 
-    hub    the centre of the circle
-    foot   the point of contact with the line
-    by     the coordinate with which the centre moves
+    hub      the centre of the circle
+    radius   the radius of the circle
+    foot     the point of contact with the line
+    by       the coordinate with which the centre moves
     """
 
     hub: Location
@@ -46,7 +47,7 @@ class Roller:
 
 
 def roller_of(system: System, placed: Any) -> Roller | None:
-    """The rolling circle of a body that moves in a plane and has no known outline."""
+    """Return the rolling circle of a body whose plane motion is a rolling motion; otherwise None."""
     if not placed.is_plane:
         return None
     hub = _steady_part(system, placed.centre)
@@ -57,7 +58,8 @@ def roller_of(system: System, placed: Any) -> Roller | None:
 
 
 def roller_with(system: System, particle: Particle) -> tuple[Roller, Link] | None:
-    """The rolling circle that carries a particle with a single coordinate, and the link from its centre to it."""
+    """Return the rolling circle that carries a particle with one coordinate, and the link from its centre to the
+    particle; None if the particle does not move in this way."""
     hub = _steady_part(system, particle.at)
     moving = moving_in(system, *particle.at.components)
     if len(hub.components) != 2 or len(moving) != 1 or not moving_in(system, *hub.components):
@@ -73,7 +75,7 @@ def roller_with(system: System, particle: Particle) -> tuple[Roller, Link] | Non
 
 
 def _steady_part(system: System, place: Location) -> Location:
-    """A place without the terms that rotate with an angle."""
+    """Return a position without the terms that contain sines or cosines of a coordinate or of time."""
     components = []
     for each in place.components:
         terms = Add.make_args(each.expand())
@@ -100,7 +102,7 @@ def _roller(system: System, hub: Location, turned: Expr) -> Roller | None:
 
 
 def _rates_of(system: System, angle: Symbol, q: Symbol) -> Expr | None:
-    """The rate of change of an angle with respect to a coordinate, from a constraint."""
+    """Return the derivative of an angle by a coordinate, from a constraint; None without such a constraint."""
     if angle == q:
         return Integer(1)
     for each in system.constraints:
@@ -110,7 +112,7 @@ def _rates_of(system: System, angle: Symbol, q: Symbol) -> Expr | None:
 
 
 def arm_of(placed: Any, roller: Roller) -> Expr:
-    """The distance of a body's centre of mass from the centre of its rolling circle."""
+    """Return the distance of the centre of mass of a body from the centre of its rolling circle."""
     return sqrt(tidied(Add(*(c**2 for c in (placed.centre - roller.hub).components))))
 
 
@@ -118,7 +120,7 @@ def arm_of(placed: Any, roller: Roller) -> Expr:
 
 
 def rolling_marks(system: System, placed: Any, roller: Roller) -> Iterable[Mark]:
-    """A wheel in place of a body with known moments only, and the place of its centre of mass."""
+    """Yield a wheel for a body of which only the moments are known, and the line to its centre of mass."""
     size = arm_of(placed, roller)
     ahead = Location((cos(placed.turned), sin(placed.turned)))
     pointer = column_of(ahead) if size == 0 else None
@@ -131,14 +133,14 @@ def rolling_marks(system: System, placed: Any, roller: Roller) -> Iterable[Mark]
 
 
 def arm_marks(system: System, link: Link) -> Iterable[Mark]:
-    """A dashed line from the centre of a rolling circle to a place in it, and its angle."""
+    """Yield a dashed line from the centre of a rolling circle to a point that rotates with it, and its angle."""
     yield Line(column_of(link.start), column_of(link.end), "construction", label=link.length)
     yield PointMark(column_of(link.end))
     yield from angle_marks(system, link)
 
 
 def carrying_marks(system: System, particle: Particle, roller: Roller, link: Link) -> Iterable[Mark]:
-    """The curve of a particle on a rolling circle, the circle, and the line on which the circle rolls."""
+    """Yield a particle on a rolling circle, its curve, the circle, and the line on which the circle rolls."""
     q = roller.by
     yield ParticleMark(column_of(particle.at), label=particle.mass)
     yield WayMark(column_of(particle.at), q, -pi, pi, "wire")
@@ -157,5 +159,5 @@ def carrying_marks(system: System, particle: Particle, roller: Roller, link: Lin
 
 
 def way_marks(start: Location, end: Location, aside: Location, by: Symbol, clear: Any = ZERO) -> Sequence[Mark]:
-    """A dimension line for a displacement, labelled with its coordinate."""
+    """Return a dimension line for a displacement, with its coordinate as the label."""
     return [LengthMark(column_of(start), column_of(end), column_of(aside), clear, label=by)]

@@ -1,8 +1,9 @@
-"""Functions with which a script describes a drawing, in terms of its bodies and quantities.
+"""Functions with which a script describes a drawing of bodies and quantities.
 
     drawing("vectors", outline(block), arrow(omega, block.middle), arrow(L, block.middle), arc(omega, L, theta))
 
-A quantity supplies its name and its key; a plain expression is used unchanged.
+The default label of a quantity is its symbol, and the mark records the key of its step. An expression has no default
+label.
 """
 
 from __future__ import annotations
@@ -35,18 +36,18 @@ from derive.steps.step import Quantity
 
 __all__ = ["arc", "arrow", "axes", "axis_of_rotation", "drawing", "plot", "point_mark", "turn", "vectors_in"]
 
-DEGREES = (34, 52, 22, 44, 16, 38)  # values in the drawing for coordinates that are angles
-LONG, SMALL = Rational(5, 4), Rational(1, 4)  # relative to the size of the body
+DEGREES = (34, 52, 22, 44, 16, 38)  # values of angles in the drawing
+LONG, SMALL = Rational(5, 4), Rational(1, 4)  # length of a vector and radius of an arrow, relative to the body
 
 
 def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[Any, Any] | None = None) -> Drawing:
-    """A drawing of these marks, recorded for the problem.
+    """Return a drawing of these marks, which is recorded for the problem.
 
-    key      its name, for `drawings:` in the problem
-    marks    marks or lists of them; solids hide marks behind them, all other marks are drawn over them
-    view     "space" (seen from the front, a little from above, z upwards) or "plane" (x to the right, y upwards);
-             by default "plane" if a place has two components
-    values   numbers or proportions for symbols in the drawing, unless the problem gives numbers: `{x: l/4}`
+    key      the name of the drawing, for `drawings:` in the problem
+    marks    marks or lists of marks; solids hide the marks behind them, and all other marks are drawn over the solids
+    view     "space" (seen from the front and a little from above, z upwards) or "plane" (x to the right, y upwards);
+             by default "plane" if a position has two components
+    values   numbers or proportions for symbols, used if the problem gives no numbers: `{x: l/4}`
     """
     if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
@@ -63,7 +64,7 @@ def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[An
 
 
 def _drawn_at(moving: Mapping[Symbol, str]) -> dict[Symbol, Expr]:
-    """A value for each coordinate that is an angle; neighbouring values differ."""
+    """Return a value for each coordinate that is an angle; successive values differ."""
     angles = [q for q, kind in moving.items() if kind == "angle"]
     return {q: size * pi / 180 for q, size in zip(angles, cycle(DEGREES), strict=False)}
 
@@ -76,12 +77,14 @@ def plot(
     of: str = "angle",
     shown: Expr | None = None,
 ) -> Plot:
-    """The curve of a quantity against a symbol, recorded for the problem; its numbers come from the problem.
+    """Return the curve of a quantity as a function of a symbol, recorded for the problem, which gives the numbers.
 
+    key        the name of the curve, for `drawings:` in the problem
     quantity   a scalar with a kind, such as an energy
-    against    the symbol on the horizontal axis; `of` is its kind
+    against    the symbol on the horizontal axis
     between    the two ends of the range, in radians or SI units
-    shown      an expression drawn instead of the quantity, for example with its coordinate as a plain symbol
+    of         the kind of the symbol
+    shown      an expression that is drawn instead of the value of the quantity
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
@@ -98,25 +101,25 @@ def plot(
 
 
 def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, asked: bool = True) -> Mark:
-    """A vector in its true direction; its length is arbitrary, because vectors of two kinds have no common scale.
+    """A vector in its true direction; its length is arbitrary, because vectors of different kinds have no common scale.
 
-    vector   vector (3), in the axes of the drawing; not drawn if it vanishes
-    at       the place where it begins
-    size     its length relative to the size of the body
-    label    its name, if it is not the quantity's own
-    asked    whether the problem asks for the vector, so that it is emphasised
+    vector   vector (3), along the axes of the drawing; not drawn if it vanishes
+    at       the point at which the arrow starts
+    size     the length of the arrow relative to the size of the body
+    label    the name of the vector, by default the symbol of the quantity
+    asked    whether the problem asks for the vector, so the arrow is emphasised
     """
     (value, own), (start, others), (_, named) = vector_of(vector), vector_of(at), value_and_keys(label)
     return Arrow(start, value, size, asked, label=name_of(vector, label), keys=own + others + named)
 
 
 def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
-    """The arc from one direction to another; not drawn if they are parallel.
+    """The arc from one direction to another, which is not drawn if the directions are parallel.
 
     a, b     vectors (3)
-    label    its name, or the quantity of the angle
+    label    the name of the angle, or a quantity
     at       the vertex
-    radius   length; by default a readable size
+    radius   a length; by default a readable size
     """
     (u, first), (v, second), (vertex, third) = (vector_of(thing) for thing in (a, b, at))
     _, own = value_and_keys(label)
@@ -127,8 +130,8 @@ def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mar
     """The axis of a rotation, beyond the body on both sides; with a rate, also the sense of rotation.
 
     along     vector (3)
-    through   a place on the axis
-    rate      angular speed, 1/s: positive is right-handed about `along`
+    through   a point on the axis
+    rate      angular speed, 1/s, positive for a right-handed rotation about `along`
     """
     (direction, first), (place, second) = vector_of(along), vector_of(through)
     label = -rate if rate is not None and rate.could_extract_minus_sign() else rate
@@ -136,29 +139,29 @@ def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mar
 
 
 def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
-    """A right-handed arrow round a direction, for a growing angle or its rate.
+    """A right-handed rotation arrow about a direction, for an angle or its rate.
 
     along   vector (3)
-    at      the centre of the arrow's circle
-    size    its radius relative to the size of the body
+    at      the centre of the arrow
+    size    the radius of the arrow relative to the size of the body
     """
     (direction, first), (place, second) = vector_of(along), vector_of(at)
     return Turn(place, direction, size, label=label, keys=first + second)
 
 
 def point_mark(at: Any, label: Any = None) -> Mark:
-    """A point; a derived place supplies its name.
+    """A point; for a quantity, the default label is its symbol.
 
-    at   a place: a column of lengths, a body's point, or a quantity
+    at   a position: a column of lengths, a point of a body, or a quantity
     """
     place, keys = vector_of(at)
     return PointMark(place, label=name_of(at, label), keys=keys)
 
 
 def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[Mark]:
-    """The coordinate axes from their origin; two axes if it is in a plane.
+    """The coordinate axes from their origin; two axes if the origin is in a plane.
 
-    reach   their length, or a length for each
+    reach   the length of the axes, or one length for each axis
     """
     place, keys = vector_of(at)
     names = names[: place.rows]
@@ -170,13 +173,13 @@ def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[
 def vectors_in(
     body: Any, *vectors: Quantity, angle: Any = None, at: Any = None, about: str | None = None
 ) -> list[Mark]:
-    """A body with vectors in their true directions, the first along its axis of rotation.
+    """The outline of a body, with vectors in their true directions; the first vector is along the axis of rotation.
 
-    body      a body, for its outline
-    vectors   quantities: vectors (3) in the body's axes; each arrow is a little shorter than the one before
-    angle     the angle between the first two, a quantity or a name; by default no arc is drawn
-    at        the place where they begin; by default the centre of mass of the body
-    about     the name of a point where they begin instead, with the axes of the body there
+    body      the body
+    vectors   vectors (3) along the axes of the body; each arrow is a little shorter than the arrow before it
+    angle     the angle between the first two vectors, a quantity or a name; by default no arc is drawn
+    at        the point at which the vectors start; by default the centre of mass of the body
+    about     the name of a point of the body at which the vectors start instead; the axes of the body are drawn there
     """
     if about is not None:
         start: Any = ORIGIN

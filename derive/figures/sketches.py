@@ -1,8 +1,8 @@
 """A drawing of a system from its formulas alone: `sketch("pendulum", System(...))`.
 
-A particle at a constant distance from a place hangs on a rod; a particle that moves on a line is a block on a floor, a
-wedge or a string; a particle with a single coordinate is on the curve of its place. All others are drawn as particles
-at their places. The drawing shows only parts that follow from the formulas.
+A particle at a constant distance from a point is drawn on a rod. A particle on a straight line is drawn as a block on a
+floor, a wedge or a string, and a particle with one coordinate on the curve on which it moves. All other particles are
+drawn without further parts, because the drawing shows only what follows from the formulas.
 """
 
 from __future__ import annotations
@@ -51,12 +51,12 @@ from derive.mechanics.model.system import Central, Particle, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-HANGING = Rational(5, 2)  # length of a string through a hole, relative to its part on the table
-FAR = Rational(8, 5)  # drawn range of a curve, relative to its coordinate
+HANGING = Rational(5, 2)  # length of a string through a hole in a table, relative to its part on the table
+FAR = Rational(8, 5)  # drawn range of a curve, relative to the value of its coordinate
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
-BROADSIDE = 23 * pi / 36  # angle at which a plane faces the usual viewing direction
-ON_A_TABLE = 17 * pi / 36  # angle at which two horizontal axes and the vertical are clearly separate
+BROADSIDE = 23 * pi / 36  # angle of a rotating vertical plane at which it faces the viewer
+ON_A_TABLE = 17 * pi / 36  # angle of two rotating horizontal axes at which all axes are drawn well apart
 
 
 def sketch(
@@ -69,17 +69,18 @@ def sketch(
     start: Moment | None = None,
     blow: Moment | None = None,
 ) -> Drawing | None:
-    """A drawing of a system, made from its places and forces and recorded for the problem; None if it would not show
-    the whole system.
+    """Return a drawing of a system from its positions and forces, which is recorded for the problem.
 
-    key      its name, for `drawings:` in the problem
-    system   its particles, bodies, springs, central forces and weight
-    more     further marks
-    values   numbers or proportions for symbols in the drawing
-    named    further places of parts, such as a pivot
-    weights  whether the weight of each particle and body is drawn at its place, instead of one arrow for gravity
-    start    the initial state of a motion
-    blow     the state at an impact, which is then drawn
+    The result is None if the drawing would not show the whole system and no further marks are given.
+
+    key       the name of the drawing, for `drawings:` in the problem
+    system    particles, bodies, springs, central forces and weights
+    more      further marks
+    values    numbers or proportions for symbols in the drawing
+    named     positions of further parts, such as a pivot
+    weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity
+    start     the initial state of a motion
+    blow      the state at an impact; if it is given, the impact is drawn
     """
     scene = _Scene(system, named, weights, start, blow)
     if not more and not scene.is_whole:
@@ -114,7 +115,7 @@ class _Scene:
         self.rods = self._rigid() if self.rows == 2 else []
 
     def _rigid(self) -> list[tuple[int, int]]:
-        """Pairs of particles with a constant distance that are not on a line or on another rod."""
+        """Return pairs of particles at a constant distance, among those without a line or a link of their own."""
         at = [particle.at for particle in self.system.particles]
         return [(i, j) for i, j in combinations(self.free, 2) if is_rod(self.system, at[i], at[j])]
 
@@ -140,7 +141,7 @@ class _Scene:
         return {**found, **self._carried_round(), **hanging}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
-        """The time at which a system with a prescribed rotation about the vertical faces the viewer well."""
+        """Return the time at which a system with a prescribed rotation about the vertical is clearly visible."""
         if (rate := self._rate_round()) is None:
             return {}
         level = len(self.system.coordinates) > 1 and not moving_in(
@@ -150,21 +151,21 @@ class _Scene:
         return {TIME: angle / rate}
 
     def _rate_round(self) -> Expr | None:
-        """The constant rate of the prescribed rotation in space, if there is exactly one."""
+        """Return the constant rate of the prescribed rotation in space, if there is exactly one such rotation."""
         components = [c for place in self.system.places for c in place.components]
         angles = {f.args[0] for c in components for f in c.atoms(sin, cos)}
         rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
         return rates[0] if self.rows == 3 and len(rates) == 1 and not rates[0].has(TIME) else None
 
     def _axis_of_table(self) -> list[Mark]:
-        """The vertical axis of the prescribed rotation, if no other mark shows it."""
+        """Return the vertical axis of the prescribed rotation, if there is one."""
         if (rate := self._rate_round()) is None:
             return []
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
 
     def _two_bodies(self) -> Iterable[Mark]:
-        """For two particles, the components of their relative position, and the coordinate axes of their centre of
-        mass, if these are coordinates."""
+        """Yield, for two particles, the components of their relative position and the axes of their centre of mass, if
+        the coordinates of the system are these components."""
         if self.rows != 2 or len(self.system.particles) != 2 or self.system.bodies:
             return
         one, other = self.system.particles
@@ -187,7 +188,8 @@ class _Scene:
 
     @cached_property
     def strings(self) -> Mapping[int, tuple[Link, Location, Symbol]]:
-        """By the number of a hanging particle: the link from the hole to the other one, its own place, their string."""
+        """Index of a hanging particle -> the link from the hole to the other particle, the position of the hanging
+        particle, and the length of the string."""
         found = {}
         for link in self.links.values():
             for i in self.free if self.rows == 3 else ():
@@ -198,7 +200,7 @@ class _Scene:
 
     @cached_property
     def tied(self) -> Mapping[int, tuple[Link, ...]]:
-        """In space, particles at constant distances from particles that hang on rods, with the links of these."""
+        """Index of a particle in space that rods join to particles on rods -> the links of those particles."""
         held = [link for link in self.links.values() if link.is_constant]
         found: dict[int, tuple[Link, ...]] = {}
         for i in self.free if self.rows == 3 and self.named else ():
@@ -252,7 +254,7 @@ class _Scene:
         yield from self._fields()
 
     def _rod(self, i: int, j: int) -> Iterable[Mark]:
-        """A rod from the lower particle to the upper one, with its angle."""
+        """Yield a rod from the lower particle to the upper particle, with its angle."""
         low, up = sorted((self.system.particles[k].at for k in (i, j)), key=lambda at: numeric(at.components[1]))
         link = Link(low, up, sqrt(tidied(Add(*(c**2 for c in (up - low).components)))), True)
         yield BarMark(column_of(link.start), column_of(link.end), label=link.length)
@@ -262,7 +264,7 @@ class _Scene:
                 yield FloorMark((column_of(end),))
 
     def _round(self, link: Link) -> Iterable[Mark]:
-        """The circle of a place at a distance from a vertical axis, and this axis."""
+        """Yield the circle of a particle about a vertical axis, and this axis; otherwise the curves of the particle."""
         *across, height = link.start.components
         if (
             link.is_constant
@@ -280,13 +282,13 @@ class _Scene:
             yield Axis(column_of(link.start) * 0, column_of(Rational(5, 3) * link.start), label=height)
 
     def _rods(self) -> Iterable[Mark]:
-        """In space, rods from particles on rods to further particles at a constant distance."""
+        """Yield, in space, rods from particles on rods to further particles at a constant distance."""
         for i, links in self.tied.items():
             for link in links:
                 yield BarMark(column_of(link.end), column_of(self.system.particles[i].at))
 
     def _fields(self) -> Iterable[Mark]:
-        """Uniform fields, next to all other marks."""
+        """Yield the arrows of uniform fields, next to all other marks."""
         beside = 0
         for each in self.system.charges:
             for field in (each.electric, each.magnetic):
@@ -305,10 +307,10 @@ class _Scene:
             yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
-        """Whether the place moves or has a particle, so that it is not a fixed end."""
+        """Whether the point moves or is the position of a particle, so it is not a fixed end."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
-    # --- forces between two places ---
+    # --- forces between two points ---
 
     def _between(self, each: Central) -> Iterable[Mark]:
         a, b = column_of(each.start), column_of(each.end)
@@ -330,7 +332,7 @@ class _Scene:
             yield ConnectionMark(a, b)
 
     def _orbit(self, each: Central, centre: Location) -> Iterable[Mark]:
-        """An ellipse about the centre of an inverse-square force."""
+        """Yield an ellipse about the centre of an inverse-square force."""
         other = each.end if same(each.start, centre) else each.start
         link = next((link for link in self.links.values() if same(link.end, other) and same(link.start, centre)), None)
         turned = angle_of_link(self.system, link) if link is not None and self.rows == 2 else None
@@ -358,7 +360,7 @@ class _Scene:
             yield from self._ways(at)
 
     def _centre(self, at: Location) -> Iterable[Mark]:
-        """For a leaning body, the distances of its centre from the axes, if these are its coordinates."""
+        """Yield, for a leaning body, the distances of its centre from the axes, if these are its coordinates."""
         if self.rows != 2 or not self.touching.shown or not all(c in self.system.coordinates for c in at.components):
             return
         x, y = at.components
@@ -374,7 +376,7 @@ class _Scene:
                 yield ConnectionMark(column_of(at), column_of(ahead))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
-        """The curves of a place for each coordinate; a single curve is drawn as a wire."""
+        """Yield the curve of a point for each coordinate; a single curve is drawn as a wire."""
         moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
         for q in moving if len(moving) < self.rows else ():
             ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)

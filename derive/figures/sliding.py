@@ -42,11 +42,11 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 
 ZERO = Integer(0)
-PAST = Rational(8, 5)  # length of a slope, relative to the coordinate of the block on it
+PAST = Rational(8, 5)  # length of an inclined plane, relative to the coordinate of the block on it
 
 
 class Sliding:
-    """The particles of a plane system that move on lines, except those on links."""
+    """The particles of a plane system that move on straight lines, except those with links."""
 
     def __init__(self, system: System, links: Mapping[int, Link]):
         self.system, self.links = system, links
@@ -70,14 +70,14 @@ class Sliding:
             yield from self._rope(*pair)
 
     def _is_held(self, track: Track, carrier: int | None) -> bool:
-        """Whether a line is fixed, is carried by a particle, or has a prescribed motion."""
+        """Whether a line is fixed, moves with a particle, or has a prescribed motion."""
         return carrier is not None or moving_in(self.system, *track.start.components) <= {TIME}
 
     def _mass(self, i: int) -> Any:
         return self.system.particles[i].mass
 
     def _at(self, i: int) -> Location:
-        """The drawn place of a particle: shifted sideways if two particles hang on one line."""
+        """Return the position at which a particle is drawn, shifted sideways if two particles hang on one line."""
         at = self.system.particles[i].at
         return at + self.moved[i] if i in self.moved else at
 
@@ -101,12 +101,12 @@ class Sliding:
             yield DistanceMark(column_of(start), column_of(at), aside, off, label=track.by)
 
     def _lies(self, track: Track) -> bool:
-        """Whether there is weight or a wall with a spring: then a particle on a horizontal line is drawn as a block."""
+        """Whether a particle is drawn as a block: with weights, with a fixed end of a spring, or on a rising line."""
         walls = [end for each in self.system.between for end in (each.start, each.end) if is_fixed(self.system, end)]
         return bool(self.system.weights or walls) or track.way.components[1] != 0
 
     def _afloat(self, i: int, track: Track) -> Iterable[Mark]:
-        """A particle on a line without a floor, and its displacement."""
+        """Yield a particle on a line without a floor, and its displacement."""
         at, start = column_of(self._at(i)), column_of(track.start)
         yield ParticleMark(at, label=self._mass(i))
         if track.is_unit:
@@ -114,21 +114,21 @@ class Sliding:
             yield DistanceMark(start, at, ImmutableDenseMatrix([0, 1]), CLEAR + 10 + 16 * len(before), label=track.by)
 
     def _free_side(self, i: int) -> int:
-        """For a hanging particle, the side without the other end of its string and without a pulley, 1 or -1."""
+        """Return the free side of a hanging particle, 1 for right or -1 for left: without a string end or a pulley."""
         other = next((k for pair in (*self.ropes, *self.strings) if i in pair for k in pair if k != i), None)
         beside = [self._at(other)] if other is not None else [placed.centre for placed in self.system.bodies]
         ways = [self._numeric((place - self._at(i)).components[0]) for place in beside]
         return 1 if ways and max(ways) < 0 else -1
 
     def _is_measured(self, i: int) -> bool:
-        """Whether the coordinate is labelled here: of two particles on a string, at the one measured from its foot."""
+        """Whether the coordinate is labelled at this particle: for a string, at the particle measured from its foot."""
         for pair in self.ropes:
             if i in pair:
                 return i == next((k for k in pair if same(self.tracks[k].start, self.tracks[k].foot)), pair[0])
         return True
 
     def _floor(self, i: int, track: Track, off: float) -> Mark:
-        """The floor below all particles that slide at this height, up to walls and pulleys, and beyond all others."""
+        """Return the floor below all particles that slide at this height; it ends at walls and pulleys."""
         alike = {k: t for k, t in self.tracks.items() if _same_height(t, track)}
         above = [self.system.particles[k].at for k in alike]
         above += [t.start for k, t in alike.items() if self._is_measured(k)]
@@ -143,13 +143,14 @@ class Sliding:
         return FloorMark(tuple(column_of(each) for each in (*above, *walls, *corners)), off, (left, right))
 
     def _walls_at(self, track: Track) -> list[Location]:
-        """The fixed ends of springs at the height of a floor, which does not extend beyond them."""
+        """Return the fixed ends of springs at the height of a floor, which ends there."""
         ends = [end for each in self.system.between for end in (each.start, each.end)]
         height = track.start.components[1]
         return [end for end in ends if is_fixed(self.system, end) and vanishes(end.components[1] - height)]
 
     def _on_wedge(self, i: int, track: Track) -> Iterable[Mark]:
-        """A slope from the zero of the coordinate to a little beyond the block, down to its carrier."""
+        """Yield an inclined plane from zero of the coordinate to beyond the block, or down to the particle that carries
+        it."""
         at, carrier = self._at(i), self.carriers[i]
         top, low = self._slope(i, track)
         foot = Location((top.components[0], low.components[1]))
@@ -168,7 +169,7 @@ class Sliding:
             yield DistanceMark(column_of(track.start), column_of(at), normal, BLOCK[1] + CLEAR, label=track.by)
 
     def _slope(self, i: int, track: Track) -> tuple[Location, Location]:
-        """The upper and the lower end of the line on which a block slides."""
+        """Return the upper end and the lower end of the inclined plane on which a block slides."""
         carrier, far = self.carriers[i], track.start + PAST * track.by * track.way
         roped = next((pair for pair in self.ropes if i in pair), None)
         if roped is not None:
@@ -180,7 +181,7 @@ class Sliding:
         return top, low if carrier is None else self._down_to(top, low, self.system.particles[carrier].at)
 
     def _down_to(self, top: Location, low: Location, base: Location) -> Location:
-        """The point on the line from `top` through `low` at the height of `base` if that is below `top`, else `low`."""
+        """Return the point at the height of `base` on the line through `top` and `low`; `low` if `base` is too high."""
         fall, whole = top.components[1] - base.components[1], top.components[1] - low.components[1]
         if self._numeric(fall) < 1e-9:
             return low
@@ -189,13 +190,13 @@ class Sliding:
         return top + fallen
 
     def _numeric(self, value: Expr) -> float:
-        """The value with small coordinates, and 0.6 for all other symbols: an acute angle, or any length."""
+        """Return the value for small coordinates, and 0.6 for all other symbols: an acute angle, or a length."""
         small = {q: Rational(1, 5) for q in self.system.coordinates}
         found = value.xreplace({**dict.fromkeys(value.free_symbols, Rational(3, 5)), **small})
         return float(found.evalf())
 
     def _past(self, i: int) -> Location:
-        """A place a little further down the line than the block on it."""
+        """Return a point on the line a little beyond the block."""
         gone: Location = PAST * (self.system.particles[i].at - self.tracks[i].foot)
         return self.tracks[i].foot + gone
 
@@ -213,7 +214,7 @@ class Sliding:
         yield from (wheel, BarMark(wheel.centre, top), FixedEnd(top, ImmutableDenseMatrix([0, -1])))
 
     def _moved_apart(self) -> dict[int, Location]:
-        """Sideways shifts for two particles on one vertical line on both sides of a pulley."""
+        """Return sideways shifts for two particles of a string whose lines coincide, to both sides of a pulley."""
         found: dict[int, Location] = {}
         for i, j in self.ropes:
             one, other = self.tracks[i], self.tracks[j]
@@ -227,7 +228,7 @@ class Sliding:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Values of coordinates in the drawing: small displacements, or a fraction of a string that they divide."""
+        """Values of coordinates in the drawing: small displacements, or a fraction of the string that is divided."""
         found: dict[Symbol, Expr] = {}
         for q, kind in self.system.coordinates.items():
             slides = any(track.by == q and _is_slope(track) and i in self.carriers for i, track in self.tracks.items())
@@ -245,7 +246,7 @@ class Sliding:
         return found
 
     def _string(self, q: Symbol, size: Expr) -> Expr:
-        """The length of the string that the coordinate divides, if it is a multiple of `size`; else `size`."""
+        """Return the length of the string that the coordinate divides, if it is a multiple of `size`; else `size`."""
         for i, j in self.ropes:
             if self.tracks[i].by == q:
                 whole = abs(tidied((self.tracks[i].start - self.tracks[j].start).components[1]))
@@ -253,12 +254,12 @@ class Sliding:
         return size
 
     def _radius(self, i: int, j: int) -> Expr:
-        """Half the distance between the two lines of the hanging masses."""
+        """Return half the distance between the lines of two hanging particles, the radius of the pulley."""
         between = (self.tracks[j].foot - self.tracks[i].foot).components[0]
         return abs(tidied(between / 2))
 
     def _at_zero(self, q: Symbol) -> list[Expr]:
-        """For each component with the coordinate, one symbol that is left when all coordinates are zero, or zero."""
+        """Return, for each component with q, a symbol that remains when all coordinates are zero, or else zero."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         holding = [c for place in self.system.places for c in place.components if q in c.free_symbols]
         return [min(c.xreplace(zero).free_symbols, key=str, default=ZERO) for c in holding]

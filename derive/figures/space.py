@@ -1,4 +1,4 @@
-"""Numerical vectors in space and on paper: places and directions after numbers are substituted for the symbols."""
+"""Numerical vectors in space, and spots on the paper, after numbers are substituted for the symbols."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Vector: TypeAlias = tuple[float, float, float]
 Spot: TypeAlias = tuple[float, float]
 
 NOUGHT: Vector = (0.0, 0.0, 0.0)
-STEPS = 96  # for a full circle
+STEPS = 96  # number of straight segments in a circle
 
 
 def plus(a: Vector, b: Vector, times: float = 1.0) -> Vector:
@@ -32,18 +32,18 @@ def size_of(a: Vector) -> float:
 
 
 def unit(a: Vector) -> Vector:
-    """The direction of a vector; zero for a zero vector."""
+    """Return the unit vector along a vector; zero for a zero vector."""
     size = size_of(a)
     return (a[0] / size, a[1] / size, a[2] / size) if size > 0 else a
 
 
 def angle_of(a: Vector, b: Vector) -> float:
-    """The angle between two vectors, from 0 to pi."""
+    """Return the angle between two vectors, from 0 to pi."""
     return acos(max(-1.0, min(1.0, dot(unit(a), unit(b)))))
 
 
 def across(a: Vector) -> tuple[Vector, Vector]:
-    """Two unit vectors perpendicular to a direction and to each other, right-handed with it."""
+    """Return two unit vectors that form a right-handed set of perpendicular vectors with a direction."""
     n = unit(a)
     helper: Vector = (0.0, 0.0, 1.0) if abs(n[2]) < 0.9 else (1.0, 0.0, 0.0)
     u = unit(cross(helper, n))
@@ -51,7 +51,7 @@ def across(a: Vector) -> tuple[Vector, Vector]:
 
 
 def rim(centre: Vector, radius: float, normal: Vector) -> list[Vector]:
-    """The places of a circle about a direction; the last equals the first."""
+    """Return the points of a circle perpendicular to `normal`; the last point is equal to the first."""
     u, v = across(normal)
     angles = [2 * pi * i / STEPS for i in range(STEPS + 1)]
     return [plus(plus(centre, u, radius * cos(t)), v, radius * sin(t)) for t in angles]
@@ -63,7 +63,7 @@ def mean(places: list[Vector]) -> Vector:
 
 
 def direction(start: Spot, end: Spot) -> Spot:
-    """The unit vector on paper from one spot to another; upwards if they coincide."""
+    """Return the unit vector from one spot on the paper to another; upwards if the spots coincide."""
     x, y = end[0] - start[0], end[1] - start[1]
     size = hypot(x, y)
     return (x / size, y / size) if size > 1e-9 else (0.0, 1.0)
@@ -74,7 +74,7 @@ def midway(a: Spot, b: Spot) -> Spot:
 
 
 def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
-    """The convex outline of spots, anticlockwise: sorted by angle about the lowest, without right turns."""
+    """Return the convex hull of spots, counterclockwise, by Graham's scan."""
     first = min(spots, key=lambda s: (s[1], s[0]))
     rest = sorted(
         {s for s in spots if s != first},
@@ -89,7 +89,7 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
 
 def is_within(spot: Spot, corners: Sequence[Spot]) -> bool:
-    """Whether a spot lies in an outline: a line from it to the right crosses the outline an odd number of times."""
+    """Whether a spot is inside an outline: a line from it to the right crosses the outline an odd number of times."""
     x, y = spot
     if not (min(c[0] for c in corners) < x < max(c[0] for c in corners)):
         return False
@@ -106,7 +106,7 @@ def _turns_right(a: Spot, b: Spot, c: Spot) -> bool:
 
 @dataclass(frozen=True)
 class Stance:
-    """A parallel projection: the directions in space that are right and up on paper, and towards the viewer."""
+    """A parallel projection: the directions in space that are right and up on the paper, and towards the viewer."""
 
     right: Vector
     up: Vector

@@ -12,16 +12,17 @@ from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Str
 from derive.figures.space import NOUGHT, Spot, Vector, dot, hull, plus, rim, unit
 
 UPWARDS = (0.0, 0.0, 1.0)
-SIGHT = 120  # steps along the line to the viewer
-EVERY = 8  # step between the places of a circle that determine its size
+SIGHT = 120  # number of steps along the line of sight
+EVERY = 8  # step between the points of a circle that determine the size of the drawing
 
 
 @dataclass(frozen=True)
 class Revolved(Surface):
     """A convex body of revolution.
 
-    profile          heights along the axis and the radius there: two pairs if its side is straight, many if curved
-    through, along   the place of height zero, and the unit vector along which heights are measured
+    profile   pairs of a height along the axis and the radius there: two for a straight side, many for a curved side
+    through   the point of height zero on the axis
+    along     the unit vector along the axis
     """
 
     profile: tuple[tuple[Any, Any], ...]
@@ -41,7 +42,7 @@ class Revolved(Surface):
         return paper.revolved(*self._rings(paper.numbers))
 
     def nearest_rim(self, paper: Paper) -> tuple[Spot, ...]:
-        """The circle at the end that faces the viewer."""
+        """Return the circle at the end that faces the viewer."""
         along, rings = paper.numbers.vector(self.along), list(zip(*self._rings(paper.numbers), strict=True))
         centre, radius = max((rings[0], rings[-1]), key=lambda ring: dot(ring[0], paper.stance.eye))
         return paper.spots(*rim(centre, radius, along))
@@ -49,9 +50,10 @@ class Revolved(Surface):
 
 @dataclass(frozen=True)
 class SliceMark(Revolved):
-    """A thin slice of a round body across its axis, with its radius as its label.
+    """A thin slice of a round body perpendicular to its axis, with its radius as its label.
 
-    height, thickness   the symbol of its height and the label of its thickness
+    height      the symbol of the height of the slice
+    thickness   the label for the thickness of the slice
     """
 
     height: Any = field(default=None, metadata=BESIDE)
@@ -77,7 +79,7 @@ class SliceMark(Revolved):
 
 @dataclass(frozen=True)
 class EllipsoidMark(Surface):
-    """An ellipsoid with axes along those of the drawing: its outline, and the visible parts of its main sections."""
+    """An ellipsoid with semi-axes along x, y and z: its outline, and the visible parts of its principal sections."""
 
     centre: Position
     semi_axes: tuple[Any, Any, Any]
@@ -87,7 +89,7 @@ class EllipsoidMark(Surface):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         sizes = [paper.numbers.of(size) for size in self.semi_axes]
-        # The normal at the place of the unit vector u has the components u_i/a_i.
+        # The normal at the point (a_1 u_1, a_2 u_2, a_3 u_3), with |u| = 1, has the components u_i/a_i.
         x, y, z = (e / size for e, size in zip(paper.stance.eye, sizes, strict=True))
         facing = (x, y, z)
         outline = paper.spots(*(self._at(paper.numbers, u) for u in rim(NOUGHT, 1.0, facing)))
@@ -105,7 +107,11 @@ class EllipsoidMark(Surface):
 
 @dataclass(frozen=True)
 class TorusMark(Surface):
-    """A ring of round cross-section about the z axis; `radius` is from its centre to the centre of the section."""
+    """A torus about the z axis.
+
+    radius    the distance from the centre of the torus to the centre of its cross-section
+    section   the radius of the cross-section
+    """
 
     centre: Position
     radius: Any
@@ -130,7 +136,7 @@ class TorusMark(Surface):
         return numbers.vector(self.centre), numbers.of(self.radius), numbers.of(self.section)
 
     def _contour(self, paper: Paper, side: float) -> list[Vector]:
-        """The curve where its surface turns away from the viewer: the normal is perpendicular to the line of sight."""
+        """Return the outer or inner curve on which the normal of the surface is perpendicular to the line of sight."""
         centre, big, small = self._sizes(paper.numbers)
         eye = paper.stance.eye
         found = []
@@ -140,14 +146,14 @@ class TorusMark(Surface):
         return found
 
     def _hole(self, paper: Paper, edge: Sequence[Vector]) -> list[Spot]:
-        """The visible opening, between its inner edges behind and in front."""
+        """Return the visible opening, which is between the inner edges behind and in front."""
         centre, eye = paper.numbers.vector(self.centre), paper.stance.eye
         behind = [paper.spot(place) for place in edge if dot(plus(place, centre, -1.0), eye) < 0]
         ends = [x for x, _ in behind]
         return [spot for spot in paper.spots(*edge) if min(ends) <= spot[0] <= max(ends)] if len(behind) > 2 else []
 
     def _is_seen(self, paper: Paper, place: Vector) -> bool:
-        """Whether no part of the torus is between the place and the viewer."""
+        """Whether no part of the torus is between a point and the viewer."""
         centre, big, small = self._sizes(paper.numbers)
         for k in range(1, SIGHT):
             x, y, z = plus(plus(place, paper.stance.eye, 4.0 * big * k / SIGHT), centre, -1.0)
@@ -161,7 +167,7 @@ def _unit_along(k: int) -> Vector:
 
 
 def _runs(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]:
-    """The parts of a closed curve where the flag is true."""
+    """Return the parts of a curve on which the flags are true."""
     found: list[list[Vector]] = []
     for i, (place, flag) in enumerate(zip(places, flags, strict=True)):
         if flag:
@@ -175,8 +181,8 @@ def _runs(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]
 class Polyhedron(Surface):
     """A convex body with flat faces, or a plane figure.
 
-    faces     each by its corners in order, from either side; empty if the corners form a single face
-    lengths   labels, each written at one of the edges with this length
+    faces     the indices of the corners of each face, in order; empty if the corners form a single face
+    lengths   labels for lengths, each written at one of the edges with this length
     """
 
     corners: tuple[Position, ...]
@@ -201,7 +207,7 @@ class Polyhedron(Surface):
 
 @dataclass(frozen=True)
 class ThinRod(Surface):
-    """A rod without visible thickness, or a piece of one."""
+    """A rod without visible thickness, or a part of such a rod."""
 
     start: Position
     end: Position
@@ -215,7 +221,7 @@ class ThinRod(Surface):
 
 @dataclass(frozen=True)
 class Circle(Surface):
-    """A circle about a direction; `filled` if it bounds a body."""
+    """A circle perpendicular to `normal`; `filled` is true if the circle bounds a body."""
 
     centre: Position
     normal: Position
@@ -251,7 +257,7 @@ class Cavity(Mark):
 
 @dataclass(frozen=True)
 class Bore(Cavity):
-    """A bore through a body: its rim on the viewer's side, and its other lines dashed."""
+    """A bore through a body: its rim on the side of the viewer, and its other lines dashed."""
 
     layer: ClassVar[int] = 2
 

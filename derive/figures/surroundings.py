@@ -1,4 +1,4 @@
-"""The surroundings of the parts of a machine: ground, fixed ends, angles, lengths, gravity, the path of a place."""
+"""Marks for the surroundings of a machine: ground, fixed ends, curves, angles, lengths, gravity and other fields."""
 
 from __future__ import annotations
 
@@ -11,17 +11,19 @@ from derive.figures.marks import LAST, InWords, Mark, Position, Surface
 from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
 
-HATCH = 4.0  # points: between two hatches, and their length
-STAND = 9.0  # half the length of the piece of wall that holds a fixed end
-ARC = (11.0, 27.0)  # the radius of an arc
-FREE = 16.0  # between all other marks and the arrow of gravity
-ARROW = 24.0
-ROOM = 26.0  # from the centre of a body on a floor to the end of the floor
-STEPS = 120
+# Lengths in points.
+HATCH = 4.0  # distance between two hatches, and length of a hatch
+STAND = 9.0  # half the length of the piece of wall at a fixed end
+ARC = (11.0, 27.0)  # least and greatest radius of an arc
+FREE = 16.0  # distance between all other marks and the arrow of gravity
+ARROW = 24.0  # length of the arrow of gravity or of a field
+ROOM = 26.0  # distance from the centre of a body on a floor to the end of the floor
+
+STEPS = 120  # number of straight segments in a curve
 
 
 def hatched(start: Spot, end: Spot, solid: Spot) -> list[Piece]:
-    """A line with hatches on the side of a direction."""
+    """Return a line with hatches on the side of the direction `solid`."""
     x, y = end[0] - start[0], end[1] - start[1]
     far = hypot(x, y)
     along = (x / far, y / far) if far > 1e-9 else (1.0, 0.0)
@@ -38,8 +40,8 @@ def hatched(start: Spot, end: Spot, solid: Spot) -> list[Piece]:
 class GroundMark(Surface):
     """A floor, a ceiling or a wall: a line that is hatched on its solid side.
 
-    solid   a direction towards that side
-    off     points by which the line is shifted to that side, for a body of fixed drawn size on it
+    solid   a direction towards the solid side
+    off     the shift of the line to the solid side, in points, for a body with a size in points
     """
 
     start: Position
@@ -65,7 +67,11 @@ class GroundMark(Surface):
 
 @dataclass(frozen=True)
 class FloorMark(Surface):
-    """Hatched ground under places of one height, `off` points below them, longer by the `margins` on left and right."""
+    """Hatched ground under points of the same height.
+
+    off       the distance of the ground below the points of `above`, in points on the paper
+    margins   the lengths by which the ground is longer on the left and on the right, in points on the paper
+    """
 
     above: tuple[Position, ...]
     off: float = 0.0
@@ -86,7 +92,7 @@ class FloorMark(Surface):
 
 
 def _across(start: Spot, end: Spot, side: Spot) -> Spot:
-    """The unit normal of a line that points to a side."""
+    """Return the unit normal of a line that points to a side."""
     along = direction(start, end)
     normal = -along[1], along[0]
     return normal if normal[0] * side[0] + normal[1] * side[1] >= 0 else (along[1], -along[0])
@@ -94,8 +100,11 @@ def _across(start: Spot, end: Spot, side: Spot) -> Spot:
 
 @dataclass(frozen=True)
 class FixedEnd(Surface):
-    """A place fixed by a piece of wall behind it; `away` is the direction from the wall, and no wall is drawn if it is
-    zero. A pivot has a joint."""
+    """A point fixed to a piece of wall behind it.
+
+    away    the direction from the wall to the point; if it is zero, no wall is drawn
+    joint   whether the point is a pivot
+    """
 
     at: Position
     away: Position
@@ -120,7 +129,7 @@ class FixedEnd(Surface):
 
 @dataclass(frozen=True)
 class WayMark(Surface):
-    """The path of a place as one symbol varies over a range: the curve to which it is bound if nothing else moves.
+    """The curve of a point as one symbol varies over a range, with all other symbols fixed.
 
     pen   `trace`, or `wire` for a solid object
     """
@@ -150,9 +159,10 @@ class WayMark(Surface):
 
 @dataclass(frozen=True)
 class AngleBetween(Mark):
-    """The arc from one line to another at a vertex, shorter than both; `dashed` also draws the first line.
+    """The arc from one line to another at a vertex; its radius is less than the lengths of the lines.
 
-    a, b   vectors from the vertex, whose lengths limit the arc
+    a, b     vectors from the vertex along the lines
+    dashed   whether the first line is drawn too
     """
 
     vertex: Position
@@ -175,7 +185,7 @@ class AngleBetween(Mark):
         if not size_of(a) or not size_of(b) or size > pi - 1e-6:
             return []
         reach = far if self.dashed else min(far, size_of(a) * paper.scale)
-        # A small angle has an arc with a large radius, so that it is visible, but the arc never reaches the ends.
+        # The arc of a small angle has a large radius, so that the arc is visible, but less than the lines.
         points = min(max(0.4 * reach, ARC[0]), ARC[1]) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
         along, across = unit(a), unit(plus(b, unit(a), -dot(b, unit(a))))
         radius = points / paper.scale
@@ -200,7 +210,7 @@ class AngleBetween(Mark):
 
 @dataclass(frozen=True)
 class UprightAngle(AngleBetween):
-    """An angle in a vertical plane that faces the viewer, so it does not affect the choice of the view."""
+    """An angle that does not affect the choice of the view, because its vertical plane already faces the viewer."""
 
     @property
     def directions(self) -> tuple[Position, ...]:
@@ -209,7 +219,7 @@ class UprightAngle(AngleBetween):
 
 @dataclass(frozen=True)
 class DistanceMark(Mark):
-    """A dimension line between two places, shifted to a side, or away from the centre of the drawing."""
+    """A dimension line between two points, shifted to a side, or away from the centre of the drawing."""
 
     start: Position
     end: Position
@@ -247,7 +257,7 @@ class DistanceMark(Mark):
 
 @dataclass(frozen=True)
 class GravityMark(Mark):
-    """An arrow downwards next to all other marks, for the gravitational field."""
+    """The arrow of the gravitational field, downwards and next to all other marks."""
 
     down: Position
     layer: ClassVar[int] = LAST
@@ -264,7 +274,7 @@ class GravityMark(Mark):
 
 @dataclass(frozen=True)
 class FieldMark(Mark):
-    """The arrow of a uniform field next to all other marks, below `before` earlier ones."""
+    """The arrow of a uniform field next to all other marks; `before` is the number of field arrows above it."""
 
     along: Position
     before: int = 0

@@ -1,4 +1,4 @@
-"""Bodies with Euler angles about a fixed point: line of nodes, axes that follow it, rotation arrows, dimensions."""
+"""Bodies with Euler angles about a fixed point: the line of nodes and axes along it, rotation arrows, dimensions."""
 
 from __future__ import annotations
 
@@ -22,20 +22,23 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
-TO_THE_RIGHT = 2 * pi / 3  # in the usual view of a drawing
-# The line of nodes points towards the viewer, to the left; the axis then leans to the left and slightly away.
+TO_THE_RIGHT = 2 * pi / 3  # precession angle at which an axis leans to the right in the usual view
+# The precession angle at which the line of nodes points to the viewer and to the left; the axis of the body then leans
+# to the left and slightly away from the viewer.
 NODES_IN_FRONT = -pi / 18
-LONGER, BESIDE, ROUND = Rational(27, 20), Rational(6, 5), Rational(1, 8)  # of axes, and place and radius of arrows
-ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the body's own
-CLEAR, APART = 14.0, 20.0  # points from the axis to its dimension lines, beyond the weight arrow, and between them
+# Length of an axis, and distance and radius of a rotation arrow, relative to the axis of the body.
+LONGER, BESIDE, ROUND = Rational(27, 20), Rational(6, 5), Rational(1, 8)
+ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
+CLEAR, APART = 14.0, 20.0  # distance from the axis to the first dimension line, and between such lines, in points
 CENTRE = "C"
 
 
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
-    """For a body with precession, nutation and spin, arrows round the vertical and its axis for the precession and spin
-    angles. For a symmetric body, also the axes that follow it without its spin.
+    """Yield rotation arrows for the precession about the vertical and for the spin about the axis of a body.
 
-    end   the end of its axis
+    For a symmetric body with Euler angles, also yield the axes that follow all rotations except the spin.
+
+    end   the end of the axis of the body
     """
     axes: Any = placed.turned
     turns = [(i, angle) for i, angle in axes.turns if moving_in(system, 0 * angle + angle)]
@@ -62,7 +65,7 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
 
 
 def follows_nodes(placed: Any) -> bool:
-    """Whether the body is symmetric and has Euler angles, so that the line of nodes is one of its principal axes."""
+    """Whether the body is symmetric and has Euler angles, so that the line of nodes is a principal axis."""
     turns = getattr(placed.turned, "turns", ())
     moments = getattr(placed.body, "moments", None)
     if [i for i, _ in turns] != [2, 0, 2]:
@@ -74,19 +77,22 @@ def follows_nodes(placed: Any) -> bool:
 
 
 def following_axes(placed: Any) -> list[ImmutableDenseMatrix]:
-    """The unit vectors of the axes that follow all rotations of a body except the last."""
+    """Return the unit vectors of the axes that follow all rotations of a body except the last rotation."""
     frame = after(placed.turned.turns[:-1])
     return [ImmutableDenseMatrix(frame[:, k]) for k in range(3)]
 
 
 def seen_upright(mark: Mark) -> Mark:
-    """The angle as a mark that does not affect the view, because the body is already rotated to face the viewer."""
+    """Return an angle as a mark that does not affect the view, because the body already faces the viewer."""
     return UprightAngle(**{f.name: getattr(mark, f.name) for f in fields(mark)}) if type(mark) is AngleBetween else mark
 
 
 def stance_values(system: System) -> dict[Symbol, Expr]:
-    """The precession angle at which an inclined body is drawn: its line of nodes is in front, or for other systems and
-    bodies its axis leans to the right."""
+    """Return the precession angles at which inclined bodies are drawn.
+
+    If a body follows the line of nodes and no condition holds, the line of nodes is in front; otherwise the axis of the
+    body leans to the right.
+    """
     found: dict[Symbol, Expr] = {}
     for placed in system.bodies:
         turns: Any = getattr(placed.turned, "turns", ())
@@ -102,8 +108,8 @@ def stance_values(system: System) -> dict[Symbol, Expr]:
 
 
 def sizes_of_top(placed: Any) -> Iterable[Mark]:
-    """The radii of the round parts on the axis of a body that follows its line of nodes, the distances of their ends
-    from its fixed point, and its centre of mass."""
+    """Yield the dimensions of a symmetric body with Euler angles: the radii of its round parts, the distances of their
+    ends from the fixed point, and the centre of mass."""
     if not follows_nodes(placed):
         return
     _, across, along = following_axes(placed)
@@ -123,7 +129,7 @@ def sizes_of_top(placed: Any) -> Iterable[Mark]:
 
 
 def _parts(placed: Any) -> list[tuple[RoundBody, Expr]]:
-    """The round parts of a body, each with the place of its own z = 0, measured from the fixed point."""
+    """Return the round parts of a body, each with the distance of its z = 0 from the fixed point along the axis."""
     held = placed.point.position[2]
     if isinstance(placed.body, RoundBody):
         return [(placed.body, -held)]
@@ -132,7 +138,7 @@ def _parts(placed: Any) -> list[tuple[RoundBody, Expr]]:
 
 
 def _is_on_axis(part: Any) -> bool:
-    """Whether a part is round about the axis of the whole body, with its own z axis along it."""
+    """Whether a part is round about the axis of the whole body, and its z axis has the same direction."""
     if not isinstance(part.body, RoundBody):
         return False
     low, high = part.seen(_on_axis(0)), part.seen(_on_axis(1))
@@ -154,6 +160,6 @@ def _radius(body: RoundBody, foot: Position, along: Position, aside: Position) -
 
 
 def _lengths(body: RoundBody, low: Expr) -> list[Expr]:
-    """The distances from the fixed point to both ends of a part; only one distance for a flat part."""
+    """Return the distances from the fixed point to both ends of a part; one distance for a flat part."""
     lower, upper = body.ends
     return [tidied(as_expr(low) + end) for end in dict.fromkeys((lower, upper))]

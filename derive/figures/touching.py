@@ -1,7 +1,8 @@
-"""Supports of bodies and particles in a plane, on which they lean, hang or roll, recognised from conditions.
+"""Supports on which bodies and particles in a plane lean, hang or roll, recognised from constraints.
 
-A condition that fixes the height or the horizontal position of a place is a floor or a wall; both together are a fixed
-joint. If a round body rolls on a fixed circle, this circle is drawn; on a vertical line, a string wound on the body.
+A constraint that fixes the height of a point is a floor, and a constraint that fixes its horizontal position is a wall;
+both together are a fixed joint. If a round body rolls on a fixed circle, this circle is drawn. If a round body rolls on
+a vertical line, a string that is wound on the body is drawn.
 """
 
 from __future__ import annotations
@@ -42,14 +43,18 @@ from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
-PAST = Rational(6, 5)  # height of a wall, relative to that of the leaning place
-ROLLING = 60.0  # points of ground on either side of a rolling body
-TENSIONS = ("S", "T")  # symbols for the force of a string; such a condition is not a floor
+PAST = Rational(6, 5)  # height of a wall, relative to the height of the point that touches it
+ROLLING = 60.0  # length of the ground on either side of a rolling body, in points
+TENSIONS = ("S", "T")  # first letters of forces of strings; such a constraint is not a floor or a wall
 
 
 @dataclass(frozen=True)
 class Leaning:
-    """A place with a component that is fixed by a constraint."""
+    """A point with a component that is fixed by a constraint.
+
+    component   the index of the component
+    at          the value of the component
+    """
 
     constraint: Constraint
     place: Location
@@ -58,14 +63,14 @@ class Leaning:
 
 
 class Touching:
-    """The marks for the conditions of a plane system, and the constraints that they show."""
+    """The marks for the constraints of a plane system, and the constraints that are shown by these marks."""
 
     def __init__(self, system: System):
         self.system = system
         self.shown: set[Constraint] = set()
         self.values: dict[Symbol, Expr] = {}
-        self.told = False  # whether a rolling condition specifies the surface
-        self.rolls_at_rest: list[Any] = []  # bodies whose rolling surface is known
+        self.told = False  # whether marks of `contacts` show a rolling condition
+        self.rolls_at_rest: list[Any] = []  # bodies whose rolling surface or string is recognised
         is_plane = len(system.places[0].components) == 2
         self.marks: list[Mark] = [*self._leaning(), *self._wound(), *self._round()] if is_plane else []
 
@@ -90,7 +95,7 @@ class Touching:
                 yield self._wall(each, [other.at for other in free if other.component == 1])
 
     def _wall(self, lean: Leaning, floors: list[Expr]) -> Mark:
-        """The wall from the floor, or from the lowest place, to a little beyond the place that touches it."""
+        """Return the wall from the floor, or from the lowest mass, to a little above the point that touches it."""
         height = lean.place.components[1]
         others = [at for _, at in self.system.masses]
         low = floors[0] if floors else min((at.components[1] for at in others), key=self._numeric)
@@ -112,7 +117,7 @@ class Touching:
                 yield from self._unwinding(placed, radius)
 
     def _wheels(self) -> Iterator[tuple[Any, Expr, Location]]:
-        """The bodies with a round edge in the plane, its radius and the centre of its circle."""
+        """Yield the bodies with a round edge in the plane, with the radius and the centre of the circle."""
         for placed in map(with_its_shape, self.system.bodies):
             roller = roller_of(self.system, placed) if not placed_outline(placed) else None
             if roller is not None:
@@ -128,7 +133,7 @@ class Touching:
                     yield placed, radius, placed.at + placed.seen_in_space(own)
 
     def _pulley(self, placed: Any, radius: Expr) -> Iterable[Mark]:
-        """Strings from a wheel with a fixed axle to particles that move on tangents of its rim."""
+        """Yield strings from a wheel with a fixed axle to particles that move on tangents of its rim."""
         hung = False
         for each in self.system.constraints:
             for particle in self.system.particles:
@@ -149,7 +154,7 @@ class Touching:
             yield FixedEnd(above, downwards(2))
 
     def _unwinding(self, placed: Any, radius: Expr) -> Iterable[Mark]:
-        """The string that is wound on a wheel that moves up and down along it."""
+        """Yield the string on which a wheel moves up and down, and which is wound on the wheel."""
         track = track_of(self.system, placed.centre)
         if track is None or track.way.components[0] != 0 or not is_fixed(self.system, track.start):
             return
@@ -172,7 +177,7 @@ class Touching:
     # --- fixed circles ---
 
     def _round(self) -> Iterable[Mark]:
-        """The circle outside or inside which a wheel rolls, or the straight ground on which it rolls."""
+        """Yield the circle outside or inside which a wheel rolls, or the straight ground on which it rolls."""
         told = any(condition.fact(Rolling) for condition in self.system.conditions)
         for placed, radius, hub in self._wheels():
             link = next(links_about_fixed(self.system, hub), None)
@@ -188,7 +193,7 @@ class Touching:
                         yield FloorMark((column_of(foot),), 0.0, (ROLLING, ROLLING))
 
     def _feet(self, hub: Location, radius: Expr) -> Iterable[Location]:
-        """The places where a circle that moves along a straight line may touch straight ground below it."""
+        """Yield the points at which a circle that moves on a straight line may touch straight ground below it."""
         way = Location(tuple(tidied(c.diff(q)) for c in hub.components for q in self._moving(hub)))
         if len(way.components) == 2 and is_fixed(self.system, way):
             size = sqrt(tidied(way.components[0] ** 2 + way.components[1] ** 2))
@@ -209,7 +214,7 @@ class Touching:
             return
         size = tidied(far + radius if inside else far - radius)
         if size == 0:
-            return  # the body is fixed there
+            return  # the body rotates about a fixed point of its rim
         start = column_of(link.start)
         bound = link.end if kept is None else bound_place(link.end, link.length, far)
         contact = column_of(link.start + (size / far) * (bound - link.start))
@@ -224,7 +229,7 @@ class Touching:
             self.values[link.length] = far
 
     def _is_inside(self, placed: Any, radius: Expr, link: Link, far: Expr) -> bool | None:
-        """Whether the body is inside the circle that it touches, by rolling or a fixed distance; None if unknown."""
+        """Whether the body is inside the fixed circle that it touches; None if it touches no recognised circle."""
         if kept_length(self.system, link.length) is not None:
             sizes = [tidied(far - radius), tidied(far + radius)]
             plain = [size.is_Symbol for size in sizes]
@@ -236,10 +241,10 @@ class Touching:
                 return sign == 1
         return None
 
-    # --- places at rest ---
+    # --- points at rest ---
 
     def at_rest(self, placed: Any, at: Location) -> set[Constraint] | None:
-        """The constraints that keep the particle of a body at a place at rest; None if they do not."""
+        """Return the constraints that keep the particle of a body at a point at rest; None if it is not at rest."""
         moving = list(self.system.coordinates)
         found: set[Constraint] = set()
         for component in contact_velocity(placed, at, None):
@@ -253,7 +258,7 @@ class Touching:
 
 
 def leanings(system: System) -> Iterator[Leaning]:
-    """The places with a component that is fixed by a constraint, except constraints by strings."""
+    """Yield the points with a component that is fixed by a constraint, except constraints by strings."""
     places = [particle.at for particle in system.particles]
     for placed in system.bodies:
         for mark in placed_outline(with_its_shape(placed)):
@@ -271,7 +276,7 @@ def leanings(system: System) -> Iterator[Leaning]:
 
 
 def _solved(constraint: Constraint, known: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """A coordinate in terms of the others, from a constraint."""
+    """Return a coordinate in terms of the other coordinates, from a constraint; empty if this is not possible."""
     for q in constraint.coordinates:
         share = constraint.along(q)
         if share.is_number and q not in known:
@@ -280,7 +285,7 @@ def _solved(constraint: Constraint, known: Mapping[Symbol, Expr]) -> dict[Symbol
 
 
 def _follows(component: Expr, constraint: Constraint, moving: list[Symbol]) -> bool:
-    """Whether a velocity is a multiple of the velocity that vanishes by a constraint."""
+    """Whether a velocity vanishes by a constraint: whether it is a multiple of the velocity of the constraint."""
     kept = constraint.velocity(moving)
     pairs = [(component.diff(rate(q)), kept.diff(rate(q))) for q in moving]
     share = next((a / b for a, b in pairs if b != 0 and a != 0), None)

@@ -1,4 +1,4 @@
-"""Rotating parts, recognised from formulas: rods on pivots, lines of variable length, and their angles."""
+"""Rotating parts, recognised from formulas: rods on pivots, links of variable length, and their angles."""
 
 from __future__ import annotations
 
@@ -21,13 +21,16 @@ from derive.mechanics.model.system import Particle, System
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-FAR = Rational(8, 5)  # drawn range of a curve, relative to its coordinate
+FAR = Rational(8, 5)  # drawn range of a curve, relative to the value of its coordinate
 HANGING = frozenset({"bob", "pendulum"})  # names of particles that hang on a rod or a string
 THREADED = frozenset({"bead", "ring", "sleeve", "collar"})  # names of particles on a wire
 
 
 def turning_marks(system: System, link: Link, which: Particle, named: Sequence[Location] = ()) -> Iterable[Mark]:
-    """A particle at the end of its link, with the link and its angle; a rod starts at a named or moving place."""
+    """Yield a particle at the end of its link, with the link and its angle.
+
+    named   positions of parts such as pivots; in a prescribed rotation, a link from a named or moving point is a rod
+    """
     start, end = column_of(link.start), column_of(link.end)
     rows = len(link.start.components)
     yield ParticleMark(end, label=which.mass)
@@ -76,8 +79,8 @@ def turning_marks(system: System, link: Link, which: Particle, named: Sequence[L
 
 
 def is_rod_for(system: System, link: Link, name: str) -> bool:
-    """Whether a constant distance is certainly a rod or a string: by the particle's name, between two particles, or by
-    a length called l. Otherwise it may also be the radius of a hoop on which a bead slides."""
+    """Whether a link of constant length is a rod or a string: by the name of the particle, because it starts at a mass,
+    or by the symbol l of its length. Otherwise it may be the radius of a hoop on which a bead slides."""
     if _is_called(name, THREADED) or _is_rim(system, link):
         return False
     if _is_called(name, HANGING) or _is_joint(system, link.start):
@@ -86,7 +89,7 @@ def is_rod_for(system: System, link: Link, name: str) -> bool:
 
 
 def _is_joint(system: System, place: Location) -> bool:
-    """Whether a particle or the centre of a body is at the place."""
+    """Whether a particle or the centre of mass of a body is at a point."""
     return any(same(place, at) for _, at in system.masses)
 
 
@@ -95,7 +98,7 @@ def _is_called(name: str, kinds: frozenset[str]) -> bool:
 
 
 def _is_rim(system: System, link: Link) -> bool:
-    """Whether a link is a radius of a round body, so that its end is on the body."""
+    """Whether a link is a radius of a round body, so its end is on the rim of the body."""
     for placed in system.bodies:
         radius = getattr(placed.body, "radius", None)
         if radius is not None and same(placed.centre, link.start) and is_zero(radius - link.length):
@@ -112,18 +115,18 @@ def downwards(rows: int) -> ImmutableDenseMatrix:
 
 
 def angle_marks(system: System, link: Link) -> Iterable[Mark]:
-    """The angle of a link with a fixed direction, and in space also that of its horizontal projection."""
+    """Yield the angle of a link with a fixed direction, and in space also the angle of its horizontal projection."""
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned
-        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # in space the axis has the rate
+        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # the axis shows the rate
             yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
     if len(link.way.components) == 3:
         yield from _round_the_vertical(system, link)
 
 
 def _components(system: System, link: Link) -> list[Mark]:
-    """The axes along which the components of a link are measured, if these are coordinates."""
+    """Return the axes along which the components of a link are measured, if the components are coordinates."""
     lengths = [q for q in moving_in(system, link.length) if system.coordinates.get(q) == "length"]
     ways = {q: ImmutableDenseMatrix([diff(c, q) for c in link.way.components]) for q in lengths}
     if len(ways) < 2 or any(moving_in(system, *way) - {TIME} for way in ways.values()):
@@ -141,7 +144,7 @@ def _has_spring(system: System, link: Link) -> bool:
 
 
 def _shaken(system: System, support: Location) -> Iterable[Mark]:
-    """The displacement of a support that moves along one of the axes."""
+    """Yield the displacement of a support that moves along x or y."""
     moving = moving_in(system, *support.components)
     rest = Location(tuple(_terms_without(c, moving) for c in support.components))
     moved = [c for c in (support - rest).components if c != 0]
@@ -151,7 +154,7 @@ def _shaken(system: System, support: Location) -> Iterable[Mark]:
 
 
 def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
-    """The angle of the horizontal projection, or the axis of its rotation at a given rate."""
+    """Yield the angle of the horizontal projection of a link, or the axis of its rotation if the rate is prescribed."""
     x, y, _ = link.way.components
     angles = sorted({f.args[0] for c in (x, y) for f in c.atoms(sin, cos)}, key=str)
     start, level = column_of(link.start), ImmutableDenseMatrix([x, y, 0])
@@ -170,12 +173,12 @@ def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
 
 
 def _on_the_axis(carried: Location) -> Location:
-    """The place on the axis about which a place is carried round."""
+    """Return the point on the axis about which a point rotates with a prescribed motion."""
     return Location(tuple(_terms_without(c, {TIME}) for c in carried.components))
 
 
 def _arm(system: System, carried: Location) -> Iterable[Mark]:
-    """The arm that carries a place round an axis."""
+    """Yield the arm from the axis to a point that rotates with a prescribed motion."""
     foot = _on_the_axis(carried)
     square = tidied(Add(*(c**2 for c in (carried - foot).components)))
     if square != 0 and not moving_in(system, square):

@@ -1,4 +1,4 @@
-"""Arrows for given velocities and for the impulses of an impact, with the launch angle of a thrown particle."""
+"""Arrows for given velocities and for the impulses of an impact, and the launch angle of a thrown particle."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
-LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the drawing
-ON_IT = Rational(3, 4)  # point of impact on a body, relative to its length
+LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
+ON_IT = Rational(3, 4)  # distance of a point of impact from the fixed point, relative to the length of the body
 
 Values = Mapping[Symbol, Expr]
 
 
 @dataclass(frozen=True)
 class Moment:
-    """The data of one instant.
+    """The state at one instant, such as the start of a motion or an impact.
 
-    at       values of coordinates
-    rates    nonzero rates of coordinates
-    pushes   the components of given impulses, and their points of action
-    meeting  points of impact on bodies
+    at        the values of coordinates
+    rates     the nonzero rates of coordinates
+    pushes    pairs of the components of a given impulse and its point of action
+    meeting   the points of impact on bodies
     """
 
     at: Values = field(default_factory=dict)
@@ -42,7 +42,7 @@ class Moment:
 
 
 def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
-    """The initial velocity of a free particle at its initial place, and its angle with the horizontal."""
+    """Yield the initial velocity of a particle in a plane, at its initial position, and its launch angle."""
     for particle in system.particles:
         components = particle.at.components
         if len(components) != 2 or not all(c in moment.at and c in moment.rates for c in components):
@@ -60,7 +60,7 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
 
 
 def blow_marks(system: System, moment: Moment) -> Iterable[Mark]:
-    """The velocities just before an impact, given impulses, and the distances from fixed points to points of impact."""
+    """Yield the velocities just before an impact, given impulses, and the distances of points of impact."""
     places = [particle.at for particle in system.particles] + [placed.centre for placed in system.bodies]
     for place in places:
         velocity = Location(tuple(tidied(Add(*_shares(c, moment))) for c in place.components))
@@ -83,7 +83,7 @@ def _arrow(at: Location, velocity: Location, long: Expr) -> Mark:
 
 
 def _size(vector: Location) -> Expr:
-    """The magnitude of a vector; along a single axis, its component without a minus sign."""
+    """Return the magnitude of a vector; for a vector along an axis, its component without a minus sign."""
     components = [c for c in vector.components if c != 0]
     if len(components) == 1:
         (only,) = components
@@ -92,7 +92,7 @@ def _size(vector: Location) -> Expr:
 
 
 def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
-    """The height of the point of impact above zero, if it is a symbol."""
+    """Yield the height of the point of impact above the origin, if the height is a symbol."""
     if len(at.components) != 2 or len(system.bodies) != 1:
         return
     there = Location(tuple(tidied(c.xreplace(dict(moment.at))) for c in at.components))
@@ -104,7 +104,7 @@ def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
 
 
 def _from_the_joint(system: System, places: Sequence[Location], at: Location) -> Iterable[Mark]:
-    """The distance from the fixed point of a body to the point of impact."""
+    """Yield the distance from the fixed point of a body to the point of impact."""
     if any(same(at, place) for place in places):
         return
     for placed, far in _met(system, at):
@@ -116,7 +116,7 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location) ->
 
 
 def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
-    """The bodies hit at a place, each with the symbol for its distance from the fixed point."""
+    """Yield each body that is hit at a point, with the symbol for the distance of this point from its fixed point."""
     for placed in system.bodies:
         far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
         if is_fixed(system, placed.at) and far.is_Symbol and not moving_in(system, far):
@@ -124,14 +124,14 @@ def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
-    """Whether the mark shows a coordinate that has a fixed value at the impact: an incoming distance, or a zero."""
+    """Whether a mark shows a coordinate that changes just before the impact, or is zero at the impact."""
     if isinstance(mark, DistanceMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0
 
 
 def moment_drawn(system: System, moment: Moment) -> dict[Symbol, Expr]:
-    """The state in which an impact is drawn: at its instant, but with incoming bodies a little before it."""
+    """Return the values for the drawing of an impact: those of its instant, but with moving parts a little earlier."""
     found = {q: moment.at.get(q, ZERO) for q in system.coordinates if q in moment.at}
     for placed, letter in (each for at in moment.meeting for each in _met(system, at)):
         length = getattr(placed.body, "length", None)

@@ -138,7 +138,7 @@ def test_components_that_are_given() -> None:
         (lambda: body_cone_rate(equations((A, A, A))), "three moments are equal"),
         (lambda: body_cone_rate(equations((A, A, C), (M, 0 * M, 0 * M))), "without torque"),
         (lambda: constant_angular_velocity((omega, omega)), "three components, not 2"),
-        (lambda: constant_angular_velocity((0, 0, 0)), "does not turn"),
+        (lambda: constant_angular_velocity((0, 0, 0)), "does not rotate"),
     ],
 )
 def test_wrong_questions_are_refused(question: Any, message: str) -> None:

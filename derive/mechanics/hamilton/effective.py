@@ -69,8 +69,8 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     q       a coordinate that L does not contain
     value   the symbol of the constant, by default p_q; or the initial value of the momentum, I_z*S: then the result is
             an equation for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
-    Second route: the sum of m v . dr/dq over the mass points; the time derivative of p_q as a function of t is the sum
-    of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
+    Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields; its
+    time derivative as a function of t is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
     Outcomes: angular (q is an angle), linear (q is a length), other.
     Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value changes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
@@ -223,7 +223,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
 def _inputs(
     of: Quantity, constants: Sequence[Quantity], rates: Sequence[Quantity], put_in: Mapping[Symbol, Expr]
 ) -> dict[str, Any]:
-    """The Lagrangian with substituted rates, the symbols of the constants, and those rates."""
+    """Return the inputs of a law: the Lagrangian with the rates substituted, the constant momenta, and the rates."""
     return {
         "lagrangian": replace(of, value=bound(explicit(of.value), dict(put_in)), parents=(of,)),
         **{f"constant_{each.key}": lettered(each) for each in constants},

@@ -164,7 +164,7 @@ def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
         f = Function(q.name)(T)
         replaced.update({Derivative(f, (T, 3)): rate(q, 3), Derivative(f, (T, 2)): rate(q, 2)})
         replaced.update({Derivative(f, T): rate(q), f: q})
-    for derivative_or_function, name in replaced.items():  # the highest derivatives first
+    for derivative_or_function, name in replaced.items():  # in order from the highest derivatives
         expr = expr.xreplace({derivative_or_function: name})
     return expr
 

@@ -1,4 +1,4 @@
-"""Accelerations and constraint forces, from the equations of motion and the constraints."""
+"""Accelerations and constraint forces from the equations of motion and the constraints."""
 
 from __future__ import annotations
 

@@ -114,7 +114,7 @@ SQUARED_SPEED = Rule(
 
 
 def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
-    """Square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
+    """Derive the square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
     moving = list(system.coordinates)
     entries = [as_expr(c) for place in system.places for c in place.components]
     given = {s.name.partition("_")[0] for entry in entries for s in entry.free_symbols}

@@ -110,7 +110,7 @@ def _side_by_side(*terms: Expr) -> Expr:
 
 
 def coordinates_of(of: Quantity) -> list[Coordinate]:
-    """The coordinates of a Lagrangian's equations of motion."""
+    """Return the coordinates of the equations of motion of a Lagrangian."""
     matter = of.needed(Matter)
     return [Coordinate(q, kind) for q, kind in of.coordinates.items() if q in matter.coordinates]
 
@@ -285,7 +285,8 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
 
     of   the Lagrangian, J
     q    one of its coordinates
-    Second route: the sum of F . dr/dq over the loads and of m v . d(dr/dq)/dt over the mass points.
+    Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points; for charges
+    e in magnetic fields also the time derivative of the sum of e A . dr/dq.
     Outcomes: generic, zero (L does not contain q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
@@ -326,7 +327,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
 
     of   the Lagrangian, J
     q    one of its coordinates
-    Second route: the sum of m v . dr/dq over the mass points.
+    Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     matter = of.needed(Matter)

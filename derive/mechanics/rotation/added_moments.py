@@ -1,4 +1,4 @@
-"""The moment of inertia of a composite body about one axis: a sum over its parts, with the parallel-axis theorem."""
+"""The moment of inertia of a composite body about an axis: a sum over its parts by the parallel-axis theorem."""
 
 from __future__ import annotations
 
@@ -41,14 +41,16 @@ MOMENT_OF_PARTS = Rule(
 def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
     """Moment of inertia of a composite body about an axis through a point, I = sum of I_part + m d^2 over its parts.
 
-    body    its parts; cavities are subtracted
-    axis    "x", "y" or "z"
+    body    a composite body; cavities count as negative
+    axis    the direction of the axis: "x", "y" or "z"
     point   a point on the axis
-    A step derives the moment of each part about its centre. The result is None if the rotation of a part leaves none of
-    its body axes parallel to the axis, or if a rotated part has parts itself.
-    Second route: mass times distance squared, summed over the equimomental particles of all parts; the integral of
-    the squared distance over the whole body.
-    Outcomes: moved (some centre is off the axis), on_axis, alone (only one part has a moment).
+    A step derives the moment I_part of each part about the parallel axis through its centre of mass, at the distance d.
+    The result is None if no body axis of some part is parallel to the axis, or if some part is itself composite and
+    another of its body axes is parallel to the axis.
+    Second route: the sum of m d^2 over the equimomental particles of all parts; the integral of the squared distance
+    from the axis over the whole body.
+    Outcomes: moved (the centre of some part is off the axis), on_axis (all centres are on the axis), alone (also on the
+    axis, and only one part has a moment).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes).
     """
     k = AXES.index(axis)
@@ -90,13 +92,14 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
 
 
 def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity:
-    """Moment of inertia of a part about an axis through its centre; half of the moment about the symmetry axis for a
-    diameter of a flat round part, because I_x + I_y = I_z.
+    """Moment of inertia of a part about an axis through its centre of mass.
 
+    For a diameter of a flat round part it is half of the moment about the symmetry axis, because I_x + I_y = I_z.
     body     the part
     axis     a body axis of the part
-    turn     columns: the axes of the whole along those of the part; the index of the symbol is the parallel axis
-    Second route: mass times distance squared, summed over its equimomental particles; the integral.
+    letter   the symbol; its index is the axis of the whole body that is parallel to this axis, if there is one
+    turn     the matrix whose columns are the axes of the whole body, in components along the axes of the part
+    Second route: the sum of m d^2 over the equimomental particles of the part; the integral of the squared distance.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
     called = {own: whole for whole, own in _parallel_to(turn).items()}.get(axis, "axial")
@@ -132,10 +135,11 @@ def _by_shape(
     inputs: Mapping[str, Quantity],
     turn: MatrixBase,
 ) -> Quantity:
-    """A moment about an axis through the centre of a part, without an integral.
+    """Moment of inertia about an axis through the centre of mass of a part, without an integral.
 
-    Outcomes: none (all of the mass is on the axis), flat.
-    Source: that of `own_moment`.
+    Outcomes: none (all of the mass is on the axis, so the moment is zero), flat (half of the moment about the symmetry
+    axis).
+    Source: that of `_own_moment`.
     """
     k, centre = AXES.index(axis), body.middle
     return establish(
@@ -171,18 +175,18 @@ def _is_flat(body: Any) -> bool:
 
 
 def _parallel_to(turn: MatrixBase) -> dict[str, str]:
-    """Axis of the whole -> the axis of the part that is parallel to it, if there is one."""
+    """Return axis of the whole body -> the parallel axis of the part, for the axes that have one."""
     pairs = ((j, k) for j in range(3) for k in range(3) if is_zero(turn[j, k] ** 2 - 1))
     return {AXES[k]: AXES[j] for j, k in pairs}
 
 
 def _of_whole(called: str) -> dict[str, str]:
-    """The axis of the whole that is parallel to that of the part, if there is one."""
+    """Return the word `whole` for the sentence, the axis of the whole body, if `called` names such an axis."""
     return {"whole": called} if called in AXES else {}
 
 
 def _squares_beside(way: ImmutableMatrix, k: int) -> Expr:
-    """The squared distance from an axis, as a sum of squares."""
+    """Return the squared distance from axis k, as a sum of squares of the other components."""
     squares = [Pow(x, 2, evaluate=not x.is_Mul) for i, x in enumerate(way) if i != k and x != 0]
     return squares[0] if len(squares) == 1 else Terms(*squares) if squares else Integer(0)
 

@@ -1,7 +1,8 @@
-"""A free symmetric body at one instant: its axis, the cones of its angular velocity, and its precession.
+"""A free symmetric body at one instant: its symmetry axis, the cones of its angular velocity, and its precession.
 
-The angular velocity w = (L/I) L_dir - Omega_b e rotates about the axis e in the body, on the body cone, and about the
-constant angular momentum L in space, on the space cone; the axis also rotates about L, at the rate L/I.
+The angular velocity is w = (L/I) L/|L| - Omega_b e, where e is along the symmetry axis. In the body, w rotates about e
+on the body cone. In space, w rotates about the constant angular momentum L on the space cone, and e also rotates about
+L, at the rate L/I.
 """
 
 from __future__ import annotations
@@ -50,11 +51,12 @@ AXIS_OF_SYMMETRY = Rule(
 
 
 def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_symmetry") -> Quantity:
-    """The unit vector along the symmetry axis of a body with two equal principal moments: the axis of the third moment.
+    """Unit vector along the symmetry axis of a body with two equal principal moments: the axis of the third moment.
 
-    inertia   tensor (3, 3), kg m^2, in principal axes
-    Second route: the second moments of the body, the integral of r r dm, are equal in all directions across the axis.
-    Errors: the axes are not principal; the moments all differ, or are all equal.
+    inertia   tensor (3, 3), kg m^2, along principal axes
+    Second route: the second moments of the body, the integral of r r dm, are equal for all directions perpendicular to
+    the axis.
+    Errors: the axes are not principal axes; the three moments all differ, or are all equal.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
     require_kind("axis_of_symmetry", "inertia", inertia, "moment of inertia")
@@ -62,7 +64,7 @@ def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_s
     body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
 
     def spread(found: Any) -> tuple[Any, Any]:
-        """Without its part along the axis, the integral of r r dm is a multiple of the unit tensor across the axis."""
+        """Compare the integral of r r dm with a e e + b (1 - e e), where e is the axis and 1 the unit tensor."""
         moments = ImmutableDenseMatrix(3, 3, lambda i, j: explicit(body.over_mass(lambda r: r[i] * r[j], point)))
         along = (found.T * moments * found)[0, 0]
         across = (moments.trace() - along) / 2
@@ -83,7 +85,7 @@ def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_s
 
 
 def axis_number(inertia: Quantity) -> int:
-    """The index of the symmetry axis."""
+    """Return the index of the symmetry axis."""
     moments = inertia.value
     if not moments.is_diagonal():
         message = f"`{inertia.key}` is not diagonal, so its axes are not principal axes"
@@ -107,11 +109,12 @@ TANGENT_BETWEEN = Rule(
 def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "tangent") -> Quantity:
     """Tangent of the angle between two vectors, |a x b|/(a.b).
 
-    a, b    vectors (3), not zero and not at right angles, same axes
+    a, b    vectors (3) along the same axes, not zero and not perpendicular to each other
     angle   the symbol of the angle
-    Second route: rotate a onto an axis; then the component of b along it, and the length of the rest of b.
-    Outcomes: generic, parallel (it vanishes).
-    Errors: one of them vanishes; they are at right angles.
+    Second route: the length of the component of b perpendicular to a, divided by the component of b along a; the
+    lengths are found by rotating the vectors onto an axis.
+    Outcomes: generic, parallel (the tangent vanishes).
+    Errors: a or b vanishes; a and b are perpendicular.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 1.2 and 1.4.
     """
     for v in (a, b):
@@ -145,7 +148,7 @@ def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "
 
 
 def _with_tangents(value: Expr) -> Expr:
-    """(A/C) tan(alpha) of A sin(alpha)/(C cos(alpha))."""
+    """Write a quotient of sine and cosine as a tangent: (A/C) tan(alpha) for A sin(alpha)/(C cos(alpha))."""
     factors = Mul.make_args(value)
     for s in (f for f in factors if isinstance(f, sin)):
         below = 1 / cos(s.args[0])
@@ -167,11 +170,11 @@ def precession_rate(
 ) -> Quantity:
     """Rate at which the axis of a free symmetric body rotates about its angular momentum in space, Omega_p = L/I.
 
-    inertia    tensor (3, 3), kg m^2, in principal axes, two of its moments equal to I
+    inertia    tensor (3, 3), kg m^2, along principal axes, with two moments equal to I
     momentum   angular momentum L, vector (3), kg m^2/s, same axes
-    Second route: the axis e moves with w x e, which is Omega_p L_dir x e; and, by particles, w minus the precession
-    Omega_p L_dir gives no angular momentum across the axis.
-    Errors: no axis of symmetry; L is along that axis, whose direction is then constant.
+    Second route: the rate of the unit vector e along the axis, w x e, is Omega_p (L/|L|) x e; and the sum of m r x (u x
+    r) over particles, with u = w - Omega_p L/|L|, is along the axis.
+    Errors: the body has no symmetry axis; L is along this axis, whose direction is then constant.
     Source: Landau, Lifshitz, *Mechanics*, section 33.
     """
     require_kind("precession_rate", "inertia", inertia, "moment of inertia")
@@ -192,8 +195,7 @@ def precession_rate(
         return round_it, explicit(Cross(omega.value, axis)) * length_by_turning(L)
 
     def leaves_a_spin(found: Expr) -> tuple[Any, Any]:
-        """The angular velocity minus the precession is along the axis: by particles, it gives no angular momentum
-        across the axis."""
+        """Check that w minus the precession gives no angular momentum perpendicular to the axis, by particles."""
         rest = explicit(omega.value) * length_by_turning(L) - L * found
         moved = explicit(body.over_mass(lambda r: Cross(r, Cross(rest, r)), point))
         return explicit(Cross(axis, moved)), column(0, 0, 0)
@@ -226,9 +228,9 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
 
     of     vector (3), any unit
     axis   "x", "y" or "z"
-    Check: a cyclic permutation of the axes, a rotation, which makes this component the first.
+    Check: after a cyclic permutation of the axes, which is a rotation, the component is the first.
     Outcomes: generic, zero.
-    Errors: not a vector; no such axis.
+    Errors: `of` is not a vector; there is no such axis.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4.
     """
     if getattr(of.value, "shape", None) != (3, 1) or axis not in AXES:

@@ -1,7 +1,7 @@
-"""Free rotation: Euler's equations for a body whose principal moments of inertia are known.
+"""Euler's equations for a body whose principal moments of inertia are known, free or with a torque.
 
-Components are along the body's principal axes, which rotate with it. Second routes use the accelerations of the body's
-particles in a rotating body, and no tensor.
+Components are along the principal axes of the body, which rotate with it. Second routes use the accelerations of the
+particles of the body instead of its tensor.
 """
 
 from __future__ import annotations
@@ -70,13 +70,13 @@ NO_TORQUE = (Integer(0), Integer(0), Integer(0))
 class RigidBody(Placeable, OfParticles):
     """A rigid body of any shape. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
-    mass      kg, needed for results other than its free rotation
-    moments   its principal moments of inertia, three, kg m^2; axes x, y, z along the principal axes. For plane motion,
-              the moment about the axis perpendicular to the plane, a symbol or the step that derived it
-    centre    the position of its centre of mass from the "pivot", the origin of the body axes, m
-    about     the point of the moments: "centre_of_mass", or "fixed_point", the pivot; if a centre is given, the pivot
-              is the default
-    look      a body whose shape is drawn; its centre is the centre of mass
+    mass      kg, needed for all results except those about free rotation
+    moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z; for plane motion only the
+              moment about the axis perpendicular to the plane, a symbol or the step that derived it
+    centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m
+    about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; by default the pivot if the
+              centre of mass is not at the pivot
+    look      a body whose shape is drawn instead, with its centre at the centre of mass
     """
 
     mass: Expr | None = None
@@ -86,8 +86,8 @@ class RigidBody(Placeable, OfParticles):
     id: ClassVar[str] = "rigid_body"
     called: str = ""
     look: Any = field(default=None, compare=False)
-    across_plane: ClassVar[Quantity | None] = None  # the step that derived the moment across the plane
-    is_plane: ClassVar[bool] = False  # whether the moment across the plane is the only known one
+    across_plane: ClassVar[Quantity | None] = None  # the step that derived the moment for plane motion
+    is_plane: ClassVar[bool] = False  # whether only the moment for plane motion is known
 
     def __post_init__(self) -> None:
         if not isinstance(self.moments, tuple | list):
@@ -114,7 +114,7 @@ class RigidBody(Placeable, OfParticles):
                 raise Rejected(Complaint("no-such-body", message))
 
     def named(self, called: str) -> RigidBody:
-        """The same body with a name, "upper rod", for a page with several bodies."""
+        """Return the same body with a name, such as "upper rod", for a page with several bodies."""
         twin = replace(self, moments=(self.across_plane or self.moments[2]) if self.is_plane else self.moments)
         object.__setattr__(twin, "called", called)
         return twin
@@ -132,8 +132,10 @@ class RigidBody(Placeable, OfParticles):
 
     @cached_property
     def central_second_moments(self) -> ImmutableMatrix:
-        """The integrals of r_i r_j over the mass, r from the centre of mass: minus M c_i c_j if the moments are about
-        the pivot."""
+        """The integrals of r_i r_j over the mass, where r is from the centre of mass.
+
+        If the moments are about the pivot, M c_i c_j is subtracted from the integrals about the pivot.
+        """
         about_point = ImmutableDenseMatrix(diag(*self.second_moments))
         if self.about == "centre_of_mass" or not any(self.centre):
             return about_point
@@ -142,7 +144,7 @@ class RigidBody(Placeable, OfParticles):
 
     @cached_property
     def second_moments(self) -> tuple[Expr, Expr, Expr]:
-        """The integrals of x^2, y^2 and z^2 over the mass: I_x is the integral of y^2 + z^2, and so on."""
+        """The integrals of x^2, y^2 and z^2 over the mass, from I_x = integral of y^2 + z^2, and so on."""
         x, y, z = (tidied(sum(self.moments, Integer(0)) / 2 - moment) for moment in self.moments)
         return x, y, z
 
@@ -155,12 +157,12 @@ class RigidBody(Placeable, OfParticles):
         return principal_tensor(self)
 
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Six particles, two on each axis at the distances +-1, with the body's second moments."""
+        """Return six particles, at +1 and -1 on each axis, with the second moments of the body."""
         places = [(i, sign) for i in range(3) for sign in (1, -1)]
         return [(self.second_moments[i] / 2, column(*(sign * (k == i) for k in range(3)))) for i, sign in places]
 
     def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
-        """The sum over the particles of mass times a quadratic function of the place."""
+        """Return the sum over the particles of mass times a quadratic function of the position."""
         first, *others = [mass * explicit(integrand(place)) for mass, place in self.particles()]
         return sum(others, first)
 
@@ -181,9 +183,9 @@ PRINCIPAL_TENSOR = Rule(
 
 
 def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_tensor") -> Quantity:
-    """Inertia tensor in principal axes, I = diag(I_x, I_y, I_z), in kg m^2: a definition.
+    """Inertia tensor along principal axes, I = diag(I_x, I_y, I_z), in kg m^2: a definition.
 
-    body    its principal moments, and the point they are about
+    body    a body with known principal moments about a point
     Outcomes: isotropic (three equal moments), two_equal, generic.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
@@ -217,7 +219,7 @@ def changing_angular_velocity(
 ) -> Quantity:
     """An angular velocity with an arbitrary time dependence, omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
 
-    through   the point of the body on the axis of rotation at every instant
+    through   the point of the body that is on the axis of rotation at every instant
 
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
     """
@@ -255,11 +257,12 @@ def rate_in_space(
 
     momentum   angular momentum L, vector (3), kg m^2/s, body axes
     omega      angular velocity of the body, vector (3), 1/s, body axes
-    in_body    its rate of change in the body from the equations of motion, if this is to be substituted
+    in_body    the rate of L in the body by the equations of motion; without it, the components of omega remain unknown
     Second route: rotate L with the body by a rotation matrix and differentiate; the sum of m r x a over particles;
-    the component along a direction that is fixed in space, and so rotates backwards in the body.
-    Outcomes: zero (constant in space), zero_in_both (and in the body), driven (a torque acts), generic.
-    Errors: arguments of other kinds.
+    the rate of L . n for a direction n that is fixed in space, so n_dot = -omega x n in the body.
+    Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
+    acts), generic (the equations of motion are not substituted).
+    Errors: an argument is a quantity of another kind.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     require_kind("rate_in_space", "momentum", momentum, "angular momentum")
@@ -273,7 +276,7 @@ def rate_in_space(
         return MatAdd(BodyRate(momentum, *moving) if seen is None else seen, Cross(omega, momentum))
 
     def along_fixed_direction() -> Expr:
-        """dL/dt . n as the rate of the component L.n, where n_dot = -omega x n in the body."""
+        """Return dL/dt . n as the rate of L . n, where n_dot = -omega x n in the body."""
         n = column(*component_names("n"))
         backwards = explicit(Cross(n, w.value))
         changed = explicit(TimeRate(Dot(L.value, n), *moving, *n))
@@ -288,9 +291,9 @@ def rate_in_space(
         lines=Lines(
             between=_rates_worked(momentum, omega, in_body),
             put_in=None,
-            # The rate in the body came from the torque, so the sum of the two parts is a check, not a new result.
+            # The rate in the body follows from the torque, so the sum of both parts is the torque again, a check.
             law=Level.FULL if in_body else Level.BRIEF,
-            result=in_body is not None,  # otherwise Euler's equations state its components
+            result=in_body is not None,  # without `in_body`, Euler's equations state the components
             arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
             means=motion,
         ),
@@ -311,7 +314,7 @@ def rate_in_space(
 
 
 def _constancy(rate: Any, in_body: Quantity | None) -> str:
-    """Whether the vector is constant in space, and in the body too; unknown until the equations are substituted."""
+    """Return whether L is constant in space, and in the body; `generic` until the equations are substituted."""
     if in_body is None:
         return "generic"
     if not is_zero(rate):
@@ -320,7 +323,7 @@ def _constancy(rate: Any, in_body: Quantity | None) -> str:
 
 
 def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None) -> list[Form]:
-    """The two parts of the rate: by components, or with the rate in the body from the equations of motion."""
+    """Return the line with the two parts of the rate: in components, or with the given rate in the body."""
     if in_body is not None:
         seen = in_body.step.chain[0].expr
         parts = seen.args if isinstance(seen, MatAdd) else (seen,)
@@ -330,13 +333,13 @@ def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None)
 
 
 def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE) -> tuple[Quantity, Quantity, Quantity]:
-    """Euler's equations, I_x omega_x_dot - (I_y - I_z) omega_y omega_z = N_x and cyclically: dL/dt = N by components.
+    """Euler's equations, I_x omega_x_dot - (I_y - I_z) omega_y omega_z = N_x and cyclically: components of dL/dt = N.
 
-    rate     rate of change in space of the angular momentum, vector (3), N m, principal axes of the body
-    torque   N about the same point, three components in N m in the same axes; by default zero
+    rate     rate of change of the angular momentum in space, vector (3), N m, along the principal axes of the body
+    torque   N about the same point, three components along the same axes, N m; by default zero
     Second route: the components of the sum of m r x a over particles.
-    Outcomes: coupled, driven (with a torque), uncoupled (no product of components remains, so this component is
-    constant), isotropic (no product remains in any of the three).
+    Outcomes: coupled (a product of components of omega remains), driven (with a torque), uncoupled (no product remains,
+    so this component of omega is constant), isotropic (no product remains in any of the three equations).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.5.
     """
     x, y, z = (_euler_equation(rate, i, torque) for i in range(3))
@@ -358,7 +361,7 @@ EULER_EQUATION = Rule(
 
 
 def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> Quantity:
-    """One component of dL/dt = N."""
+    """Derive one component of dL/dt = N."""
     of = rate.needed(RateOfMomentum)
     moving = of.moving
     acting = torque[i]
@@ -385,7 +388,7 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
 
 
 def _coupling(rates: Any, moving: Sequence[Expr], i: int, torque: Sequence[Expr]) -> str:
-    """Whether a torque acts, or else whether products of components remain in the equation."""
+    """Return whether a torque acts, and if not, in which equations products of components remain."""
     uncoupled = [not entry.has(*moving) for entry in rates]
     if any(component != 0 for component in torque):
         return "driven"
@@ -411,10 +414,10 @@ def rate_in_body(
     momentum    angular momentum L, vector (3), kg m^2/s, body axes
     omega       angular velocity of the body, vector (3), 1/s, body axes
     equations   Euler's equations, in the order x, y, z
-    Check: differentiate the components I_x omega_x and so on, and substitute the angular accelerations of the
+    Check: differentiate the components I_x omega_x and so on, and substitute the angular accelerations from the
     equations.
-    Outcomes: zero (constant in the body), in_general, driven (a torque acts).
-    Errors: arguments of other kinds.
+    Outcomes: zero (L is constant in the body), in_general (without torque), driven (a torque acts).
+    Errors: an argument is a quantity of another kind.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
     require_kind("rate_in_body", "momentum", momentum, "angular momentum")

@@ -1,4 +1,4 @@
-"""Check of a derived moment of inertia for a body: it must belong to the body's mass, and be about its centre."""
+"""Check of a derived moment of inertia that defines a body: it needs the same mass and the centre of mass."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__: list[str] = []
 
 
 def check_given_moment(verb: str, mass: Any, inertia: Quantity) -> None:
-    """Require this mass, the centre of mass, and for a flat body an axis perpendicular to its plane."""
+    """Require a moment of this mass about the centre of mass, and for a flat body an axis normal to its plane."""
     body, about = inertia.subject.body, inertia.subject
     require_kind(verb, "moments", inertia, "moment of inertia")
     require_constant(verb, "moment of inertia", inertia)

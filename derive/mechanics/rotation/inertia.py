@@ -1,6 +1,6 @@
-"""The inertia tensor: by integration about a point, and shifted to other points.
+"""The inertia tensor about a point by integration, and about other points by the parallel-axis theorem.
 
-I_ij = integral of (r.r delta_ij - r_i r_j) dm, in kg m^2, a symmetric (3, 3) tensor along the body axes.
+I_ij = integral of (r.r delta_ij - r_i r_j) dm, in kg m^2, is a symmetric (3, 3) tensor along the body axes.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ Moment: TypeAlias = Quantity
 Pair = tuple[int, int]
 
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
-MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # not zero by symmetry if the planes across the axes are mirror planes
-ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # not zero or equal by symmetry about the z axis: across it and along it
+MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # the entries that remain if the planes normal to the axes are mirror planes
+ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # the different entries that remain by symmetry about the z axis
 
 
 INERTIA_TENSOR = Rule(
@@ -71,16 +71,16 @@ def inertia_tensor(
 ) -> Quantity:
     """Inertia tensor about a point, J = integral of (r.r 1 - r r) dm.
 
-    body         mass M
-    about        a named point of the body: "centre", "corner", "apex", ...; axes are the body axes
+    body         a body with mass M
+    about        a named point of the body: "centre", "corner", "apex", ...
     coordinates  "cartesian" or "cylindrical", if the body has both
-    A step derives each of the six entries; for a body that is round about z, only the two that symmetry leaves; for
-    a body with three mirror planes across its axes, only the three moments.
-    Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles, whose
-    centre of mass is the body's; for a body defined by a position map, a numerical sum over its cells.
+    The axes are the body axes. A step derives each of the six entries; for a body that is round about z, only the two
+    different entries that symmetry leaves; for a body with mirror planes normal to its three axes, only the moments.
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, whose centre of
+    mass is that of the body; for a body defined by a position map, a numerical sum over its cells.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; for a
     body that is round about z, round or round_isotropic.
-    Errors: no such point, no such coordinates.
+    Errors: the body has no such point or no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     point = body.point(about)
@@ -116,26 +116,26 @@ def inertia_tensor(
 
 
 def _mirrored(pairs: tuple[Pair, ...]) -> dict[str, str]:
-    """Whether only the moments remain by mirror symmetry, for the sentence of the first of them."""
+    """Return the word `mirrored` for the sentence if only the moments remain by mirror symmetry."""
     return {"mirrored": "centre"} if pairs == MIRRORED else {}
 
 
 def _edged(body: Body) -> dict[str, str]:
-    """Whether its axes are along edges from a corner."""
+    """Return the word `edged` for the sentence if the axes of the body are along edges from a corner."""
     return {"edged": "corner"} if body.reference == "corner" else {}
 
 
 def moment_of_inertia(
     body: Body, axis: str = "z", about: str = "centre", symbol: str = "I", key: str = "moment_of_inertia"
 ) -> Quantity:
-    """Moment of inertia about one axis through a point, I = integral of the squared distance from it dm.
+    """Moment of inertia about an axis through a point, I = integral of d^2 dm with the distance d from the axis.
 
-    body    mass M
-    axis    "x", "y" or "z": the parallel body axis
+    body    a body with mass M
+    axis    "x", "y" or "z": the body axis that is parallel to the axis
     about   a named point of the body on the axis
-    Second route: the sum of m times the squared distance over the body's equimomental particles; for a body defined
-    by a position map, a numerical sum over its cells.
-    Errors: no such point.
+    Second route: the sum of m d^2 over equimomental particles; for a body defined by a position map, a numerical sum
+    over its cells.
+    Errors: the body has no such point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
     return moment_seen(body, axis, about, symbol, key, {"seen": "own" if body.is_of_particles else "mapped"})
@@ -159,11 +159,12 @@ def moment_seen(
     seen: Mapping[str, str],
     turn: MatrixBase | None = None,
 ) -> Moment:
-    """A moment of inertia whose sentence names the axis as the problem does, not always as a body axis.
+    """Moment of inertia about an axis that the sentence may name as an axis of a whole body or of a plane motion.
 
-    seen   own, mapped (no coordinates are measured from the point), across_plane (the plane of motion), or part, with
-           `whole`, the parallel axis of the whole
-    turn   columns: the axes of the whole along those of the part
+    seen   the words for the sentence: `seen` is own (a body axis), mapped (the body is defined by a position map),
+           across_plane (normal to the plane of motion) or part; a part also has `whole`, the parallel axis of the
+           whole body
+    turn   the matrix whose columns are the axes of the whole body, in components along the axes of the part
     Source: that of `moment_of_inertia`.
     """
     point, i = body.point(about), "xyz".index(axis)
@@ -194,8 +195,11 @@ def moment_seen(
 
 
 def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
-    """The entries to integrate: for a round body about a point of its axis, I_yy = I_xx and products vanish; products
-    also vanish if the plane across each axis is a mirror plane of the body."""
+    """Return the entries to integrate.
+
+    For a round body about a point on its axis, I_yy = I_xx and the products vanish. The products also vanish if the
+    plane normal to each axis is a mirror plane of the body.
+    """
     if body.is_round and point.position[0] == point.position[1] == 0:
         return ROUND
     is_one_region = body.is_of_particles and not hasattr(body, "parts")
@@ -210,7 +214,7 @@ INERTIA_DEFINITION = Rule(
 
 
 def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
-    """J = integral of (r.r 1 - r r) dm, r from the point: the definition of the symbol."""
+    """Define the symbol J = integral of (r.r 1 - r r) dm, where r is from the point."""
     return establish(
         INERTIA_DEFINITION,
         tensor(name),
@@ -227,7 +231,7 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
 
 
 def _law(region: Region, density: Expr) -> Any:
-    """The unevaluated integral of (r.r 1 - r r) dm."""
+    """Return the unevaluated integral of (r.r 1 - r r) dm."""
     r = vector("r")
     integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
     return region.with_section_put_in().mass_integral(integrand, density)
@@ -242,7 +246,7 @@ def _by_pair(entries: dict[Pair, Quantity]) -> dict[str, Quantity]:
 
 
 def _assembled(pairs: tuple[Pair, ...], found: Sequence[Any]) -> Any:
-    """The symmetric tensor from its entries; symmetry about z determines the missing entries."""
+    """Return the symmetric tensor from its entries; missing entries follow from symmetry about z, or are zero."""
     at = dict(zip(pairs, found, strict=True))
     if pairs == ROUND:
         at |= {(1, 1): at[(0, 0)]}
@@ -277,7 +281,7 @@ ENTRY = Rule(
 def _entry_by_integration(
     body: Body, point: Point, region: Region, name: str, key: str, pair: Pair, definition: Quantity
 ) -> Quantity:
-    """One entry, J_xx = rho integral of (y^2 + z^2) dV or J_xy = -rho integral of x y dV."""
+    """Derive one entry, J_xx = rho integral of (y^2 + z^2) dV or J_xy = -rho integral of x y dV."""
     named = f"{'xyz'[pair[0]]}{'xyz'[pair[1]]}"
     weight, pairs = entry_weight(region, pair), pairs_left_by_symmetry(body, point)
     integral = over_mass(body, region, weight)
@@ -299,7 +303,7 @@ def _entry_by_integration(
 
 
 def entry_weight(region: Region, pair: Pair) -> Expr:
-    """The integrand over the mass: the squared distance from the axis, or minus the product of two coordinates."""
+    """Return the integrand of an entry: the squared distance from the axis, or minus the product of two coordinates."""
     i, j = pair
     at = region.position
     weight = sum((x**2 for k, x in enumerate(at) if k != i), Integer(0)) if i == j else -at[i] * at[j]
@@ -307,7 +311,7 @@ def entry_weight(region: Region, pair: Pair) -> Expr:
 
 
 def _without_angles(weight: Expr) -> Expr:
-    """r^2 cos^2 + r^2 sin^2 is written r^2; a weight that depends on the angle is unchanged."""
+    """Write r^2 cos^2 + r^2 sin^2 as r^2; if the integrand still depends on the angle, return its shorter form."""
     if not weight.atoms(sin, cos):
         return weight
     plain = weight.expand().replace(
@@ -320,7 +324,7 @@ def _without_angles(weight: Expr) -> Expr:
 
 
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
-    """The squared distance from the axis of a moment, and its form |e x r|^2."""
+    """Return the squared distance from the axis of a moment, and |e x r|^2 to compare with; nothing for a product."""
     if pair[0] != pair[1]:
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)
@@ -328,7 +332,7 @@ def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[An
 
 
 def _entry_by_moments(r: Any, pair: Pair) -> Any:
-    """For a mass at r: n.I n at n = e_i + e_j minus the two moments is twice the entry I_ij."""
+    """Return the entry I_ij of a unit mass at r from moments: 2 I_ij = n.I n - I_ii - I_jj with n = e_i + e_j."""
     axes = [column(*(int(k == axis) for k in range(3))) for axis in pair]
     if pair[0] == pair[1]:
         return squared_distance(r, axes[0])
@@ -339,10 +343,10 @@ def _entry_by_moments(r: Any, pair: Pair) -> Any:
 def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: str = "inertia_tensor") -> Quantity:
     """Inertia tensor about the centre of mass, I = J - M (c.c 1 - c c), from J about another point of the body.
 
-    tensor_there    tensor (3, 3), kg m^2, about a point of the body
-    centre          vector (3), m: the body's centre of mass, from that point and in the same axes
-    Second route: each entry, and the tensor as a whole, by direct integration about the centre; the trace as twice the
-    integral of r.r dm.
+    tensor_there    tensor J (3, 3), kg m^2, about a point of the body
+    centre          vector c (3), m: the position of the centre of mass relative to that point, along the same axes
+    Second route: integrate each entry, and the whole tensor, about the centre of mass; the trace is twice the integral
+    of r.r dm.
     Outcomes: the same as those of `inertia_tensor`.
     Errors: the tensor is already about the centre of mass; the centre is measured from another point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
@@ -359,9 +363,10 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
 def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", key: str = "moved_tensor") -> Quantity:
     """Inertia tensor about another point of the body, J = I + M (c.c 1 - c c), from I about its centre of mass.
 
-    inertia   tensor (3, 3), kg m^2, about the centre of mass
-    centre    vector (3), m: the centre of mass from the other point, in the same axes
-    Second route: each entry, and the tensor as a whole, by direct integration about the other point; the trace.
+    inertia   tensor I (3, 3), kg m^2, about the centre of mass
+    centre    vector c (3), m: the position of the centre of mass relative to the other point, along the same axes
+    Second route: integrate each entry, and the whole tensor, about the other point; the trace is twice the integral of
+    r.r dm.
     Outcomes: outward.
     Errors: the tensor is not about the centre of mass; the axes differ.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
@@ -385,9 +390,10 @@ MOVED_TO = Rule(
 
 
 def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: str) -> Quantity:
-    """The tensor about another point by the parallel-axis theorem; one of the two points is the centre of mass.
+    """Derive the tensor about another point by the parallel-axis theorem; one of the points is the centre of mass.
 
-    Outcomes: isotropic, two_equal, diagonal, generic; round, round_isotropic; outward (from the centre of mass).
+    Outcomes: isotropic, two_equal, diagonal, generic; round, round_isotropic; outward (from the centre of mass to
+    another point).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
     body: Body = there.needed(OfBody).body
@@ -416,7 +422,7 @@ def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: s
 
 
 def _check_start(tensor_there: Quantity, centre: Quantity, start: Point) -> None:
-    """The parallel-axis theorem needs the centre of mass measured from the point of the tensor."""
+    """Reject a position of the centre of mass that is not measured from the point of the tensor."""
     counted = centre.fact(CountedFrom)
     if counted is None or counted.start != start:
         told = f"from the {counted.start.name}" if counted else "from another point"
@@ -447,8 +453,10 @@ ENTRY_MOVED = Rule(
 
 
 def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, key: str, pair: Pair) -> Quantity:
-    """One entry by the parallel-axis theorem, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z);
-    with opposite signs from the centre to another point."""
+    """Derive one entry by the parallel-axis theorem: I_xx = J_xx - M (y^2 + z^2), I_xy = J_xy + M x y.
+
+    The centre of mass is at (x, y, z). From the centre of mass to another point, the signs are opposite.
+    """
     i, j = pair
     body: Body = there.needed(OfBody).body
     other = centre.needed(CountedFrom).start
@@ -461,7 +469,7 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         raise Rejected(
             Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` derives them elsewhere')
         )
-    # From a point on the axis of a round body, only the displacement along the axis contributes.
+    # From a point on the axis of a round body, only the component of c along the axis is not zero.
     apart = [k for k in range(3) if k != i and not (pairs == ROUND and centre.value[k] == 0)]
 
     def law(mass: Expr, c: Any, *at_start: Expr) -> Expr:
@@ -504,9 +512,9 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
 
     found   tensor (3, 3), kg m^2
     again   the tensor of the same body about the same point by another derivation, possibly along rotated axes
-    Check: the other tensor, rotated to the axes of the first.
-    Outcomes: generic; turned, if z has the opposite direction.
-    Errors: the tensors are not of the same body about the same point.
+    Check: the other tensor, rotated to the axes of the first, is equal to the first.
+    Outcomes: generic (the axes are the same), turned (the axes of the other tensor are rotated by half a turn about x).
+    Errors: the tensors belong to different bodies or points.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     points = [tensor.needed(AboutPoint).point for tensor in (found, again)]

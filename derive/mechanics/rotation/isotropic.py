@@ -1,4 +1,4 @@
-"""The condition that all principal moments of a body are equal, so every axis is a principal axis."""
+"""The condition under which all principal moments of a body are equal, so every axis is a principal axis."""
 
 from __future__ import annotations
 
@@ -29,14 +29,15 @@ ISOTROPIC_WHERE = Rule(
 
 
 def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") -> Quantity:
-    """Case in which all three principal moments are equal, I_1 = I_3, solved for one symbol: h = 2R.
+    """Condition under which all three principal moments are equal, I_1 = I_3, solved for one symbol: h = 2R.
 
     moments   principal moments (3), kg m^2, two of them equal
-    letter    the symbol of a positive number; or the expression given for it, 2b for h
-    Check: with the result substituted, the tensor is a multiple of the unit tensor; and the two moments differ, with
-    opposite signs, for slightly greater and slightly smaller values of the symbol.
-    Outcomes: special; always, if they are equal already; never, if one is greater for all values of the symbols.
-    Errors: the three moments are all different; the equation does not have exactly one positive root for that symbol.
+    letter    the symbol of a positive quantity; or the expression that is given for it, such as 2b for h
+    Check: with the result substituted, the tensor is a multiple of the unit tensor; and the difference of the two
+    moments has opposite signs for slightly greater and slightly smaller values of the symbol.
+    Outcomes: special (for one value of the symbol), always (the moments are equal for all values of the symbols), never
+    (one moment is greater for all values of the symbols).
+    Errors: all three moments are different; the equation does not have exactly one positive root for the symbol.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     one, other = _two_to_compare(moments)
@@ -69,7 +70,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
 
 
 def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, key: str) -> Quantity:
-    """The step for moments that are always equal, or of which one is always greater."""
+    """Derive the relation of two moments that are always equal, or of which one is always greater."""
     mark = "=" if is_zero(difference) else ">" if difference.is_positive else "<"
     return establish(
         ISOTROPIC_WHERE,
@@ -91,7 +92,7 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
 
 
 def _two_to_compare(moments: Quantity) -> tuple[int, int]:
-    """The indices of one of the two equal moments, and of the third."""
+    """Return the index of one of the two equal moments, and the index of the third moment."""
     alone = lone_moment(moments.value)
     if alone is not None:
         return (0 if alone else 1), alone
@@ -102,7 +103,7 @@ def _two_to_compare(moments: Quantity) -> tuple[int, int]:
 
 
 def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, Expr, int]:
-    """The symbol, or the first suitable one in its given expression, such as h in h + R; its root; the power."""
+    """Return the first symbol of the expression `letter` for which there is a single root, this root, and the power."""
     for symbol in sorted(letter.free_symbols & difference.free_symbols, key=str):
         root = _root(difference, symbol)
         if root is not None:
@@ -112,7 +113,10 @@ def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, 
 
 
 def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
-    """The only positive root, and the power of the symbol in the equation; None if there is not exactly one."""
+    """Return the only positive root, and 2 if the equation contains only the square of the symbol, otherwise 1.
+
+    The result is None if the equation does not have exactly one positive root.
+    """
     core = difference.as_numer_denom()[0]
     parts = [part for part in Mul.make_args(factor(core)) if part.has(letter) and not part.is_positive]
     found = isolated(parts[0].as_base_exp()[0], letter) if len(parts) == 1 else None
@@ -124,19 +128,19 @@ def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
 
 
 def _lengths_in(difference: Expr) -> list[Any]:
-    """The symbols that determine whether the moments are equal."""
+    """Return the symbols that determine whether the moments are equal."""
     terms = Add.make_args(expand(difference))
     common = common_factor(list(terms))
     return [letter for letter in difference.free_symbols if (expand(difference) / common).expand().has(letter)]
 
 
 def _letters_only(factor: Expr) -> Expr:
-    """The factor without its numeric coefficient: both sides are divided by M, not by 3 M/80."""
+    """Return the factor without its numeric coefficient: both sides are divided by M, not by 3 M/80."""
     return factor.as_coeff_Mul()[1]
 
 
 def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, Any]:
-    """The tensor with the value substituted, and a moment times the unit tensor; nan unless there is an equation."""
+    """Return the tensor and a moment times the unit tensor, both with the root substituted; nan if not an equation."""
     if found.operator != "=":
         return nan, nan
     letter, bound = found.sides
@@ -145,10 +149,10 @@ def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, An
 
 
 def _differences_beside(difference: Expr, found: Relation) -> tuple[Any, Any]:
-    """The difference of the moments slightly above and below the root, and values of opposite sign to compare with."""
+    """Return the difference of the moments slightly above and below the root, and values with the required signs."""
     letter, bound = found.sides
     u = Dummy("u", positive=True)
     beyond, before = (tidied(difference.subs(letter, bound * (1 + u) ** sign)) for sign in (1, -1))
     rises = 1 if beyond.is_positive else -1
-    expected = [rises * Abs(beyond), -rises * Abs(before), Abs(bound)]  # last: the symbol is positive
+    expected = [rises * Abs(beyond), -rises * Abs(before), Abs(bound)]  # the last requires a positive root
     return ImmutableDenseMatrix([beyond, before, bound]), ImmutableDenseMatrix(expected)

@@ -1,7 +1,7 @@
-"""Disturbed rotations: small perturbations of a steady rotation about a principal axis, and the symmetric top.
+"""Perturbed rotations: small deviations from a steady rotation about a principal axis, and the free symmetric body.
 
-Euler's equations are linearised in the two components across the axis. Second routes use the accelerations of the
-particles of a rotating body.
+Euler's equations are linearised in the two components of the angular velocity perpendicular to the axis. Second routes
+use the accelerations of the particles of a rotating body.
 """
 
 from __future__ import annotations
@@ -29,18 +29,19 @@ ZERO = Integer(0)
 def linearised_rotation(
     equations: Sequence[Quantity], axis: str, speed: Expr, key: str = "linearised"
 ) -> tuple[Quantity, Quantity]:
-    """Euler's equations to first order about a steady rotation: I_x omega_x_dot = (I_y - I_z) omega omega_y, and so on.
+    """Euler's equations to first order about a steady rotation: about z, I_x omega_x_dot = (I_y - I_z) omega omega_y.
 
     equations   Euler's equations in the order x, y, z, without torque
     axis        "x", "y" or "z": the principal axis of the steady rotation
-    speed       its constant rate omega, 1/s
-    Second route: the sum of m r x a over the particles of the body; half the difference of its values for opposite
-    disturbances.
-    Errors: no steady rotation about that axis is possible, for example because a torque acts; no such axis.
+    speed       the constant rate omega of the steady rotation, 1/s
+    Second route: the sum of m r x a over the particles of the body: half the difference of its values for opposite
+    perturbations.
+    Errors: a steady rotation about the axis does not satisfy the equations, for example because a torque acts; there is
+    no such axis.
     Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
     """
     if axis not in AXES:
-        raise Rejected(Complaint("no-such-axis", f'a body turns about "x", "y" or "z", not about "{axis}"'))
+        raise Rejected(Complaint("no-such-axis", f'a body rotates about "x", "y" or "z", not about "{axis}"'))
     require_constant("linearised_rotation", "rate", speed)
     of = _rate_of(equations)
     disturbed = Disturbed(AXES.index(axis), speed, of)
@@ -54,11 +55,11 @@ def linearised_rotation(
 
 
 def _rate_of(equations: Sequence[Quantity]) -> RateOfMomentum:
-    """The rate of the angular momentum whose components are in the equations."""
+    """Return the rate of the angular momentum, whose components are in the equations."""
     found = [parent.fact(RateOfMomentum) for equation in equations for parent in equation.parents]
     rates = [fact for fact in found if fact is not None]
     if len(equations) != 3 or not rates:
-        raise Rejected(Complaint("wrong-argument", "a disturbed rotation needs all three Euler equations"))
+        raise Rejected(Complaint("wrong-argument", "a perturbed rotation needs all three Euler equations"))
     return rates[0]
 
 
@@ -81,7 +82,7 @@ PERTURBED_ROTATION = Rule(
 
 
 def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int, key: str) -> Quantity:
-    """One of the two linear equations: the coefficients of each component and each rate at the steady rotation.
+    """Derive one of the two linear equations, by the derivatives of Euler's equation at the steady rotation.
 
     Source: that of `linearised_rotation`.
     """
@@ -93,7 +94,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
     whole = Add(*(factor * letter for factor, letter in factors if factor != 0), evaluate=False)
 
     def by_opposite_disturbances() -> Relation:
-        """Products of two small quantities are equal for opposite disturbances, so they cancel in the difference."""
+        """Products of two small quantities are equal for opposite perturbations, so they cancel in the difference."""
         exact = explicit(disturbed.by_particles())[k]
         ahead, back = (
             exact.subs(
@@ -102,7 +103,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
             )
             for sign in (1, -1)
         )
-        beside = moving[disturbed.axis]  # the remaining factor of a small quantity, of second order, so omitted
+        beside = moving[disturbed.axis]  # now its small change, which occurs only at second order
         return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
 
     return establish(
@@ -131,9 +132,9 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
 
 @dataclass(frozen=True)
 class WobbleOf(Fact):
-    """The disturbed rotation and the linear equations of a squared rate."""
+    """The linear equations of a perturbed rotation, and the symbol of the rate of the perturbation."""
 
-    missing = "is not the square of a rate of wobbling"
+    missing = "is not the squared rate of a perturbation"
     equations: tuple[Quantity, Quantity]
     letter: str
 
@@ -153,15 +154,15 @@ PERTURBATION_RATE_SQUARED = Rule(
 def perturbation_rate_squared(
     linear: Sequence[Quantity], symbol: str = "Omega", key: str = "perturbation_rate_squared"
 ) -> Quantity:
-    """Square of the rate at which a disturbed axis wobbles, Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y) about z.
+    """Squared angular frequency of a perturbed rotation, about z Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y).
 
     linear   the two linear equations from `linearised_rotation`
-    Second route: on the surface of constant angular momentum the energy has a minimum or a maximum if the curvatures
-    have the same sign, and their product gives the rate; the accelerations of particles, whose linear motion has a
-    squared matrix with the trace -2 Omega^2.
-    Outcomes: greatest, least (positive: the moment about the axis is the greatest of the three, or the least), unstable
-    (negative), marginal (zero: a moment across the axis equals that about it), symmetric (the two moments across are
-    equal), conditional (it depends on the order of the moments).
+    Second route: Omega^2 from the product of the curvatures of the conserved quantity L^2/2 - I_z T at the steady
+    rotation; and the linearised motion from the accelerations of particles: the square of its matrix has the trace
+    -2 Omega^2.
+    Outcomes: greatest, least (Omega^2 is positive, and the moment about the axis is the greatest of the three, or the
+    least), unstable (negative), marginal (zero, because another moment is equal to the moment about the axis),
+    symmetric (the two other moments are equal), conditional (the sign depends on the order of the moments).
     Source: Landau, Lifshitz, *Mechanics*, section 37; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
     disturbed = linear[0].needed(Disturbed)
@@ -205,7 +206,7 @@ def perturbation_rate_squared(
 
 
 def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
-    """(I_z - I_x)(I_z - I_y) if these are symbols: the moment about the axis is first in each difference."""
+    """Write the moment about the axis first in each difference, (I_z - I_x)(I_z - I_y), if the moments are symbols."""
     found = tidied(value)
     about = disturbed.moments[disturbed.axis]
     across = [disturbed.moments[k] for k in disturbed.across]
@@ -218,8 +219,11 @@ def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
 
 
 def _by_curvatures(disturbed: Disturbed) -> Expr:
-    """I omega_dot = -(grad T x grad (L^2/2))/(I_x I_y I_z) I conserves T and L^2; near the axis its squared rate is the
-    product of the curvatures of L^2/2 - I_z T, times omega^2, divided by the squares of the moments across."""
+    """Return Omega^2 from the conserved quantities T and L^2.
+
+    Euler's equations are omega_dot = -(grad T x grad(L^2/2))/(I_x I_y I_z), with gradients by the components of omega.
+    Near the z axis, Omega^2 is the product of the two curvatures of L^2/2 - I_z T, times omega^2/(I_x I_y)^2.
+    """
     moments, moving = disturbed.moments, disturbed.moving
     energy = sum((I * w**2 for I, w in zip(moments, moving, strict=True)), ZERO) / 2
     momentum = sum((I**2 * w**2 for I, w in zip(moments, moving, strict=True)), ZERO) / 2
@@ -230,8 +234,10 @@ def _by_curvatures(disturbed: Disturbed) -> Expr:
 
 
 def _trace_of_squared_motion(disturbed: Disturbed) -> Expr:
-    """The Jacobian of the angular accelerations from particles by the components at the steady rotation; its
-    eigenvalues are 0 and +-i Omega."""
+    """Return the trace of the squared Jacobian of the angular accelerations, from particles, at the steady rotation.
+
+    The eigenvalues of the Jacobian with respect to the components of omega are 0, i Omega and -i Omega.
+    """
     torque = explicit(disturbed.by_particles())
     rates = [rate(w) for w in disturbed.moving]
     (solution,) = linsolve(list(torque), rates)
@@ -269,19 +275,20 @@ PERTURBATION_RATE = Rule(
 
 
 def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "perturbation_rate") -> Quantity:
-    """Rate Omega at which a disturbed axis oscillates, the root of its square; if that is negative, the rate of growth.
+    """Angular frequency of a perturbed rotation, Omega = sqrt(Omega^2); if Omega^2 is negative, the growth rate
+    kappa = sqrt(-Omega^2).
 
     squared   the result of `perturbation_rate_squared`, 1/s^2
-    Check: components proportional to e^(i Omega t), or e^(kappa t), make the determinant of the two linear equations
+    Check: for components proportional to e^(i Omega t), or e^(kappa t), the determinant of the two linear equations is
     zero; and the rate is not negative.
-    Outcomes: stable, symmetric, conditional, unstable (the rate kappa of growth).
-    Errors: the square vanishes, so a disturbance grows linearly in time, not exponentially.
+    Outcomes: stable, symmetric, conditional, unstable (the result is kappa).
+    Errors: Omega^2 vanishes, so a perturbation grows linearly in time and has no rate.
     Source: Landau, Lifshitz, *Mechanics*, section 37.
     """
     of, disturbed = squared.needed(WobbleOf), squared.needed(Disturbed)
     outcome = {"greatest": "stable", "least": "stable"}.get(squared.step.outcome, squared.step.outcome)
     if outcome == "marginal":
-        message = f"`{squared.key}` vanishes: a disturbance grows linearly in time, without a rate"
+        message = f"`{squared.key}` vanishes: a perturbation grows linearly in time, without a rate"
         raise Rejected(Complaint("no-rate", message))
     grows = outcome == "unstable"
     value = explicit(squared.value)
@@ -298,8 +305,11 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
         return a * c * square, b * d
 
     def not_negative(found: Expr) -> tuple[Expr, Expr]:
-        """The determinant does not determine the sign of the rate, which changes only where the rate vanishes: so one
-        point where the square of the rate is positive is enough."""
+        """Compare the rate with its absolute value at one point where Omega^2, or kappa^2, is positive.
+
+        The determinant does not determine the sign. One point is enough, because the sign changes only where the rate
+        vanishes.
+        """
         letters = sorted(value.free_symbols, key=str)
         for turn in range(len(letters) + 1):
             ordered = letters[turn:] + letters[:turn]
@@ -325,7 +335,7 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
 
 
 def _root_of(square: Expr) -> Expr:
-    """The root with square factors taken out in front."""
+    """Return the root with square factors in front of it."""
     return tidied(sqrt(tidied(square)))
 
 
@@ -340,13 +350,14 @@ BODY_CONE_RATE = Rule(
 
 
 def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: str = "body_cone_rate") -> Quantity:
-    """Rate at which omega rotates about the axis of a free symmetric body, Omega_b = (I_z - I_x) omega_z/I_x.
+    """Rate at which omega rotates in a free symmetric body about its axis z, Omega_b = (I_z - I_x) omega_z/I_x.
 
     equations   Euler's equations in the order x, y, z, without torque, for a body with I_x = I_y
-    Second route: the rate of the angle of omega about the axis, (omega_x omega_y_dot - omega_y omega_x_dot)/(omega_x^2
-    + omega_y^2), with the accelerations of particles.
-    Outcomes: oblate (in the same sense as the body), prolate (in the opposite sense), generic (depends on the moments).
-    Errors: the moments about x and y differ; all three are equal; a torque acts.
+    Second route: the rate of the azimuth of omega, (omega_x omega_y_dot - omega_y omega_x_dot)/(omega_x^2 + omega_y^2),
+    with the angular accelerations from the accelerations of particles.
+    Outcomes: oblate (the sense of omega_z, because I_z > I_x), prolate (the opposite sense), generic (the sense depends
+    on the moments).
+    Errors: the moments about x and y differ; all three moments are equal; a torque acts.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6; Taylor, *Classical Mechanics*, section 10.8.
     """
     of = _rate_of(equations)
@@ -359,7 +370,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         raise Rejected(Complaint("no-symmetry", "`body_cone_rate` needs a body whose moments about x and y are equal"))
     if is_zero(about - across):
         raise Rejected(Complaint("no-cone", "the three moments are equal, so the angular velocity is constant"))
-    coupling = tidied(-diff(lefts[1], x, z))  # (I_z - I_x) omega_z omega_x drives omega_y
+    coupling = tidied(-diff(lefts[1], x, z))  # of omega_z omega_x in the equation for omega_y
 
     def rate_of_angle() -> Expr:
         torque = explicit(of.by_particles())

@@ -1,7 +1,7 @@
-"""Principal moments and principal axes: the axes along which angular momentum is parallel to angular velocity.
+"""Principal moments and principal axes: for a rotation about a principal axis, L is parallel to omega.
 
-A real symmetric tensor has three perpendicular principal axes, I e_k = I_k e_k. If two moments are equal, every axis
-in the plane of their axes is principal; if all three are equal, every axis is.
+An inertia tensor has three perpendicular principal axes, I e_k = I_k e_k. If two moments are equal, every axis in the
+plane of their axes is a principal axis; if all three are equal, every axis is a principal axis.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ __all__ = ["principal_axes", "principal_moments"]
 
 @dataclass(frozen=True)
 class PrincipalOf(Fact):
-    """The tensor of these principal moments."""
+    """The tensor from which principal moments were derived."""
 
     missing = "is not the principal moments of a tensor"
     tensor: Quantity
@@ -53,10 +53,11 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
     """Principal moments of inertia: the three roots of det(I - lambda 1) = 0.
 
     inertia   symmetric tensor (3, 3), kg m^2
-    They are the diagonal of a diagonal tensor, in the order of the axes; otherwise they are in increasing order.
-    Check: sum, sum of products in pairs and product of the three are the invariants of the tensor.
+    The moments of a diagonal tensor are its diagonal, in the order of the axes; other moments are in increasing order.
+    Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor; for a diagonal
+    tensor, also I e = I_k e for the unit vector e of each axis.
     Outcomes: isotropic (all equal), two_equal, distinct; if the tensor is not diagonal, two_equal_roots, roots.
-    Errors: the roots are those of a cubic without a rational factor, so no useful closed form.
+    Errors: the characteristic polynomial is a cubic without a rational factor, so its roots have no useful closed form.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     require_kind("principal_moments", "inertia", inertia, "moment of inertia")
@@ -70,7 +71,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
         return column(*(whole[k, k] for k in range(3)))
 
     def axis_by_axis(found: Any) -> tuple[Any, Any]:
-        """The tensor times a unit vector along each axis is the moment times that vector."""
+        """Compare the tensor times the unit vector of each axis with the moment times this vector."""
         units = ImmutableDenseMatrix.eye(3)
         return inertia.value * units, ImmutableDenseMatrix.hstack(*(found[k] * units[:, k] for k in range(3)))
 
@@ -94,20 +95,21 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
 
 
 def _was_diagonal(inertia: Quantity) -> bool:
-    """Whether the tensor came from a diagonal tensor about another point."""
+    """Whether the tensor was derived from a diagonal tensor about another point of a round body."""
     return inertia.step.rule == "rotation.moved_to" and inertia.step.outcome in {"round", "round_isotropic"}
 
 
 def principal_axes(
     moments: Quantity, symbol: str = "e", key: str = "principal_axis"
 ) -> tuple[Quantity, Quantity, Quantity]:
-    """Principal axes, unit vectors with I e_k = I_k e_k, right-handed.
+    """Principal axes, a right-handed set of unit vectors with I e_k = I_k e_k.
 
     moments   the principal moments of a tensor
-    If two moments are equal, their axes have a free angle; if all three are equal, any three axes are valid.
-    Check: each axis is substituted into I e = I_k e; the axes are unit vectors and perpendicular.
-    Outcomes: single, or symmetry of a round body, free (two equal moments: the axis of the third and those across it);
-    any; distinct.
+    If two moments are equal, their axes contain a free angle; if all three are equal, any three perpendicular axes are
+    principal axes.
+    Check: each vector satisfies I e = I_k e; the vectors have length 1, are perpendicular and right-handed.
+    Outcomes: single (the axis of the moment that differs from two equal ones), symmetry (the same for a round body),
+    free (an axis of one of the two equal moments), any (all three moments are equal), distinct.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     found, angle = _frame(moments)
@@ -144,7 +146,7 @@ def _axis(
     symbol: str,
     key: str,
 ) -> Quantity:
-    """One principal axis."""
+    """Derive one principal axis."""
     tensor = moments.needed(PrincipalOf).tensor
     is_free = direction.has(angle)
     return establish(
@@ -179,7 +181,7 @@ def _axis_outcome(moments: Quantity, place: int) -> str:
 
 
 def _is_round(moments: Quantity) -> bool:
-    """Whether the body is round about the axis of the single moment, z."""
+    """Whether the body is round about z, and z is the axis of the moment that differs from two equal ones."""
     of, tensor = moments.fact(OfBody), moments.needed(PrincipalOf).tensor.value
     return (
         of is not None
@@ -190,13 +192,13 @@ def _is_round(moments: Quantity) -> bool:
 
 
 def _products(e: Any, before: list[Quantity]) -> list[Expr]:
-    """The scalar products with the earlier axes, padded to three entries."""
+    """Return the scalar products with the earlier axes, padded with zeros to three entries."""
     found = [explicit(Dot(e, other.value)) for other in before]
     return [*found, *[Integer(0)] * (3 - len(found))]
 
 
 def _volume(k: int, e: Any, before: list[Quantity]) -> Expr:
-    """e_1 . (e_2 x e_3), which is 1 for right-handed unit vectors."""
+    """Return e_1 . (e_2 x e_3), which is 1 for right-handed, perpendicular unit vectors."""
     named = {int(other.symbol.name[-1]) - 1: other.value for other in before} | {k: e}
     return explicit(ImmutableDenseMatrix.hstack(*(ImmutableDenseMatrix(named[i]) for i in range(3)))).det()
 
@@ -218,7 +220,7 @@ def _multiplicity_of_roots(moments: Any) -> str:
 
 
 def lone_moment(moments: Any) -> int | None:
-    """The index of the moment that differs from two equal ones."""
+    """Return the index of the moment that differs from two equal ones; None if there is no such moment."""
     if _number_of_different(moments) != 2:
         return None
     for k in range(3):
@@ -229,7 +231,7 @@ def lone_moment(moments: Any) -> int | None:
 
 
 def _by_entries(inertia: Quantity) -> Any:
-    """The tensor in terms of its entries' symbols, as in its step."""
+    """Return the tensor with the symbols of its entries, if its step shows them; otherwise its value."""
     formula = inertia.step.chain[0].expr
     return formula if isinstance(formula, MatrixBase) else inertia.value
 
@@ -239,13 +241,13 @@ def _symmetric_sums(m: Any) -> tuple[Expr, Expr, Expr]:
 
 
 def _invariants(t: Any) -> tuple[Expr, Expr, Expr]:
-    """Trace, sum of the principal minors, determinant: the invariants under rotation of the axes."""
+    """Return trace, sum of the principal minors, and determinant: the invariants under rotations of the axes."""
     minors = sum((t[i, i] * t[j, j] - t[i, j] * t[j, i] for i, j in ((0, 1), (0, 2), (1, 2))), Integer(0))
     return t.trace(), minors, explicit(ImmutableDenseMatrix(t)).det(method="berkowitz")
 
 
 def _roots(inertia: Quantity) -> Any:
-    """The eigenvalues: for a diagonal tensor in the order of its axes, otherwise in increasing order."""
+    """Return the eigenvalues, for a diagonal tensor in the order of its axes, otherwise in increasing order."""
     if inertia.value.is_diagonal():
         return column(*(inertia.value[k, k] for k in range(3)))
     common, rest = factored_matrix(inertia.value)
@@ -270,12 +272,12 @@ def _of_low_degree(part: Poly) -> list[Expr]:
 
 
 def _size(root: Expr) -> tuple[float, str]:
-    """A sort key: the value with every symbol equal to 1, then the text."""
+    """Return a sort key: the value with every symbol equal to 1, then the text."""
     return float(root.subs(dict.fromkeys(root.free_symbols, 1))), str(root)
 
 
 def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
-    """Three unit vectors, with a free angle if two moments are equal."""
+    """Return three principal unit vectors, and the free angle that two of them contain if their moments are equal."""
     tensor = moments.needed(PrincipalOf).tensor.value
     taken = {letter.name for letter in tensor.free_symbols}
     angle = scalar(next(name for name in ("phi", "psi", "chi", "alpha") if name not in taken))
@@ -292,7 +294,11 @@ def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
 
 
 def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
-    """For a single moment, the vector perpendicular to the rows of I - I_k 1; the other vectors by vector products."""
+    """Return the unit eigenvectors.
+
+    The eigenvector of a moment that equals no other moment is perpendicular to the rows of I - I_k 1. The last
+    eigenvector, and one of two with equal moments, follow from vector products.
+    """
     alone = lone_moment(moments)
     first = alone if alone is not None else 0
     i, j = (first + 1) % 3, (first + 2) % 3

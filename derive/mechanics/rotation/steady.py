@@ -1,4 +1,4 @@
-"""Rotations given by their components along the body axes: steady ones, or the angular velocity at one instant."""
+"""Angular velocities given by their components along the body axes: constant ones, or values at one instant."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def constant_angular_velocity(
 ) -> Quantity:
     """A constant angular velocity by its components along the body axes, in 1/s: a definition.
 
-    components   three, 1/s
+    components   three components, 1/s
     through      the point of the body that stays at rest
-    Errors: not three components; all of them vanish; one of them changes.
+    Errors: there are not three components; all components vanish; a component changes in time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
     """
     return _given("constant_angular_velocity", components, through, symbol, key)
@@ -38,9 +38,9 @@ def momentary_angular_velocity(
 ) -> Quantity:
     """The angular velocity at one instant by its components along the body axes, in 1/s: a definition.
 
-    components   three, 1/s
-    through      the point of the body that stays at rest
-    Errors: not three components; all of them vanish; one of them changes.
+    components   three components, 1/s
+    through      the point of the body that is at rest at this instant
+    Errors: there are not three components; all components vanish; a component is not a constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
     """
     return _given("momentary_angular_velocity", components, through, symbol, key)
@@ -58,7 +58,7 @@ def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key
         raise Rejected(Complaint("wrong-argument", f"an angular velocity has three components, not {len(components)}"))
     omega = column(*components)
     if is_zero(omega):
-        raise Rejected(Complaint("zero-vector", "a body whose angular velocity vanishes does not turn"))
+        raise Rejected(Complaint("zero-vector", "a body whose angular velocity vanishes does not rotate"))
     for component in omega:
         require_constant(verb, "component", component)
     is_momentary = verb == "momentary_angular_velocity"

@@ -1,4 +1,4 @@
-"""The torque of a steady rotation, from Euler's equations without angular accelerations. Vectors are in body axes."""
+"""The torque that keeps a rotation steady, omega x L. Vector components are along the body axes."""
 
 from __future__ import annotations
 
@@ -42,13 +42,15 @@ TORQUE = Rule(
 
 
 def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = "torque") -> Quantity:
-    """Torque for a steady rotation, which carries L with the body: tau = dL/dt = omega x L.
+    """Torque for a steady rotation, in which L rotates with the body: tau = dL/dt = omega x L.
 
-    omega      vector (3), 1/s, body axes, constant
-    momentum   vector (3), kg m^2/s, same axes, about a fixed point or the centre of mass, constant in the body
-    Second route: rotate L about the axis by a rotation matrix and differentiate.
-    Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the symbols).
-    Errors: omega or L changes, or is known at one instant only; L belongs to another rotation than omega.
+    omega      vector (3), 1/s, along the body axes, constant
+    momentum   angular momentum L, vector (3), kg m^2/s, along the same axes, about a fixed point or the centre of mass,
+               constant in the body
+    Second route: rotate L about omega by a rotation matrix and differentiate.
+    Outcomes: zero (omega is along a principal axis), generic (the torque is never zero), in_general (the torque may be
+    zero for some values of the symbols).
+    Errors: omega or L changes in the body; omega is known at one instant only; L belongs to another rotation.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
     """
     require_kind("torque", "omega", omega, "angular speed")
@@ -93,7 +95,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
 
 
 def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
-    """Along principal axes: ((I_z - I_y) omega_y omega_z, ...), Euler's equations for a steady rotation."""
+    """Return the line ((I_z - I_y) omega_y omega_z, ...) along principal axes: Euler's equations without omega_dot."""
     if not inertia.value.is_diagonal():
         return []
     named = {parent.key[-2:]: parent.symbol for parent in _moments(inertia)}
@@ -104,6 +106,6 @@ def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
 
 
 def _moments(inertia: Quantity) -> list[Quantity]:
-    """The steps of the diagonal entries."""
+    """Return the steps of the diagonal entries of the tensor."""
     keys = {f"{inertia.key}_{axis * 2}" for axis in AXES}
     return [parent for parent in inertia.parents if parent.key in keys]

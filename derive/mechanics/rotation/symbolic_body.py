@@ -1,7 +1,7 @@
-"""Bodies by symbols: the mass, the position of the centre of mass, and the principal moments about a point.
+"""Symbolic bodies: symbols for the mass, the distance of the centre of mass, and the principal moments about a point.
 
-Results for such a body hold for every body with these quantities; then `put_in(result, *body.values)` substitutes the
-values of the given body.
+A result for a symbolic body is true for every body with these quantities. `put_in(result, *body.values)` substitutes
+the values for the body that was given.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ __all__ = ["symbolic_body"]
 
 @dataclass(frozen=True)
 class LetteredBody(RigidBody):
-    """A rigid body whose mass, centre of mass and moments are symbols, with their values.
+    """A rigid body whose mass, centre of mass and moments are symbols with known values.
 
-    values   the steps that derive the values
-    shape    the body with these values, and the name of its point that is the pivot
+    values   the steps that derive the values of the symbols
+    shape    the body with these values, and the name of the point that is the pivot
     """
 
     values: tuple[Quantity, ...] = ()
@@ -40,14 +40,14 @@ class LetteredBody(RigidBody):
 
 
 def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredBody:
-    """A body by symbols: M, the distance l of its centre of mass from a point of its z axis, and its principal moments
-    about that point, I_x and I_z for a round body; steps derive their values.
+    """Return a symbolic body with the mass M, the distance l of the centre of mass from a point on the z axis, and the
+    principal moments about this point; steps derive the values.
 
-    body     its body axes at the point are principal axes, and its centre of mass is on the z axis through the point
-    about    the point, which becomes the "pivot" of the result
-    symbol   the symbol of the moments
-    Second route: those of the steps; the particles that check a motion of the body have these moments.
-    Errors: the axes through the point are not principal axes; the centre of mass is off the z axis.
+    body     a body whose axes at the point are principal axes, with its centre of mass on the z axis
+    about    the point, which is the "pivot" of the result
+    symbol   the symbol of the moments: I_x and I_z if I_x = I_y, otherwise I_x, I_y and I_z
+    Each moment is also compared with the sum over equimomental particles, in addition to the second route of its step.
+    Errors: the axes through the point are not principal axes; the centre of mass is not on the z axis.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     point = body.point(about)
@@ -81,7 +81,7 @@ def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> Letter
 
 
 def _letter(quantity: Quantity) -> Expr:
-    """The symbol of a quantity, or 0 if it vanishes."""
+    """Return the symbol of a quantity, or 0 if the quantity vanishes."""
     found: Expr = quantity.symbol if quantity.value != 0 else Integer(0)
     return found
 
@@ -95,12 +95,12 @@ CENTRE_DISTANCE = Rule(
 
 
 def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantity:
-    """Distance of the centre of mass along the z axis from a point, l = (m_1 z_1 + m_2 z_2 + ...)/M.
+    """Distance of the centre of mass from a point, along the z axis, l = (m_1 z_1 + m_2 z_2 + ...)/M.
 
-    body    a composite body, or one with a known centre of mass
-    point   the origin of the distance
-    mass    of the whole, if it is a step
-    Second route: the weights of the equimomental particles balance about the centre of mass.
+    body    a composite body, or a body with a known centre of mass
+    point   the point from which l is measured
+    mass    the step of the mass of the whole body, if there is one
+    Second route: about the centre of mass, the sum of m (z - l) over equimomental particles is zero.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     parts = [(part.mass, point.seen(part.centre)[2]) for part in getattr(body, "parts", ())]

@@ -1,6 +1,6 @@
-"""Quantities from an inertia tensor: components along other axes, the moment about any axis, single entries.
+"""Quantities derived from an inertia tensor: components along rotated axes, the moment about any axis, single entries.
 
-For flat bodies also the perpendicular-axis theorem, and the angle of the principal axes in the plane.
+Also the radius of gyration, the angle of the principal axes in a plane, and the perpendicular-axis theorem.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ MOMENT = "moment of inertia"
 
 
 def seen_particles(body: Any, point: Point) -> list[tuple[Expr, ImmutableMatrix]]:
-    """The equimomental particles of a body, relative to a point and along its axes."""
+    """Return the equimomental particles of a body, with positions relative to a point and along the axes there."""
     return [(mass, ImmutableDenseMatrix(point.axes.T * (place - point.position))) for mass, place in body.particles()]
 
 
 def central_tensor(body: Any) -> ImmutableMatrix:
-    """The tensor about the centre of mass along the body axes, from the particles; a value, not a step."""
+    """Return the value of the tensor about the centre of mass along the body axes, from equimomental particles."""
     return ImmutableDenseMatrix(summed(seen_particles(body, body.middle), tensor_at).applyfunc(tidied))
 
 
 def shape_of(found: Any) -> str:
-    """The shape of a tensor: whether it is diagonal, and how many moments are equal."""
+    """Return whether a tensor is diagonal, and if so, how many moments are equal."""
     if not found.is_diagonal():
         return "generic"
     return {1: "isotropic", 2: "two_equal"}.get(len({found[i, i] for i in range(3)}), "diagonal")
@@ -84,15 +84,15 @@ TURNED_TENSOR = Rule(
 def turned_tensor(
     inertia: Quantity, axis: str, angle: Expr, symbol: str | None = None, key: str = "turned_tensor"
 ) -> Quantity:
-    """The same tensor along rotated axes, I' = R^T I R, the columns of R being the new axes.
+    """The same tensor along rotated axes, I' = R^T I R, where the columns of R are the new axes.
 
-    inertia   tensor (3, 3), kg m^2
-    axis      "x", "y" or "z": the axis of the right-handed rotation of the axes
-    angle     its angle
-    Second route: the sum of m (r.r 1 - r r) over the body's equimomental particles, relative to the rotated axes; the
-    trace, which is invariant.
+    inertia   tensor I (3, 3), kg m^2
+    axis      "x", "y" or "z": the body axis about which the axes are rotated, right-handed
+    angle     the angle of this rotation
+    Second route: the sum of m (r.r 1 - r r) over equimomental particles, with r along the rotated axes; the trace is
+    invariant.
     Outcomes: isotropic, two_equal, diagonal, generic.
-    Errors: no such axis; it is not an inertia tensor of a body.
+    Errors: there is no such axis; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2.
     """
     require_kind("turned_tensor", "inertia", inertia, MOMENT)
@@ -135,10 +135,11 @@ def moment_about(
 ) -> Quantity:
     """Moment of inertia about an axis in any direction through the point of the tensor, I_n = n.I n, n = d/|d|.
 
-    inertia     tensor (3, 3), kg m^2
-    direction   d, three components, or a vector along the axis; the unit vector has the index of the symbol
-    Second route: the sum of m |n x r|^2 over the body's equimomental particles.
-    Errors: the direction vanishes; it is not a tensor of a body.
+    inertia     tensor I (3, 3), kg m^2
+    direction   d, three components or a vector along the axis
+    symbol      the symbol of the moment; its index is the symbol of the unit vector
+    Second route: the sum of m |n x r|^2 over equimomental particles.
+    Errors: d vanishes; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     require_kind("moment_about", "inertia", inertia, MOMENT)
@@ -171,7 +172,7 @@ UNIT_VECTOR = Rule(
 
 
 def _unit_vector(direction: Any, body: Any, letter: str, key: str) -> Quantity:
-    """The unit vector along an axis, n = d/|d|."""
+    """Derive the unit vector along an axis, n = d/|d|."""
     along = value_behind(direction) if isinstance(direction, Quantity) else column(*direction)
     given = {"along": direction} if isinstance(direction, Quantity) else {"along": along}
     return establish(
@@ -195,13 +196,13 @@ TENSOR_ENTRY = Rule(
 
 
 def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: str | None = None) -> Quantity:
-    """One entry of a tensor, a moment of inertia such as I_zz or a product such as I_xy, with its minus sign.
+    """One entry of a tensor: a moment of inertia such as I_zz, or a product such as I_xy, with its minus sign.
 
     inertia   tensor (3, 3), kg m^2
-    entry     "xx", "xy", ...
-    Second route: the sum of m (r.r delta_ij - x_i x_j) over the body's equimomental particles.
+    entry     the indices of the entry, "xx", "xy", ...
+    Second route: the sum of m (r.r delta_ij - x_i x_j) over equimomental particles.
     Outcomes: moment, product.
-    Errors: no such entry; it is not a tensor of a body.
+    Errors: there is no such entry; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     require_kind("tensor_entry", "inertia", inertia, MOMENT)
@@ -235,18 +236,18 @@ PRINCIPAL_ANGLE = Rule(
 
 
 def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "principal_angle") -> Quantity:
-    """Angle from x of the principal axes in the plane of x and y, tan 2 theta = 2 I_xy/(I_xx - I_yy).
+    """Angle of the principal axes in the x-y plane, measured from x, tan 2 theta = 2 I_xy/(I_xx - I_yy).
 
     inertia   tensor (3, 3), kg m^2, with I_xz = I_yz = 0
-    Second route: along axes rotated by that angle, the particles of the body have no product of inertia.
+    Second route: along axes rotated by this angle, the product of inertia of the equimomental particles is zero.
     Outcomes: generic, zero (x and y are principal axes).
-    Errors: I_xz or I_yz does not vanish; I_xx and I_yy are equal, so the angle is 45 degrees, or arbitrary.
+    Errors: I_xz or I_yz does not vanish; I_xx and I_yy are equal, so the angle is 45 degrees, or arbitrary if I_xy = 0.
     Source: Fowles, Cassiday, *Analytical Mechanics*, section 9.2.
     """
     require_kind("principal_angle", "inertia", inertia, MOMENT)
     body, point, I = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point, inertia.value
     if not (is_zero(I[0, 2]) and is_zero(I[1, 2])):
-        message = f"the z axis is not a principal axis of `{inertia.key}`, so no two are in the plane of x and y"
+        message = f"the z axis is not a principal axis of `{inertia.key}`, so the others are not in the x-y plane"
         raise Rejected(Complaint("not-in-a-plane", message, help="`principal_axes` derives them in space"))
     if is_zero(I[0, 0] - I[1, 1]):
         what = (
@@ -260,7 +261,7 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
     angle = scalar(symbol)
 
     def no_product(found: Expr) -> tuple[Expr, Expr]:
-        """x'y' = x y cos 2 theta - (x^2 - y^2)/2 sin 2 theta, over the cosine."""
+        """Sum m x'y'/cos 2 theta, where x'y' = x y cos 2 theta - (x^2 - y^2)/2 sin 2 theta."""
         left = (m * (r[0] * r[1] - (r[0] ** 2 - r[1] ** 2) / 2 * found) for m, r in seen_particles(body, point))
         return sum(left, Integer(0)), Integer(0)
 
@@ -281,14 +282,14 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
 
 
 def _entry_of(inertia: Quantity, i: int, j: int) -> Quantity | Expr:
-    """The step of an entry, if there is one; otherwise its value."""
+    """Return the step of an entry, if there is one; otherwise the value of the entry."""
     name = entry_name(inertia.symbol.name, i, j)
     value: Expr = inertia.value[i, j]
     return next((parent for parent in inertia.parents if parent.symbol == name), value)
 
 
 def _shorter_sums(matrix: Any) -> ImmutableMatrix:
-    """The matrix with each entry expanded, in products of sines and cosines or in their sums, whichever is shorter."""
+    """Expand each entry, with products of sines and cosines or with multiple angles, whichever form is shorter."""
     return ImmutableDenseMatrix(matrix.applyfunc(_shorter))
 
 
@@ -310,11 +311,11 @@ PERPENDICULAR_AXES = Rule(
 def perpendicular_axes(
     first: Quantity, second: Quantity, symbol: str | None = None, key: str = "perpendicular_axes"
 ) -> Quantity:
-    """Moment of a flat body about the axis perpendicular to it, I_z = I_x + I_y, from two axes in its plane.
+    """Moment of inertia of a flat body about the axis normal to its plane, I_z = I_x + I_y.
 
-    first, second   moments of inertia about two perpendicular axes in the plane, through one point, kg m^2
-    Second route: the squared distance from the perpendicular axis, summed over the body's equimomental particles.
-    Errors: the body is not flat, or one of the axes is perpendicular to it.
+    first, second   moments of inertia about two perpendicular axes in the plane through one point, kg m^2
+    Second route: the sum of m d^2 over equimomental particles, with the distance d from the normal axis.
+    Errors: the body is not flat, or one of the two axes is not in its plane.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical
     Mechanics*, section 8.2.
     """
@@ -349,11 +350,11 @@ RADIUS_OF_GYRATION = Rule(
 
 
 def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_of_gyration") -> Quantity:
-    """Radius of gyration, k = sqrt(I/M): the distance at which the whole mass would have the same moment.
+    """Radius of gyration, k = sqrt(I/M): the distance from the axis at which a particle of mass M has the moment I.
 
-    moment   moment of inertia of a body about an axis, kg m^2
-    Second route: the mean squared distance from the axis of the body's equimomental particles.
-    Errors: the moment does not belong to a body and an axis.
+    moment   moment of inertia I of a body about one of its axes, kg m^2
+    Second route: M k^2 is the sum of m d^2 over equimomental particles, with the distance d from the axis.
+    Errors: the moment does not belong to a body and one of its axes.
     Source: Fowles, Cassiday, *Analytical Mechanics*, section 8.3.
     """
     require_kind("radius_of_gyration", "moment", moment, MOMENT)

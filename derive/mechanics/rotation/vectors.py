@@ -1,4 +1,7 @@
-"""Rotation of a rigid body: angular velocity, energy, angular momentum, angles. All vectors in body axes."""
+"""Rotation of a rigid body: angular velocity, kinetic energy, angular momentum, and angles between vectors.
+
+All vectors have components along the body axes.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +71,7 @@ class Through(Fact):
 
 @dataclass(frozen=True)
 class Momentary(Fact):
-    """The angular velocity is that of one instant, and may change."""
+    """An angular velocity that is known at one instant only, and may change afterwards."""
 
     missing = "is not the angular velocity at one instant"
     point: str
@@ -76,7 +79,7 @@ class Momentary(Fact):
 
 @dataclass(frozen=True)
 class RateOfEnergy(RateByParticles):
-    """d(1/2 w . I w)/dt is the sum of m v . a, and also w . N."""
+    """The rate of the kinetic energy, d(1/2 w . I w)/dt: the sum of m v . a, which is also w . N."""
 
     inertia: Quantity
     omega: Quantity
@@ -92,7 +95,7 @@ class RateOfEnergy(RateByParticles):
 
 @dataclass(frozen=True)
 class RateOfTurning(RateByParticles):
-    """d(I w)/dt is the sum of m r x a; its component along L is that of N."""
+    """The rate of the angular momentum L = I w in space: the sum of m r x a; its component along L is that of N."""
 
     inertia: Quantity
     omega: Quantity
@@ -108,7 +111,7 @@ class RateOfTurning(RateByParticles):
 
 @dataclass(frozen=True)
 class RateOfSquare(RateByParticles):
-    """d(v.v)/dt = 2 v.dv/dt."""
+    """The rate of the square of a vector: d(v.v)/dt = 2 v.dv/dt."""
 
     vector: Any
     of: RateByParticles
@@ -157,16 +160,16 @@ SPIN = Rule(
 def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "omega", key: str = "spin") -> Quantity:
     """Angular velocity of a steady rotation, omega d/|d|.
 
-    rate      angular speed, 1/s; a negative rate is left-handed
-    along     vector (3) along the axis
+    rate      angular speed omega, 1/s; a negative rate is a left-handed rotation
+    along     vector d (3) along the axis
     through   the point of the body on the axis of rotation, which stays at rest
-    Check: its length is the magnitude of the rate, and its scalar product with d is that of parallel vectors.
+    Check: the length of the result is the magnitude of the rate, and its scalar product with d is the rate times |d|.
     Outcomes: left_handed (the rate is negative), right_handed.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     body = along.subject.body
     if body is not None:
-        body.point(through)  # raises an error if the body has no such point
+        body.point(through)  # an error if the body has no such point
     length = tidied(Norm(along.value))
     return establish(
         SPIN,
@@ -190,38 +193,38 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
 
 
 def length_by_turning(v: Any) -> Expr:
-    """A vector's length: rotate it about z into the xz plane, then about y onto z, and take the z component."""
+    """Return the length of a vector: its z component after rotations about z into the x-z plane and about y onto z."""
     size, (x, y, z) = size_and_rest(v)
     level = _turned_onto_first(x, y)
     return tidied(size * _turned_onto_first(level, z))
 
 
 def _turned_onto_first(p: Expr, q: Expr) -> Expr:
-    """The first component of (p, q) after the rotation in their plane that makes the second one vanish."""
+    """Return the first component of (p, q) after the rotation in their plane that makes the second component vanish."""
     radius = tidied(p**2 + q**2) ** Rational(1, 2)
     return p if radius == 0 else p * (p / radius) + q * (q / radius)
 
 
 def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
-    """The integral over the body of a function of the position from the point of the tensor, times dm."""
+    """Return the integral of a function of r over the mass of the body, where r is from the point of the tensor."""
     return inertia.needed(OfBody).body.over_mass(integrand, inertia.needed(AboutPoint).point)
 
 
 def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
-    """The acceleration of the place r of the body, omega_dot x r + omega x (omega x r)."""
+    """Return the acceleration of a particle of the body as a function of r, omega_dot x r + omega x (omega x r)."""
     turning = explicit(BodyRate(omega.value, *omega.coordinates))
     return lambda r: explicit(Cross(turning, r)) + explicit(Cross(omega.value, Cross(omega.value, r)))
 
 
 def _left_by_turning(omega: Quantity) -> tuple[Any, Any]:
-    """L = I omega and I omega_dot = -omega x L of a free body in arbitrary body axes, with a non-diagonal tensor."""
+    """Return L = I omega and, for a free body, I omega_dot = -omega x L, with a general symbolic tensor."""
     xx, xy, xz, yy, yz, zz = (scalar(f"A_{pair}") for pair in ("xx", "xy", "xz", "yy", "yz", "zz"))
     momentum = explicit(applied(ImmutableDenseMatrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), omega.value))
     return momentum, -explicit(Cross(omega.value, momentum))
 
 
 def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str]:
-    """Require a tensor about the point that stays at rest, and return that point as the word of the step."""
+    """Require a tensor about the point that stays at rest, and return the words for this point in the sentence."""
     require_kind(verb, "inertia", inertia, "moment of inertia")
     require_kind(verb, "omega", omega, "angular speed")
     require_constant(verb, "inertia tensor", inertia, "a body whose size or mass changes is not rigid")
@@ -234,7 +237,7 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
 
 
 def whether_zero(v: Any) -> str:
-    """`zero`, `generic` if it vanishes for no values of its symbols, `in_general` if that is unknown."""
+    """Return `zero`; `generic` if v is not zero for any values of its symbols; `in_general` if this is unknown."""
     if is_zero(v):
         return "zero"
     common, rest = factored_matrix(v)
@@ -256,8 +259,8 @@ def kinetic_energy(
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
-    Errors: the axis does not go through the point of the tensor; the tensor changes; arguments of other kinds.
     Second route: half the integral of |omega x r|^2 dm over the body.
+    Errors: the axis does not go through the point of the tensor; the tensor changes; an argument is of another kind.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
 
@@ -288,9 +291,9 @@ def kinetic_energy(
 
 
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
-    """(1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2): the explicit sum, for numbers along principal axes.
+    """Return the line with the explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
 
-    Equal moments need no such sum.
+    The line is only for numerical components along principal axes whose moments are not all equal.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]
@@ -301,7 +304,7 @@ def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
 
 
 def _as_ratio(size: Expr) -> Expr:
-    """omega^2/14, not (1/14) omega^2."""
+    """Write a product as one fraction: omega^2/14, not (1/14) omega^2."""
     above, below = size.as_numer_denom()
     return size if below == 1 else Ratio(above, below)
 
@@ -320,13 +323,14 @@ ANGULAR_MOMENTUM = Rule(
 
 
 def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key: str = "angular_momentum") -> Quantity:
-    """Angular momentum, L = I omega: in general not along omega.
+    """Angular momentum, L = I omega, which in general is not parallel to omega.
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
-    Errors: the axis does not go through the point of the tensor; the tensor changes; arguments of other kinds.
     Second route: the integral of r x (omega x r) dm over the body.
-    Outcomes: parallel (omega is along a principal axis), generic (never), in_general (it depends on the symbols).
+    Outcomes: parallel (L is parallel to omega, which is along a principal axis), generic (L is never parallel to
+    omega), in_general (L may be parallel to omega for some values of the symbols).
+    Errors: the axis does not go through the point of the tensor; the tensor changes; an argument is of another kind.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
     """
     words = _check_point("angular_momentum", inertia, omega)
@@ -361,11 +365,11 @@ COSINE_BETWEEN = Rule(
 def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "theta") -> Quantity:
     """Cosine of the angle between two vectors, a.b/(|a||b|).
 
-    a, b    vectors (3), not zero, same axes
+    a, b    vectors (3) along the same axes, not zero
     angle   the symbol of the angle
-    Check: the law of cosines in the triangle whose sides are the two directions.
+    Check: the law of cosines in a triangle with sides along a and b.
     Outcomes: parallel, opposite, perpendicular, generic.
-    Errors: one of them vanishes; they belong to two bodies.
+    Errors: a or b vanishes; a and b belong to different bodies.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
     lengths = [tidied(Norm(v.value)) for v in (a, b)]
@@ -398,13 +402,13 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
 
 
 def _angle_by_components(u: Any, v: Any) -> Expr:
-    """The angle of v in the plane of u and v, measured from u."""
+    """Return the angle from u to v in their plane."""
     across, along = tidied(Norm(Cross(u, v))), tidied(Dot(u, v))
     return atan2(across, along)
 
 
 def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]:
-    """The scalar product and the two lengths: first as explicit sums of products, then evaluated."""
+    """Return the lines with a.b and the lengths: explicit sums of products for numbers, then the evaluated form."""
     parts = [size_and_rest(v.value) for v in (a, b)]
     (_, u), (_, v) = parts
     signed = tidied(factored_matrix(a.value)[0] * factored_matrix(b.value)[0])
@@ -421,7 +425,7 @@ def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]
 
 
 def _as_root_of_squares(size: Expr, rest: Any, length: Expr) -> Expr:
-    """M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225); a length without a root is unchanged."""
+    """Write a length with a root as a root of squares: M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225)."""
     if not length.atoms(Pow) or all(power.exp.is_Integer for power in length.atoms(Pow)):
         return length
     squares = [entry**2 for entry in rest if entry != 0]
@@ -448,9 +452,9 @@ ANGLE_BETWEEN = Rule(
 def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "angle_between") -> Quantity:
     """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
 
-    a, b    vectors (3), not zero, same axes
-    Check: |a x b| = |a||b| sin theta, and tan theta = |a x b|/(a.b), cross-multiplied: together they determine one
-    angle from 0 to pi.
+    a, b    vectors (3) along the same axes, not zero
+    Check: |a||b| sin theta = |a x b| and a.b sin theta = |a x b| cos theta, which together determine one angle from 0
+    to pi.
     Outcomes: parallel, opposite, perpendicular, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
@@ -477,7 +481,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
 
 
 def _angle_itself(angle: Expr) -> Expr:
-    """The angle alpha for arccos(cos(alpha)), if it is known to be between 0 and pi."""
+    """Return alpha for arccos(cos(alpha)), if alpha is known to be between 0 and pi."""
     inner = angle.args[0] if isinstance(angle, acos) else None
     if not isinstance(inner, cos):
         return tidied(angle)
@@ -487,6 +491,6 @@ def _angle_itself(angle: Expr) -> Expr:
 
 @dataclass(frozen=True)
 class Acting(Fact):
-    """The torque on a body in its equations of motion, column (3), N m."""
+    """The torque on a body in its equations of motion, vector (3), N m."""
 
     torque: Any
