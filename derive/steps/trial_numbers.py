@@ -26,7 +26,7 @@ from derive.steps.record import assumed
 Point: TypeAlias = Mapping[Any, Expr]
 
 TRIED = 24  # points at which a statement is tested
-DRAWN = 120  # points that are drawn until so many fulfil the conditions
+DRAWN = 240  # points that are drawn until so many fulfil the conditions
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
 PRIMES = tuple(primerange(5, 130))
 ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # signs of left minus right
@@ -34,8 +34,9 @@ SMALL = Rational(1, 10**20)  # an imaginary part, compared with the real part, t
 
 
 def trial_points(letters: Iterable[Any], *conditions: Relation, tried: int = TRIED) -> list[Point]:
-    """Return points for the letters at which the conditions hold; without letters, one empty point."""
-    chosen = sorted(letters, key=str)
+    """Return points for these letters and those of the conditions, at which the conditions hold; without letters, one
+    empty point."""
+    chosen = sorted({*letters, *(s for each in conditions for s in letters_of(explicit(each.residual)))}, key=str)
     drawn = islice(_drawn(chosen), DRAWN) if chosen else iter([{}])
     return list(islice((point for point in drawn if _fulfils(point, conditions)), tried))
 
@@ -52,8 +53,8 @@ def _drawn(letters: list[Any]) -> Iterator[Point]:
 
 
 def _size(i: int, n: int) -> Expr:
-    """Return the number of the letter with index i at point n."""
-    scale = SCALES[(n * (i + 1) + i) % 5] if n % 3 else 1
+    """Return the number of the letter with index i at point n; any two letters take all pairs of scales."""
+    scale = SCALES[(n % 5 * (i + 1) + n // 5 * (2 * i + 1) + i // 5 * (n % 3)) % 5] if n % 3 else 1
     return Rational(PRIMES[(11 * i + 5 * n + i * n) % 29], 7 + i) * scale
 
 
@@ -109,8 +110,7 @@ def signs(value: Any, points: Iterable[Point]) -> set[int | None]:
 
 def signs_of(value: Expr, *conditions: Relation) -> set[int | None]:
     """Return all signs that a value has where the conditions hold."""
-    letters = letters_of(explicit(value)).union(*(letters_of(explicit(each.residual)) for each in conditions))
-    return signs(value, trial_points(letters, *conditions))
+    return signs(value, trial_points(letters_of(explicit(value)), *conditions))
 
 
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
