@@ -20,7 +20,7 @@ from derive.algebra.tidy import tidied
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.rule import Judged, Naming, Predicate
 from derive.steps.step import is_zero
-from derive.steps.trial_numbers import Point, everywhere, holds_at, sign_at, signs_of, trial_points
+from derive.steps.trial_numbers import just_where, sign_at, signs_of
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
@@ -133,13 +133,8 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
     """
     value = with_numbers(facts.result)
     told, given = ([with_numbers(facts.inputs[r])] if r in facts.inputs else [] for r in ("condition", "existing"))
-    letters = letters_of(value).union(*(letters_of(each.residual) for each in (*told, *given)))
     allowed = {1, 0, -1} if facts.inputs["positive"] == 0 else {1}
-
-    def is_so(point: Point) -> bool:
-        return (sign_at(value, point) in allowed) == all(holds_at(each, point) for each in told)
-
-    return everywhere(trial_points(letters, *given), is_so)
+    return just_where(told, lambda point: sign_at(value, point) in allowed, letters_of(value), *given)
 
 
 def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:

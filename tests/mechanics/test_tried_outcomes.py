@@ -7,10 +7,11 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from sympy import ImmutableDenseMatrix, Integer, Rational, cos, exp, sin, sqrt, symbols
+from sympy import ImmutableDenseMatrix, Integer, Rational, acos, cos, exp, sin, sqrt, symbols
 
 from derive.algebra.expressions import TIME, Relation, scalar
 from derive.mechanics.answers.quadratics import Quadratic
+from derive.mechanics.rest import claims
 from derive.steps.record import assume, recorded
 from derive.steps.rule import RULES, Judged
 from tests.rules import holds, stated_rightly
@@ -75,7 +76,10 @@ RIGHT_AND_WRONG: list[tuple[str, str, Judged, list[Judged]]] = [
         "vibrations.gyroscopic_stability",
         "depends",
         Judged(c := Relation(S**2, ">", 4 * m * k), turning(-k, conditions=(c,))),
-        [Judged(c := Relation(S**2, ">", factor * m * k), turning(-k, conditions=(c,))) for factor in (1, 16, 100)],
+        [
+            Judged(c := Relation(S**2, ">", factor * m * k), turning(-k, conditions=(c,)))
+            for factor in (1, 3, Rational(39, 10), Rational(41, 10), 5, 16, 100)
+        ],
     ),
     (
         "vibrations.gyroscopic_motion",
@@ -139,6 +143,36 @@ def test_an_outcome_that_no_numbers_confirm_is_refused(
     assert not holds(rule, outcome, replace(right, inputs={**right.inputs, "exists": NEVER}))
 
 
+# --- equilibria ---
+
+
+FACTORS = [(Integer(1), True), (Rational(11, 10), False), (Rational(9, 10), False), (Integer(30), False)]
+
+
+@pytest.mark.parametrize(("factor", "right"), FACTORS)
+def test_an_equilibrium_exists_just_where_its_condition_says(factor: Any, right: bool) -> None:
+    """A bead on a turning hoop, cos x = k/m; the force is sin x (k - m cos x)."""
+    force = Relation(sin(x) * (k - m * cos(x)), "=", ZERO)
+    inputs = {"sought": (x,), "distances": (), "condition_0": force, "exists": Relation(m, ">", factor * k)}
+    assert claims.under_its_condition(Judged(acos(k / m), inputs)) == right
+    assert not claims.anywhere(Judged(acos(k / m), {**inputs, "exists": NEVER}))
+    del inputs["exists"]
+    assert not claims.anywhere(Judged(acos(k / m), inputs))
+    assert claims.anywhere(Judged(acos(k / (k + m)), inputs))
+
+
+@pytest.mark.parametrize(("factor", "right"), FACTORS)
+def test_an_equilibrium_is_stable_just_where_its_condition_says(factor: Any, right: bool) -> None:
+    inputs = {
+        "potential_here": k * x**2 - m * x**2 + m * x**4,
+        "coordinates": (x,),
+        "place": (ZERO,),
+        "condition": Relation(k, ">", factor * m),
+    }
+    assert claims.depends(None)(Judged(2 * k - 2 * m, inputs)) == right
+    assert not claims.depends(None)(Judged(2 * k - 2 * m, {**inputs, "exists": NEVER}))
+
+
 # --- answers ---
 
 
@@ -166,6 +200,7 @@ def test_a_comparison_holds_always_only_if_its_sign_is_the_same_for_all_numbers(
     [
         (sqrt(k - m), Relation(k, ">", m), True),
         (sqrt(k - m), Relation(k, ">", 2 * m), False),
+        (sqrt(k - m), Relation(k, ">", m * Rational(101, 100)), False),
         (sqrt(k - m), Relation(k, "<", m), False),
         (sqrt(k + m), None, True),
         (sqrt(k - m), None, False),

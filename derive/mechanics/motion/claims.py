@@ -29,7 +29,7 @@ from derive.steps.trial_numbers import (
     Point,
     assumptions_about,
     everywhere,
-    holds_at,
+    just_where,
     sign_at,
     signs_of,
     trial_points,
@@ -85,11 +85,11 @@ def _gets_there_as_told(facts: Judged) -> bool:
     value, conditions = with_numbers(there), [] if told is None else [with_numbers(told)]
     letters = letters_of(value)
 
-    def is_so(point: Point) -> bool | None:
+    def is_reached(point: Point) -> bool | None:
         sign = sign_at(value, point)
-        return None if sign is None else (sign == 1) == all(holds_at(each, point) for each in conditions)
+        return None if sign is None else sign == 1
 
-    return everywhere(trial_points(letters, *assumptions_about(letters)), is_so)
+    return just_where(conditions, is_reached, letters, *assumptions_about(letters))
 
 
 def turned_back(facts: Judged) -> bool:

@@ -56,9 +56,11 @@ from derive.steps.step import is_zero
 from derive.steps.trial_numbers import (
     Point,
     assumptions_about,
+    beside_border,
     decides,
     everywhere,
     holds_at,
+    just_where,
     sign_at,
     signs_of,
     trial_points,
@@ -113,9 +115,9 @@ def under_its_condition(facts: Judged) -> bool:
     """Whether it exists exactly where the condition holds, which some numbers fulfil and some do not."""
     if "exists" not in facts.inputs:
         return False
-    exists, points = facts.inputs["exists"], trial_points(_letters(facts))
-    fits = everywhere(points, lambda point: holds_at(exists, point) == _is_there(facts, point))
-    return fits and decides(exists, points)
+    exists, letters = facts.inputs["exists"], _letters(facts)
+    fits = just_where([exists], lambda point: _is_there(facts, point), letters)
+    return fits and decides(exists, trial_points(letters))
 
 
 def _can_be_counted(sought: Sequence[Symbol]) -> bool:
@@ -144,10 +146,19 @@ def _letters_here(facts: Judged) -> list[Any]:
     return sorted((_letters(facts) | of_energy) - set(_moving(facts)), key=str)
 
 
-def _signs_by_numbers(facts: Judged) -> list[tuple[Point, int]]:
-    """Return numbers for the letters, for which the equilibrium exists, with the sign of the energy to second order."""
-    exists, letters = facts.inputs.get("exists"), _letters_here(facts)
-    points = trial_points(letters, *([] if exists is None else [exists]))
+def _exists(facts: Judged) -> list[Relation]:
+    return [facts.inputs["exists"]] if "exists" in facts.inputs else []
+
+
+def numbers_here(facts: Judged) -> list[Point]:
+    """Return trial numbers for which the equilibrium exists."""
+    return trial_points(_letters_here(facts), *_exists(facts))
+
+
+def _signs_by_numbers(facts: Judged, beside: Sequence[Relation] = ()) -> list[tuple[Point, int]]:
+    """Return trial numbers, also some beside the borders of conditions, with the sign of the energy to second order."""
+    letters, points = _letters_here(facts), numbers_here(facts)
+    points += [point for each in beside for point in beside_border(each, points, *_exists(facts))]
     numbers = tuple(tuple(point[s] for s in letters) for point in points)
     signs = _signs_at(facts.inputs["potential_here"], _moving(facts), facts.inputs["place"], tuple(letters), numbers)
     return list(zip(points, signs, strict=True))
@@ -237,10 +248,6 @@ def nothing_turns_it(facts: Judged) -> bool:
     return matter is None or not is_turned_aside(matter, _at_rest(facts), there)
 
 
-def numbers_here(facts: Judged) -> list[Point]:
-    return trial_points(_letters_here(facts))
-
-
 def _at_rest(facts: Judged) -> dict[Any, Expr]:
     return dict(zip(_moving(facts), facts.inputs["place"], strict=True))
 
@@ -282,7 +289,7 @@ def depends(border: str | None) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         condition, where = facts.inputs["condition"], facts.inputs.get("at_border")
-        found = _signs_by_numbers(facts)
+        found = _signs_by_numbers(facts, [condition])
         fits = all(holds_at(condition, point) == (sign == 1) for point, sign in found if sign)
         fits &= decides(condition, [point for point, _ in found])
         if border is None or where is None or not fits:
