@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from itertools import permutations
+from typing import Any
 
 import pytest
 from sympy import Expr, Poly, log, sqrt, symbols
 
+from derive.algebra import ranges
 from derive.algebra.expressions import Relation
 from derive.algebra.order import Order, in_order
 from derive.algebra.ranges import Range, sign_within, within
 from derive.algebra.samples import NoNumber
+from derive.steps import known_numbers
 from derive.steps.record import Run, assume, recorded
 from derive.steps.trial_numbers import (
     TRIED,
@@ -115,3 +118,13 @@ def test_roots_that_are_not_found_are_no_roots() -> None:
 def test_an_assumed_order_is_kept() -> None:
     with in_order(Order().with_relation(k - m, True, sign_within)):
         assert signs_of(k - m) == {1}
+
+
+def test_trial_numbers_do_not_use_the_signs_by_which_verbs_decide(monkeypatch: pytest.MonkeyPatch) -> None:
+    def asked(*_: Any) -> Any:
+        raise AssertionError
+
+    for module, name in ((known_numbers, "sign_known"), (ranges, "sign_within"), (ranges, "strict_sign_within")):
+        monkeypatch.setattr(module, name, asked)
+    with within({x: Range(ONE, 3 * ONE)}):
+        assert signs_of(k * x - x * 50, Relation(m, ">", k)) == {1, -1}
