@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, ParamSpec
 
 from sympy import (
     Expr,
@@ -18,9 +18,11 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.steps.known_numbers import sign_known, with_numbers
-from derive.steps.rule import Judged, Naming, Predicate
+from derive.steps.rule import Doubt, Judged, Naming, Predicate
 from derive.steps.step import is_zero
 from derive.steps.trial_numbers import just_where, sign_at, signs_of
+
+Asked = ParamSpec("Asked")
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
@@ -72,6 +74,20 @@ MARK_OF = {  # name of a comparison -> its sign
     "at_least": ">=",
     "at_most": "<=",
 }
+
+
+def both(*predicates: Callable[Asked, bool | Doubt]) -> Callable[Asked, bool]:
+    """Join predicates of outcomes, or of statements, that must all be true."""
+    return lambda *judged, **more: all(predicate(*judged, **more) for predicate in predicates)
+
+
+def negated(predicate: Predicate) -> Predicate:
+    return lambda facts: not predicate(facts)
+
+
+def vanishing(role: str) -> Predicate:
+    """Judge whether an input is zero."""
+    return lambda facts: is_zero(facts.inputs[role])
 
 
 def vanishes(facts: Judged) -> bool:

@@ -21,7 +21,7 @@ from derive.algebra.expressions import explicit, rate
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.mechanics.motion.facts import ByEnergy, Steady
-from derive.steps.claims import same_equation, sign_is, value_of_role
+from derive.steps.claims import negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.step import is_zero
@@ -213,12 +213,11 @@ def product_one_of_several(facts: Judged) -> bool:
     return bool(facts.inputs["of_many"] > 1 and times_its_factor(facts))
 
 
-def steady_motion_generic(facts: Judged) -> bool:
-    return bool(not is_zero(facts.result.residual))
-
-
 def steady_motion_always(facts: Judged) -> bool:
-    return bool(is_zero(facts.result.residual))
+    return is_zero(facts.result.residual)
+
+
+steady_motion_generic: Predicate = negated(steady_motion_always)
 
 
 handed_on_by(ByEnergy, by_energy)

@@ -32,11 +32,16 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.vibrations.facts import Linear, Mode, SquareOf
 from derive.steps.claims import (
     always_sign,
+    both,
     is_a_root_just_where_told,
+    lasts,
+    negated,
     not_negative,
     nowhere_negative_where_real,
     same_equation,
     sign_where_it_exists,
+    vanishes,
+    vanishing,
 )
 from derive.steps.known_numbers import sign_known
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
@@ -610,8 +615,7 @@ def lag_as_written(facts: Judged, outcome: str) -> bool:
     return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
 
 
-def gyroscopic_characteristic_plain(facts: Judged) -> bool:
-    return bool(not has_turning(facts))
+gyroscopic_characteristic_plain: Predicate = negated(has_turning)
 
 
 def gyroscopic_motion_generic(facts: Judged) -> bool:
@@ -646,23 +650,19 @@ def damped_shape_generic(facts: Judged) -> bool:
     return bool(len(facts.result) > 1)
 
 
-def mode_shape_generic(facts: Judged) -> bool:
-    return bool(oscillates(facts) and not repeated(facts))
+mode_shape_generic: Predicate = both(oscillates, negated(repeated))
 
 
-def mode_shape_uniform(facts: Judged) -> bool:
-    return bool(is_zero(facts.inputs["squared"]))
+mode_shape_uniform: Predicate = vanishing("squared")
 
 
 mode_shape_departing: Predicate = always_sign(-1, lambda facts: facts.inputs["squared"])
 
 
-def frequency_squared_about_neutral(facts: Judged) -> bool:
-    return bool(is_zero(facts.result))
+frequency_squared_about_neutral: Predicate = vanishes
 
 
-def frequency_squared_about_conditional(facts: Judged) -> bool:
-    return bool(not is_zero(facts.result))
+frequency_squared_about_conditional: Predicate = lasts
 
 
 handed_on_by(SquareOf, square)
