@@ -153,16 +153,18 @@ def value_at(expr: Expr, point: SamplePoint) -> Expr:
     before: Any = None
     for digits in (30, *WORKING):
         with mp.workdps(digits):
+            values = Values(point)
             try:
-                now = Values(point)(expr)
+                now = values(expr)
             except Undefined:  # a divisor that has lost all its digits
                 if digits == WORKING[-1]:
                     raise
                 continue
             if now and before is not None and abs(before - now) <= abs(now) * mp.mpf(10) ** -25:
                 return as_sympy(now)
-            if before is not None and digits == WORKING[-1] and _shrinks(abs(before), abs(now)):
-                return S.Zero
+            if before is not None and digits == WORKING[-1]:
+                if _shrinks(abs(before), abs(now)) or before == 0 and values.cancelled:
+                    return S.Zero
             before = now
     raise NoNumber(expr)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, ParamSpec
 
 from sympy import (
     Expr,
@@ -18,10 +18,12 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.steps.known_numbers import with_numbers
-from derive.steps.rule import Judged, Naming, Predicate
+from derive.steps.rule import Doubt, Judged, Naming, Predicate
 from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
-from derive.steps.trial_numbers import Point, everywhere, holds_at, sign_at, signs_of, trial_points
+from derive.steps.trial_numbers import just_where, sign_at, signs_of
+
+Asked = ParamSpec("Asked")
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
@@ -73,6 +75,20 @@ MARK_OF = {  # name of a comparison -> its sign
     "at_least": ">=",
     "at_most": "<=",
 }
+
+
+def both(*predicates: Callable[Asked, bool | Doubt]) -> Callable[Asked, bool]:
+    """Join predicates of outcomes, or of statements, that must all be true."""
+    return lambda *judged, **more: all(predicate(*judged, **more) for predicate in predicates)
+
+
+def negated(predicate: Predicate) -> Predicate:
+    return lambda facts: not predicate(facts)
+
+
+def vanishing(role: str) -> Predicate:
+    """Judge whether an input is zero."""
+    return lambda facts: is_zero(facts.inputs[role])
 
 
 def vanishes(facts: Judged) -> bool:
@@ -134,13 +150,8 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
     """
     value = with_numbers(facts.result)
     told, given = ([with_numbers(facts.inputs[r])] if r in facts.inputs else [] for r in ("condition", "existing"))
-    letters = letters_of(value).union(*(letters_of(each.residual) for each in (*told, *given)))
     allowed = {1, 0, -1} if facts.inputs["positive"] == 0 else {1}
-
-    def is_so(point: Point) -> bool:
-        return (sign_at(value, point) in allowed) == all(holds_at(each, point) for each in told)
-
-    return everywhere(trial_points(letters, *given), is_so)
+    return just_where(told, lambda point: sign_at(value, point) in allowed, letters_of(value), *given)
 
 
 def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:

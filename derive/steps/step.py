@@ -18,8 +18,8 @@ from derive.algebra.kinds import kind_with_article
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.level import ON_ITS_OWN, Display
-from derive.steps.rule import Theorem
 from derive.steps.level import Level as Level  # modules that make forms import it from here
+from derive.steps.rule import Theorem
 from derive.steps.subject import NOTHING, Subject
 
 NUMBERS = ("value", "rounded")  # reasons of the last forms of a chain: the number in a unit, exact or rounded

@@ -10,7 +10,7 @@ at each point where it has a meaning, and if there is such a point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import count, islice
 from typing import Any, TypeAlias
 
@@ -18,6 +18,7 @@ from mpmath.libmp import NoConvergence
 from sympy import Expr, Integer, Poly, Rational, primerange
 
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
+from derive.algebra.order import known_order
 from derive.algebra.ranges import fulfilling, range_of, rational_in_range
 from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
 from derive.steps.known_numbers import with_numbers
@@ -26,7 +27,8 @@ from derive.steps.record import assumed
 Point: TypeAlias = Mapping[Any, Expr]
 
 TRIED = 24  # points at which a statement is tested
-DRAWN = 120  # points that are drawn until so many fulfil the conditions
+DRAWN = 240  # points that are drawn until so many fulfil the conditions
+PAIRS, HALVINGS = 4, 10  # pairs of points beside a border; halvings of the way between two points
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
 PRIMES = tuple(primerange(5, 130))
 ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # signs of left minus right
@@ -34,8 +36,9 @@ SMALL = Rational(1, 10**20)  # an imaginary part, compared with the real part, t
 
 
 def trial_points(letters: Iterable[Any], *conditions: Relation, tried: int = TRIED) -> list[Point]:
-    """Return points for the letters at which the conditions hold; without letters, one empty point."""
-    chosen = sorted(letters, key=str)
+    """Return points for these letters and those of the conditions, at which the conditions hold; without letters, one
+    empty point."""
+    chosen = sorted({*letters, *(s for each in conditions for s in letters_of(explicit(each.residual)))}, key=str)
     drawn = islice(_drawn(chosen), DRAWN) if chosen else iter([{}])
     return list(islice((point for point in drawn if _fulfils(point, conditions)), tried))
 
@@ -52,8 +55,8 @@ def _drawn(letters: list[Any]) -> Iterator[Point]:
 
 
 def _size(i: int, n: int) -> Expr:
-    """Return the number of the letter with index i at point n."""
-    scale = SCALES[(n * (i + 1) + i) % 5] if n % 3 else 1
+    """Return the number of the letter with index i at point n; any two letters take all pairs of scales."""
+    scale = SCALES[(n % 5 * (i + 1) + n // 5 * (2 * i + 1) + i // 5 * (n % 3)) % 5] if n % 3 else 1
     return Rational(PRIMES[(11 * i + 5 * n + i * n) % 29], 7 + i) * scale
 
 
@@ -109,8 +112,7 @@ def signs(value: Any, points: Iterable[Point]) -> set[int | None]:
 
 def signs_of(value: Expr, *conditions: Relation) -> set[int | None]:
     """Return all signs that a value has where the conditions hold."""
-    letters = letters_of(explicit(value)).union(*(letters_of(explicit(each.residual)) for each in conditions))
-    return signs(value, trial_points(letters, *conditions))
+    return signs(value, trial_points(letters_of(explicit(value)), *conditions))
 
 
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
@@ -140,6 +142,51 @@ def as_rational(number: Expr) -> Expr:
 def decides(condition: Relation, points: Iterable[Point]) -> bool:
     """Whether a condition is true at some of the points and false at others."""
     return {holds_at(condition, point) for point in points} == {True, False}
+
+
+def just_where(
+    conditions: Sequence[Relation], is_so: Callable[[Point], bool | None], letters: Iterable[Any], *given: Relation
+) -> bool:
+    """Whether a statement is true exactly at those points where all conditions hold, also beside their borders.
+
+    letters   letters of the statement
+    given     conditions under which it is made
+    """
+
+    def agrees(point: Point) -> bool | None:
+        verdict = is_so(point)
+        return None if verdict is None else verdict == all(holds_at(each, point) for each in conditions)
+
+    chosen = {*letters, *(s for each in conditions for s in letters_of(explicit(each.residual)))}
+    points = trial_points(chosen, *given)
+    beside = [point for each in conditions for point in beside_border(each, points, *given)]
+    return everywhere([*points, *beside], agrees)
+
+
+def beside_border(condition: Relation, points: Sequence[Point], *given: Relation) -> list[Point]:
+    """Return pairs of points on the two sides of the border of a condition, by halving the way between two points."""
+    ahead, behind = ([point for point in points if _side(condition, point) is side] for side in (True, False))
+    pairs = [_narrowed(condition, *ends) for ends in islice(zip(ahead, behind, strict=False), PAIRS)]
+    kept = [*given, *(Relation(each, ">", 0) for each in known_order().positive)]
+    return [point for pair in pairs for point in pair if _fulfils(point, kept)]
+
+
+def _side(condition: Relation, point: Point) -> bool | None:
+    try:
+        return holds_at(condition, point)
+    except (Undefined, NoNumber):
+        return None
+
+
+def _narrowed(condition: Relation, one: Point, other: Point) -> tuple[Point, ...]:
+    """Return two points close to each other: at the first one the condition holds, at the second it does not."""
+    for _ in range(HALVINGS):
+        middle = {s: (number + other[s]) / 2 for s, number in one.items()}
+        side = _side(condition, middle)
+        if side is None:
+            return ()
+        one, other = (middle, other) if side else (one, middle)
+    return one, other
 
 
 def _judged(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> list[bool]:

@@ -19,6 +19,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from sympy import Expr, Symbol
 
 from derive.algebra.expressions import TIME, rate
@@ -72,6 +73,11 @@ class Blueprint:
         """All constants that need a number."""
         tapes = [self.places, self.weights, *self.pulls, self.energies, self.forces, self.conditions, self.lagrangian]
         return {letter for tape in tapes for letter in tape.letters}
+
+    @cached_property
+    def in_rates(self) -> NDArray[np.bool_]:
+        """Whether each condition is one in rates."""
+        return np.array([c.in_rates for c in self.of.conditions], dtype=bool)
 
     def with_numbers(self, numbers: Mapping[Symbol, float]) -> Dynamics:
         return Dynamics(self, numbers)
@@ -263,14 +269,14 @@ class Dynamics:
         """The residuals of the conditions on places (zero for those in rates), and the rates of violation of all."""
         here = np.concatenate([state.q, state.v, [state.t]]).astype(complex)[:, None]
         residuals = np.real(self._conditions(here))[:, 0]
-        in_rates = np.array([c.in_rates for c in self.blueprint.of.conditions], dtype=bool)
+        in_rates = self.blueprint.in_rates
         _, _, along = self._slopes_of_conditions(state)
         return np.where(in_rates, 0.0, residuals), np.where(in_rates, residuals, along[:, 0])
 
     def gradients(self, state: State) -> tuple[Reals, Reals]:
         """The gradients of the conditions on places, by coordinates, and of all conditions, by rates."""
         by_places, by_rates, _ = self._slopes_of_conditions(state)
-        in_rates = np.array([c.in_rates for c in self.blueprint.of.conditions], dtype=bool)
+        in_rates = self.blueprint.in_rates
         on_places = by_places.copy()
         on_places[in_rates] = 0.0
         return on_places, np.where(in_rates[:, None], by_rates, by_places)

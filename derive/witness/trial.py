@@ -14,6 +14,7 @@ from typing import Any
 from zlib import crc32
 
 import numpy as np
+from numpy.typing import NDArray
 from sympy import Expr, Symbol
 
 from derive.algebra.expressions import TIME, Relation, explicit, rate
@@ -260,9 +261,8 @@ class Trial:
     def _by_time(self, state: State) -> Reals:
         """The partial derivatives by time of the conditions on places."""
         at_rest = replace(state, v=np.zeros_like(state.v))
-        in_rates = np.array([c.in_rates for c in self.blueprint.of.conditions], dtype=bool)
         _, violation = self.dynamics.violation(at_rest)
-        return np.where(in_rates, 0.0, violation)
+        return np.where(self.blueprint.in_rates, 0.0, violation)
 
     def _as_assumed(self, state: State) -> bool:
         """Whether the assumptions of the page about places and rates hold in this state."""
@@ -303,18 +303,18 @@ class Formulas:
 
     def at(self, state: State, response: Response | None = None) -> Reals:
         """The values in a state; without a response, accelerations and multipliers count as zero."""
+        return np.array([_real(x) for x in self._values(state, response)])
+
+    def complex_at(self, state: State) -> complex:
+        """The value of the first formula at a state, which may be imaginary."""
+        return complex(self._values(state)[0])
+
+    def _values(self, state: State, response: Response | None = None) -> NDArray[np.complex128]:
         n, rows = len(state.q), len(self.trial.blueprint.multipliers)
         a, kept = (response.a, response.multipliers) if response is not None else (np.zeros(n), np.zeros(rows))
         momenta = self.trial.dynamics.momenta(state)[[k for _, k in self._momenta]] if self._momenta else np.zeros(0)
         point = np.concatenate([state.q, state.v, a, kept, momenta, [state.t]]).astype(complex)
-        return np.array([_real(x) for x in self._bound(point[:, None])[:, 0]])
-
-    def complex_at(self, state: State) -> complex:
-        """The value of the first formula at a state, which may be imaginary."""
-        n, rows = len(state.q), len(self.trial.blueprint.multipliers)
-        momenta = self.trial.dynamics.momenta(state)[[k for _, k in self._momenta]] if self._momenta else np.zeros(0)
-        point = np.concatenate([state.q, state.v, np.zeros(n + rows), momenta, [state.t]]).astype(complex)
-        return complex(self._bound(point[:, None])[0, 0])
+        return self._bound(point[:, None])[:, 0]
 
     def rate_at(self, state: State, response: Response) -> Reals:
         """The time derivatives of the values along the motion; the values may depend on places, rates and time."""

@@ -97,6 +97,13 @@ def test_a_value_is_taken_in_digits_enough_however_much_cancels() -> None:
     assert value_at(sin(x) ** 2 + cos(x) ** 2 - 1, {x: Rational(1, 3)}) == 0
 
 
+def test_a_value_that_rounds_to_zero_in_few_digits_only_is_zero() -> None:
+    y = Symbol("y")
+    point = {x: Rational(47, 2100), y: Rational(-31, 2400)}
+    assert value_at(x - x * (y + 1) + x * y, point) == 0
+    assert value_at(x - x * (y + 1) + x * y + Rational(1, 10**50), point) != 0
+
+
 @pytest.mark.parametrize(
     ("expr", "zero"),
     [

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from sympy import Integer, Symbol, cos, exp, pi, symbols
 
-from derive.algebra.expressions import TIME, Relation, rate, scalar
+from derive.algebra.expressions import TIME, Relation, Slope, rate, scalar
 from derive.errors import Unverified
 from derive.mechanics import (
     Blow,
@@ -30,13 +30,12 @@ from derive.mechanics import (
 from derive.mechanics.arguments import checked
 from derive.mechanics.lagrange.facts import KeptMomentum
 from derive.mechanics.model.forces import Charge, GivenForce
-from derive.mechanics.rest.facts import LowestOrder
 from derive.mechanics.vibrations.facts import SquareOf
 from derive.steps.record import recorded
 from derive.steps.rule import Judged, wrongly_handed_on
 from derive.steps.step import Quantity
 from tests.mutation.runs import RUNS
-from tests.rules import wrongly_named
+from tests.rules import stated_rightly, wrongly_named
 
 M, m, R, l, h, k, K, s = symbols("M m R l h k K s", positive=True)
 x, w = scalar("x"), scalar("w")
@@ -185,8 +184,13 @@ def test_the_letter_of_a_square_is_that_of_its_left_side() -> None:
     assert wrongly_handed_on(facts, [SquareOf("Omega")]) is not None
 
 
-def test_the_lowest_order_of_a_potential_is_that_of_its_derivatives() -> None:
-    """k x^4/4: the fourth derivative at 0 is 6 k, the coefficient k/4."""
-    facts = Judged(k * x**4 / 4, {"coordinate": x, "place": Integer(0)})
-    assert wrongly_handed_on(facts, [LowestOrder(4, k / 4)]) is None
-    assert wrongly_handed_on(facts, [LowestOrder(4, -k / 4)]) is not None
+@pytest.mark.parametrize("energy", [k * x**2 / 2, k * (abs(x - l) - h) ** 2 / 2])
+def test_a_slope_is_that_of_the_potential_that_its_symbol_shows(energy: Any) -> None:
+    potential = let("energy", lambda: energy, symbol="U")
+    own, other = Slope(potential.symbol, x, Integer(1)), Slope(w, x, Integer(1))
+    right = energy.diff(x).doit()
+    facts = Judged(right, quantities={"potential": potential}, symbol=own)
+    assert stated_rightly("rest.slope", "slope", facts)
+    assert not stated_rightly("rest.slope", "slope", replace(facts, result=2 * right))
+    assert not stated_rightly("rest.slope", "slope", replace(facts, result=-right))
+    assert not stated_rightly("rest.slope", "slope", replace(facts, symbol=other))

@@ -33,10 +33,15 @@ from derive.algebra.tidy import tidied
 from derive.solving.root_of_factor import RootOf
 from derive.steps.claims import (
     MARK_OF,
+    both,
     is_a_root_just_where_told,
     letters_in,
+    negated,
     same_equation,
+    sign_is,
     value_of_role,
+    vanishes,
+    vanishing,
 )
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
@@ -318,7 +323,11 @@ LARGER = roots_fit(lambda this, other, b: abs(this) > abs(other) and this * othe
 
 def whether(real: bool, predicate: Predicate) -> Predicate:
     """Check also whether the roots are known to be real, or this is unknown."""
-    return lambda facts: (sign_known(facts.inputs["quadratic"].discriminant) == 1) == real and predicate(facts)
+    return lambda facts: (sign_known(_discriminant(facts)) == 1) == real and predicate(facts)
+
+
+def _discriminant(facts: Judged) -> Expr:
+    return facts.inputs["quadratic"].discriminant
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
@@ -502,20 +511,17 @@ def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
     return aim == to if aim in (oo, -oo) else is_zero(aim * facts.inputs["x"] / goes - to)
 
 
-def put_in_zero(facts: Judged) -> bool:
-    return bool(put_in(True)(facts) and is_zero(facts.result))
+put_in_zero: Predicate = both(put_in(True), vanishes)
 
 
 def put_in_again(facts: Judged) -> bool:
-    return bool(bool(equal(facts.result, facts.inputs["found"])))
+    return bool(equal(facts.result, facts.inputs["found"]))
 
 
-def where_never(facts: Judged) -> bool:
-    return bool(always(False)(facts) and not is_zero(facts.inputs["difference"]))
+where_never: Predicate = both(always(False), negated(vanishing("difference")))
 
 
-def where_equal(facts: Judged) -> bool:
-    return bool(always(False)(facts) and is_zero(facts.inputs["difference"]))
+where_equal: Predicate = both(always(False), vanishing("difference"))
 
 
 def limiting_case_finite(facts: Judged) -> bool:
@@ -534,20 +540,17 @@ one_of_two_nearer: Predicate = roots_fit(lambda this, other, b: this * other < 0
 one_of_two_farther: Predicate = roots_fit(lambda this, other, b: this * other < 0 and abs(this) > abs(other))
 
 
-def one_of_two_coinciding(facts: Judged) -> bool:
-    return bool(sign_known(facts.inputs["quadratic"].discriminant) == 0)
+one_of_two_coinciding: Predicate = sign_is(0, _discriminant)
 
 
-def one_of_two_none(facts: Judged) -> bool:
-    return bool(sign_known(facts.inputs["quadratic"].discriminant) == -1)
+one_of_two_none: Predicate = sign_is(-1, _discriminant)
 
 
 def combination_generic(facts: Judged) -> bool:
-    return bool(bool(facts.inputs))
+    return bool(facts.inputs)
 
 
-def combination_named(facts: Judged) -> bool:
-    return bool(not facts.inputs)
+combination_named: Predicate = negated(combination_generic)
 
 
 handed_on_by(RootOf, root)

@@ -19,6 +19,7 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.mapping import inside
+from derive.steps.claims import both, lasts, negated, vanishes
 from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
@@ -173,8 +174,7 @@ def axis_as_named(facts: Judged, outcome: str) -> bool:
     return outcome != "diagonal" or facts.words["axis"] == outcome
 
 
-def density_volume(facts: Judged) -> bool:
-    return bool(dimensions_of_filling(3)(facts) and not has_edges(facts))
+density_volume: Predicate = both(dimensions_of_filling(3), negated(has_edges))
 
 
 def density_derived(facts: Judged) -> bool:
@@ -186,19 +186,16 @@ def volume_cylindrical(facts: Judged) -> bool:
 
 
 def section_radius_straight(facts: Judged) -> bool:
-    return bool(is_zero(diff(facts.result, facts.inputs["along"], 2)))
+    return is_zero(diff(facts.result, facts.inputs["along"], 2))
 
 
-def section_radius_curved(facts: Judged) -> bool:
-    return bool(not is_zero(diff(facts.result, facts.inputs["along"], 2)))
+section_radius_curved: Predicate = negated(section_radius_straight)
 
 
-def centre_of_mass_by_components(facts: Judged) -> bool:
-    return bool(is_by_integration(facts) and not is_zero(facts.result))
+centre_of_mass_by_components: Predicate = both(is_by_integration, lasts)
 
 
-def centre_of_mass_there(facts: Judged) -> bool:
-    return bool(is_by_integration(facts) and is_zero(facts.result))
+centre_of_mass_there: Predicate = both(is_by_integration, vanishes)
 
 
 handed_on_by(CountedFrom, facts_counted_from)

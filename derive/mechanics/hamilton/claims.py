@@ -10,7 +10,7 @@ from derive.mechanics.hamilton.facts import Constant, PhaseSpace
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.mechanics.lagrange.facts import Energies, energies_of
 from derive.mechanics.model.dalembert import Matter
-from derive.steps.claims import value_of_role, vanishes
+from derive.steps.claims import both, value_of_role, vanishes
 from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.step import Quantity, is_zero
 
@@ -84,8 +84,7 @@ def bracket_as_told(facts: Judged, outcome: str) -> bool:
     return own and list(facts.symbol.args[:2]) == named
 
 
-def poisson_bracket_conserved(facts: Judged) -> bool:
-    return bool(vanishes(facts) and keeps_along_the_motion(facts))
+poisson_bracket_conserved: Predicate = both(vanishes, keeps_along_the_motion)
 
 
 def rate_by_momenta_alone(facts: Judged) -> bool:

@@ -28,9 +28,10 @@ from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.mechanics.lagrange.facts import Energies, ForceOf, KeptMomentum, WithMomenta, energies_of
 from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Matter
-from derive.steps.claims import lasts, letters_in, parallel, value_of_role
+from derive.steps.claims import both as both
+from derive.steps.claims import lasts, letters_in, negated, parallel, value_of_role
 from derive.steps.record import assumed, assumed_in_words, coordinates_in
-from derive.steps.rule import Judged, Predicate, Statement, handed_on_by
+from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.step import Quantity, is_zero
 from derive.steps.trial_numbers import Point, everywhere, trial_points
 
@@ -145,7 +146,7 @@ def _never_gains(power: Expr, moving: tuple[Symbol, ...]) -> bool:
     return is_zero(at_rest) and is_zero(turned - power) and all(bool(each.is_nonnegative) for each in minors)
 
 
-def carries_momenta_alone(facts: Judged) -> bool:
+def noether_symmetry(facts: Judged) -> bool:
     """With no rates and no prescribed motion, only the gain of L under the shift remains."""
     return is_zero(facts.inputs["gain"])
 
@@ -168,8 +169,7 @@ def cyclic(facts: Judged) -> bool:
     return is_zero(slope(explicit(facts.inputs["lagrangian"]), facts.inputs["coordinate"]))
 
 
-def not_cyclic(facts: Judged) -> bool:
-    return not cyclic(facts)
+not_cyclic: Predicate = negated(cyclic)
 
 
 def by_its_coordinate(facts: Judged, outcome: str) -> bool:
@@ -277,10 +277,6 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     return all(any(is_zero(diff(residual, letter) + f) for f in along) for letter in facts.inputs["letters"])
 
 
-def both(one: Statement, other: Statement) -> Statement:
-    return lambda facts, outcome: one(facts, outcome) and other(facts, outcome)
-
-
 def change_under_shift_none(facts: Judged) -> bool:
     return bool(facts.result.operator == "=" and is_zero(facts.result.right))
 
@@ -289,12 +285,7 @@ def change_under_shift_gain(facts: Judged) -> bool:
     return bool(facts.result.operator == "=" and not is_zero(facts.result.right))
 
 
-def noether_symmetry(facts: Judged) -> bool:
-    return bool(carries_momenta_alone(facts))
-
-
-def noether_with_gain(facts: Judged) -> bool:
-    return bool(not carries_momenta_alone(facts))
+noether_with_gain: Predicate = negated(noether_symmetry)
 
 
 def squared_speed_alone(facts: Judged) -> bool:
@@ -321,16 +312,14 @@ def lagrangian_generic(facts: Judged) -> bool:
     return bool("magnetic" not in facts.inputs)
 
 
-def lagrangian_in_field(facts: Judged) -> bool:
-    return bool("magnetic" in facts.inputs)
+lagrangian_in_field: Predicate = negated(lagrangian_generic)
 
 
 def constraint_rate_in_rates(facts: Judged) -> bool:
     return bool(has_rates(facts.inputs["condition"]))
 
 
-def constraint_rate_in_coordinates(facts: Judged) -> bool:
-    return bool(not has_rates(facts.inputs["condition"]))
+constraint_rate_in_coordinates: Predicate = negated(constraint_rate_in_rates)
 
 
 def _is_constrained(facts: Judged) -> bool:
@@ -338,36 +327,28 @@ def _is_constrained(facts: Judged) -> bool:
     return bool(kept and kept.constraints)
 
 
-def acceleration_with_constraints(facts: Judged) -> bool:
-    return bool(lasts(facts) and _is_constrained(facts))
+acceleration_with_constraints: Predicate = both(lasts, _is_constrained)
 
 
-def acceleration_without_constraints(facts: Judged) -> bool:
-    return bool(lasts(facts) and not _is_constrained(facts))
+acceleration_without_constraints: Predicate = both(lasts, negated(_is_constrained))
 
 
-def multiplier_generic(facts: Judged) -> bool:
-    return bool(lasts(facts) and not is_stretched(facts))
+multiplier_generic: Predicate = both(lasts, negated(is_stretched))
 
 
-def multiplier_multiplier(facts: Judged) -> bool:
-    return bool(lasts(facts) and is_stretched(facts))
+multiplier_multiplier: Predicate = both(lasts, is_stretched)
 
 
-def forced_equation_applied(facts: Judged) -> bool:
-    return bool(has_applied(facts) and not has_kept(facts))
+forced_equation_applied: Predicate = both(has_applied, negated(has_kept))
 
 
-def forced_equation_kept(facts: Judged) -> bool:
-    return bool(has_kept(facts) and not has_applied(facts))
+forced_equation_kept: Predicate = both(has_kept, negated(has_applied))
 
 
-def forced_equation_both(facts: Judged) -> bool:
-    return bool(has_kept(facts) and has_applied(facts))
+forced_equation_both: Predicate = both(has_kept, has_applied)
 
 
-def forced_equation_free(facts: Judged) -> bool:
-    return bool(not has_kept(facts) and not has_applied(facts))
+forced_equation_free: Predicate = both(negated(has_kept), negated(has_applied))
 
 
 handed_on_by(KeptMomentum, kept_momentum)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from sympy import eye
 
-from derive.steps.rule import Judged
+from derive.steps.claims import both, negated
+from derive.steps.rule import Judged, Predicate
 from derive.steps.step import is_zero
 
 
@@ -42,9 +43,7 @@ def component_place(facts: Judged) -> bool:
     return bool("centre" not in facts.inputs)
 
 
-def angular_velocity_body(facts: Judged) -> bool:
-    return bool(along_body(facts) and not along_space(facts))
+angular_velocity_body: Predicate = both(along_body, negated(along_space))
 
 
-def angular_velocity_following(facts: Judged) -> bool:
-    return bool(not along_body(facts) and not along_space(facts))
+angular_velocity_following: Predicate = both(negated(along_body), negated(along_space))

@@ -21,7 +21,7 @@ from derive.algebra.expressions import explicit, rate
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.mechanics.motion.facts import ByEnergy, Steady
-from derive.steps.claims import same_equation, sign_is, value_of_role
+from derive.steps.claims import negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.signs import sign_known
@@ -30,7 +30,7 @@ from derive.steps.trial_numbers import (
     Point,
     assumptions_about,
     everywhere,
-    holds_at,
+    just_where,
     sign_at,
     signs_of,
     trial_points,
@@ -86,11 +86,11 @@ def _gets_there_as_told(facts: Judged) -> bool:
     value, conditions = with_numbers(there), [] if told is None else [with_numbers(told)]
     letters = letters_of(value)
 
-    def is_so(point: Point) -> bool | None:
+    def is_reached(point: Point) -> bool | None:
         sign = sign_at(value, point)
-        return None if sign is None else (sign == 1) == all(holds_at(each, point) for each in conditions)
+        return None if sign is None else sign == 1
 
-    return everywhere(trial_points(letters, *assumptions_about(letters)), is_so)
+    return just_where(conditions, is_reached, letters, *assumptions_about(letters))
 
 
 def turned_back(facts: Judged) -> bool:
@@ -214,12 +214,11 @@ def product_one_of_several(facts: Judged) -> bool:
     return bool(facts.inputs["of_many"] > 1 and times_its_factor(facts))
 
 
-def steady_motion_generic(facts: Judged) -> bool:
-    return bool(not is_zero(facts.result.residual))
-
-
 def steady_motion_always(facts: Judged) -> bool:
-    return bool(is_zero(facts.result.residual))
+    return is_zero(facts.result.residual)
+
+
+steady_motion_generic: Predicate = negated(steady_motion_always)
 
 
 handed_on_by(ByEnergy, by_energy)

@@ -24,7 +24,6 @@ from sympy import (
     default_sort_key,
     diff,
     factor_list,
-    factorial,
     gcd_list,
     lambdify,
     sign,
@@ -37,17 +36,12 @@ from derive.algebra.expressions import At, Relation, Slope, explicit, rate
 from derive.algebra.ranges import has_meaning, range_of
 from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
-from derive.mechanics.rest.facts import DerivativeOf, LowestOrder, Shape, StableWhere
+from derive.mechanics.rest.facts import Shape, StableWhere
 from derive.mechanics.rest.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
 from derive.mechanics.rest.on_constraints import signs_on_constraints
 from derive.mechanics.rest.searched import none_is_missing
-from derive.steps.claims import (
-    always_sign,
-    lasts,
-    same_equation,
-    value_of_role,
-    vanishes,
-)
+from derive.steps.claims import always_sign, negated, same_equation, value_of_role
+from derive.steps.claims import both as both
 from derive.steps.numeric import Extreme
 from derive.steps.record import assumed, assumed_in_words
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
@@ -56,9 +50,11 @@ from derive.steps.step import is_zero
 from derive.steps.trial_numbers import (
     Point,
     assumptions_about,
+    beside_border,
     decides,
     everywhere,
     holds_at,
+    just_where,
     sign_at,
     signs_of,
     trial_points,
@@ -113,9 +109,9 @@ def under_its_condition(facts: Judged) -> bool:
     """Whether it exists exactly where the condition holds, which some numbers fulfil and some do not."""
     if "exists" not in facts.inputs:
         return False
-    exists, points = facts.inputs["exists"], trial_points(_letters(facts))
-    fits = everywhere(points, lambda point: holds_at(exists, point) == _is_there(facts, point))
-    return fits and decides(exists, points)
+    exists, letters = facts.inputs["exists"], _letters(facts)
+    fits = just_where([exists], lambda point: _is_there(facts, point), letters)
+    return fits and decides(exists, trial_points(letters))
 
 
 def _can_be_counted(sought: Sequence[Symbol]) -> bool:
@@ -144,10 +140,19 @@ def _letters_here(facts: Judged) -> list[Any]:
     return sorted((_letters(facts) | of_energy) - set(_moving(facts)), key=str)
 
 
-def _signs_by_numbers(facts: Judged) -> list[tuple[Point, int]]:
-    """Return numbers for the letters, for which the equilibrium exists, with the sign of the energy to second order."""
-    exists, letters = facts.inputs.get("exists"), _letters_here(facts)
-    points = trial_points(letters, *([] if exists is None else [exists]))
+def _exists(facts: Judged) -> list[Relation]:
+    return [facts.inputs["exists"]] if "exists" in facts.inputs else []
+
+
+def numbers_here(facts: Judged) -> list[Point]:
+    """Return trial numbers for which the equilibrium exists."""
+    return trial_points(_letters_here(facts), *_exists(facts))
+
+
+def _signs_by_numbers(facts: Judged, beside: Sequence[Relation] = ()) -> list[tuple[Point, int]]:
+    """Return trial numbers, also some beside the borders of conditions, with the sign of the energy to second order."""
+    letters, points = _letters_here(facts), numbers_here(facts)
+    points += [point for each in beside for point in beside_border(each, points, *_exists(facts))]
     numbers = tuple(tuple(point[s] for s in letters) for point in points)
     signs = _signs_at(facts.inputs["potential_here"], _moving(facts), facts.inputs["place"], tuple(letters), numbers)
     return list(zip(points, signs, strict=True))
@@ -237,16 +242,8 @@ def nothing_turns_it(facts: Judged) -> bool:
     return matter is None or not is_turned_aside(matter, _at_rest(facts), there)
 
 
-def numbers_here(facts: Judged) -> list[Point]:
-    return trial_points(_letters_here(facts))
-
-
 def _at_rest(facts: Judged) -> dict[Any, Expr]:
     return dict(zip(_moving(facts), facts.inputs["place"], strict=True))
-
-
-def both(*predicates: Predicate) -> Predicate:
-    return lambda facts: all(predicate(facts) for predicate in predicates)
 
 
 def higher(kind: str) -> Predicate:
@@ -282,7 +279,7 @@ def depends(border: str | None) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         condition, where = facts.inputs["condition"], facts.inputs.get("at_border")
-        found = _signs_by_numbers(facts)
+        found = _signs_by_numbers(facts, [condition])
         fits = all(holds_at(condition, point) == (sign == 1) for point, sign in found if sign)
         fits &= decides(condition, [point for point, _ in found])
         if border is None or where is None or not fits:
@@ -349,21 +346,17 @@ def level_as_told(facts: Judged) -> bool:
     return told is not None and told.operator == "!=" and same_equation(told.residual, open_)
 
 
-def residual(facts: Judged) -> Judged:
-    return Judged(facts.result.residual)
-
-
 DIGITS_LEFT = 10**40  # values have 60 digits
 
 
-def facts_derivative(facts: Judged, fact: DerivativeOf) -> bool:
+def is_its_derivative(facts: Judged, outcome: str) -> bool:
+    """Whether the result is the derivative of the potential energy that its symbol shows."""
     of, q, order = facts.symbol.args
-    energy, found = explicit(fact.potential.value), explicit(facts.result)
-    if (of, q) != (fact.potential.symbol, fact.coordinate):
-        return False
+    potential, found = facts.quantities["potential"], explicit(facts.result)
+    energy = explicit(potential.value)
     if energy.has(Abs):
-        return _is_slope_in_numbers(energy, q, int(order), found)
-    return is_zero(diff(energy, fact.coordinate, int(order)) - found)
+        return of == potential.symbol and _is_slope_in_numbers(energy, q, int(order), found)
+    return of == potential.symbol and is_zero(diff(energy, q, int(order)) - found)
 
 
 def _nearby(point: Point) -> Expr:
@@ -386,14 +379,6 @@ def _is_slope_in_numbers(energy: Expr, q: Symbol, order: int, found: Expr) -> bo
 def curvature(facts: Judged, fact: Extreme) -> bool:
     q, place = facts.inputs["coordinate"], facts.inputs["at"]
     return is_zero(diff(value_of_role(facts, "potential"), q, 2).xreplace({q: place}) - fact.curvature)
-
-
-def lowest_order(facts: Judged, fact: LowestOrder) -> bool:
-    q, place, n = facts.inputs["coordinate"], facts.inputs["place"], int(fact.order)
-    if n == 0:
-        return bool(fact.coefficient == 0)
-    at = diff(explicit(facts.result), q, n).xreplace({q: place})
-    return is_zero(at / factorial(n) - fact.coefficient)
 
 
 def shape(facts: Judged, fact: Shape) -> bool:
@@ -574,12 +559,11 @@ def about_an_energy(facts: Judged, outcome: str) -> bool:
 potential_at_rest_pushed: Predicate = both(is_at_rest, lambda facts: not is_what_the_lagrangian_has(facts))
 
 
-def condition_generic(facts: Judged) -> bool:
-    return bool(lasts(residual(facts)))
-
-
 def condition_zero(facts: Judged) -> bool:
-    return bool(vanishes(residual(facts)))
+    return is_zero(facts.result.residual)
+
+
+condition_generic: Predicate = negated(condition_zero)
 
 
 equilibrium_only: Predicate = both(
@@ -602,9 +586,7 @@ STABILITY_ON_CONSTRAINTS: dict[str, Predicate] = {
 }
 
 
-handed_on_by(DerivativeOf, facts_derivative)
 handed_on_by(Extreme, curvature)
-handed_on_by(LowestOrder, lowest_order)
 handed_on_by(Shape, shape)
 handed_on_by(StableWhere, stable_where)
 handed_on_by(Rest, rest)

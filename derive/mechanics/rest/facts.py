@@ -15,7 +15,6 @@ from sympy import (
 from derive.algebra.expressions import (
     Relation,
 )
-from derive.algebra.ranges import strict_sign_within
 from derive.algebra.samples import value_at
 from derive.mechanics.hamilton.facts import SeenWith
 from derive.mechanics.model.dalembert import Matter
@@ -37,28 +36,6 @@ def matter_behind(potential: Quantity) -> Matter | None:
     """Return the mass points and forces behind a potential energy; for an effective one, with constant momenta."""
     seen, own = potential.fact(SeenWith), potential.fact(Matter)
     return seen.matter if seen is not None else own if own is not None and own.is_known else None
-
-
-@dataclass(frozen=True)
-class DerivativeOf(Fact):
-    """The potential energy of a slope or curvature, and the coordinate by which it was differentiated."""
-
-    missing = "is not the derivative of a potential energy"
-    potential: Quantity
-    coordinate: Symbol
-
-
-@dataclass(frozen=True)
-class LowestOrder(Fact):
-    """The first order of a potential energy that does not vanish, and its coefficient; (0, 0) if none was found."""
-
-    missing = "is not a potential energy to its lowest order"
-    order: int
-    coefficient: Expr
-
-    @property
-    def is_minimum(self) -> bool:
-        return self.order % 2 == 0 and strict_sign_within(self.coefficient) == 1
 
 
 @dataclass(frozen=True)

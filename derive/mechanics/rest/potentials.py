@@ -13,7 +13,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, only_coordinate
 from derive.mechanics.rest import claims
-from derive.mechanics.rest.facts import DerivativeOf, LowestOrder, Shape
+from derive.mechanics.rest.facts import Shape
 from derive.solving.presentation import presented
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Manner
@@ -32,6 +32,7 @@ SLOPE = Rule(
     source="Taylor, *Classical Mechanics*, section 4.6",
     outcomes={"slope": claims.order_of(1), "curvature": claims.order_of(2), "higher": claims.order_of(2, more=True)},
     evidence={"expanded": CHECK},
+    statements=[claims.is_its_derivative],
     shown=Shown(brief=Manner.LEFT_OUT, told_along=frozenset({"generic", "curvature"})),
 )
 
@@ -62,7 +63,6 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
         routes={"expanded": compared_with(lambda: _coefficient(potential.value, q, q, order) * factorial(order))},
         outcome=named if order < 3 else "higher",
         key=key or f"{potential.key}_{named}",
-        facts=[DerivativeOf(potential, q)],
     )
 
 
@@ -222,7 +222,6 @@ def leading_order(
         key=key,
         kind=potential.step.kind,
         parents=[of] if shape is not None else [],
-        facts=[LowestOrder(order, leading)],
         scope=Scope(case_of=potential),
     )
 

@@ -24,7 +24,7 @@ from derive.mechanics.bodies.claims import is_round
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.parts import turns_right_handed
 from derive.mechanics.rotation.facts import Disturbed
-from derive.steps.claims import lasts, letters_in, never_vanishes, vanishes
+from derive.steps.claims import both, lasts, letters_in, negated, never_vanishes, vanishes, vanishing
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import is_zero
 
@@ -423,7 +423,7 @@ def rates_of_its_equations(facts: Judged, outcome: str) -> bool:
 
 
 def agreement_generic(facts: Judged) -> bool:
-    return bool(bool(facts.inputs["turn"].is_Identity))
+    return bool(facts.inputs["turn"].is_Identity)
 
 
 def agreement_turned(facts: Judged) -> bool:
@@ -431,35 +431,30 @@ def agreement_turned(facts: Judged) -> bool:
 
 
 def angular_momentum_parallel(facts: Judged) -> bool:
-    return bool(is_zero(across(facts)))
+    return is_zero(across(facts))
 
 
 def angular_momentum_generic(facts: Judged) -> bool:
-    return bool(never_vanishes(across(facts)))
+    return never_vanishes(across(facts))
 
 
-def angular_momentum_in_general(facts: Judged) -> bool:
-    return bool(not is_zero(across(facts)) and not never_vanishes(across(facts)))
+angular_momentum_in_general: Predicate = both(negated(angular_momentum_parallel), negated(angular_momentum_generic))
 
 
 def torque_generic(facts: Judged) -> bool:
-    return bool(never_vanishes(facts.result))
+    return never_vanishes(facts.result)
 
 
-def torque_in_general(facts: Judged) -> bool:
-    return bool(lasts(facts) and not never_vanishes(facts.result))
+torque_in_general: Predicate = both(lasts, negated(torque_generic))
 
 
-def rate_in_body_in_general(facts: Judged) -> bool:
-    return bool(not is_zero(facts.result) and is_zero(facts.inputs["torque"]))
+rate_in_body_in_general: Predicate = both(lasts, vanishing("torque"))
 
 
-def rate_in_body_driven(facts: Judged) -> bool:
-    return bool(not is_zero(facts.inputs["torque"]))
+rate_in_body_driven: Predicate = negated(vanishing("torque"))
 
 
-def centre_of_parts_cut_out(facts: Judged) -> bool:
-    return bool(not all_is_added(facts))
+centre_of_parts_cut_out: Predicate = negated(all_is_added)
 
 
 def moment_of_parts_on_axis(facts: Judged) -> bool:

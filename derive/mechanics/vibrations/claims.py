@@ -32,11 +32,16 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.vibrations.facts import Linear, Mode, SquareOf
 from derive.steps.claims import (
     always_sign,
+    both,
     is_a_root_just_where_told,
+    lasts,
+    negated,
     not_negative,
     nowhere_negative_where_real,
     same_equation,
     sign_where_it_exists,
+    vanishes,
+    vanishing,
 )
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.signs import sign_known
@@ -48,6 +53,7 @@ from derive.steps.trial_numbers import (
     assumptions_about,
     everywhere,
     holds_at,
+    just_where,
     roots_of,
     sign_at,
     signs,
@@ -87,8 +93,8 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
     if not same_equation(condition.residual, discriminant) or (condition.operator == "=") != (wanted == 0):
         return False
     letters = letters_of(condition.residual) | letters_of(discriminant)
-    points = trial_points(letters, *assumptions_about(letters))
-    fits = everywhere(points, lambda point: holds_at(condition, point) == (sign_at(discriminant, point) == wanted))
+    given = assumptions_about(letters)
+    fits = wanted == 0 or just_where([condition], lambda point: sign_at(discriminant, point) == wanted, letters, *given)
     return wanted == 0 or condition.operator in (">", "<") and fits
 
 
@@ -150,11 +156,16 @@ LITTLE = 1e-9
 S = Dummy("s")
 
 
+def _of_equations(facts: Judged) -> tuple[Any, ...]:
+    """Return the letters of the equations of motion, and the condition for the equilibrium if there is one."""
+    exists = facts.inputs.get("exists")
+    letters = set().union(*(facts.inputs[role].free_symbols for role in MATRICES if role in facts.inputs))
+    return letters, *([] if exists is None else [exists])
+
+
 def _points(facts: Judged, tried: int = TRIED) -> list[Point]:
     """Return points for which the equilibrium exists."""
-    letters = set().union(*(facts.inputs[role].free_symbols for role in MATRICES if role in facts.inputs))
-    exists = facts.inputs.get("exists")
-    return trial_points(letters, *([] if exists is None else [exists]), tried=tried)
+    return trial_points(*_of_equations(facts), tried=tried)
 
 
 MATRICES = ("stiffness", "turning", "mass")
@@ -207,14 +218,8 @@ def always(steady: bool) -> Predicate:
 
 def depends(facts: Judged) -> bool:
     """Whether all conditions together hold exactly where nothing grows; their boundaries are not judged."""
-    conditions = facts.inputs["conditions"]
-
-    def is_so(point: Point) -> bool | None:
-        if any(sign_at(each.residual, point) == 0 for each in conditions):
-            return None
-        return all(holds_at(each, point) for each in conditions) == _steady(facts, point)
-
-    return everywhere(_points(facts), is_so) and facts.result in conditions
+    told = just_where(facts.inputs["conditions"], lambda point: _steady(facts, point), *_of_equations(facts))
+    return told and facts.result in facts.inputs["conditions"]
 
 
 def is_among_conditions(facts: Judged, place: int) -> bool:
@@ -272,14 +277,17 @@ def damped(sign: int | None) -> Predicate:
     """Judge whether -beta +- i omega are roots: with omega real, or imaginary."""
 
     def is_so(facts: Judged) -> bool:
-        def is_so_at(point: Point) -> bool:
+        def is_real(point: Point) -> bool:
+            return sign_at(facts.result, point) is not None
+
+        def is_root(point: Point) -> bool:
             beta, value = (complex(value_at(explicit(each), point)) for each in (facts.inputs["beta"], facts.result))
             turned, roots = value if sign == -1 else 1j * value, _roots(facts, point)
-            real = abs(value.imag) <= LITTLE * abs(value)
-            fits = real if sign is not None else all(holds_at(c, point) == real for c in facts.inputs["conditions"])
-            return fits and _is_among(-beta + turned, roots) and _is_among(-beta - turned, roots)
+            return _is_among(-beta + turned, roots) and _is_among(-beta - turned, roots)
 
-        return bool(facts.inputs["conditions"]) == (sign is None) and everywhere(_points(facts), is_so_at)
+        conditions = facts.inputs["conditions"]
+        as_told = bool(conditions) == (sign is None) and just_where(conditions, is_real, *_of_equations(facts))
+        return as_told and everywhere(_points(facts), is_root)
 
     return is_so
 
@@ -607,8 +615,7 @@ def lag_as_written(facts: Judged, outcome: str) -> bool:
     return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
 
 
-def gyroscopic_characteristic_plain(facts: Judged) -> bool:
-    return bool(not has_turning(facts))
+gyroscopic_characteristic_plain: Predicate = negated(has_turning)
 
 
 def gyroscopic_motion_generic(facts: Judged) -> bool:
@@ -643,23 +650,19 @@ def damped_shape_generic(facts: Judged) -> bool:
     return bool(len(facts.result) > 1)
 
 
-def mode_shape_generic(facts: Judged) -> bool:
-    return bool(oscillates(facts) and not repeated(facts))
+mode_shape_generic: Predicate = both(oscillates, negated(repeated))
 
 
-def mode_shape_uniform(facts: Judged) -> bool:
-    return bool(is_zero(facts.inputs["squared"]))
+mode_shape_uniform: Predicate = vanishing("squared")
 
 
 mode_shape_departing: Predicate = always_sign(-1, lambda facts: facts.inputs["squared"])
 
 
-def frequency_squared_about_neutral(facts: Judged) -> bool:
-    return bool(is_zero(facts.result))
+frequency_squared_about_neutral: Predicate = vanishes
 
 
-def frequency_squared_about_conditional(facts: Judged) -> bool:
-    return bool(not is_zero(facts.result))
+frequency_squared_about_conditional: Predicate = lasts
 
 
 handed_on_by(SquareOf, square)
