@@ -61,6 +61,12 @@ def sign_where(value: Expr, exists: Relation | None) -> int | None:
         return sign_for_all(value)
 
 
+def truth_known(relation: Relation | None) -> bool | None:
+    """Whether the relation holds, by the letters or the given numbers; None if unknown. No relation always holds."""
+    sign = sign_known(relation.residual) if relation is not None else 0
+    return relation is None or (None if sign is None else sign in SIGNS_OF[relation.operator])
+
+
 def _sign_of_product(value: Expr, by_numbers: bool) -> int | None:
     if is_zero(value):
         return 0

@@ -41,6 +41,7 @@ from derive.mechanics import (
     where,
 )
 from derive.mechanics.answers import roots as roots_module
+from derive.solving.zeros import Zero
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 
@@ -599,7 +600,7 @@ def driven() -> tuple[Quantity, Quantity]:
         (
             "answers.extrema",
             "_places",
-            lambda slope, x: iter([(pi / 3, None)]),
+            lambda slope, x: [Zero(pi / 3)],
             lambda: maximum(given(sin(theta0)), theta0, within=(0, pi)),
         ),
         (

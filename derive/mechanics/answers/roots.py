@@ -35,7 +35,7 @@ from derive.mechanics.in_results import Letter, Symbols, in_results
 from derive.solving.attainable import is_out_of_range, within_one
 from derive.solving.divisors import may_vanish
 from derive.solving.presentation import presented, without_positive
-from derive.solving.root_of_factor import FOUR, RootOf
+from derive.solving.root_of_factor import FOUR, RootOf, roots_of
 from derive.solving.unknowns import (
     ValueOf,
     coordinates_of,
@@ -94,11 +94,11 @@ def roots(
     none = [*(keys or []), *([key] if key else []), f"no_{letter_of(unknown).name}"][0]
     left, (x,) = polynomial_in("roots", equation, [unknown], or_value=True)
     polynomial = _polynomial(equation, left, x, unknown)
-    every = [root for factor, times in _factors(polynomial, equation, unknown) for root in _of_factor(factor, times)]
+    every = [root for factor, times in _factors(polynomial, equation, unknown) for root in roots_of(factor, times)]
     real = [root for root in every if len(root.coefficients) == 2 or sign_known(root.discriminant) != -1]
     if not real:
         return (_no_root(equation, unknown, every, False, none),)
-    kept = [root for root in real if _sign(root) not in ((-1, 0) if sign_for_all(unknown) == 1 else ())]
+    kept = [root for root in real if root.sign_where_real() not in ((-1, 0) if sign_for_all(unknown) == 1 else ())]
     if not kept:
         return (_no_root(equation, unknown, real, True, none),)
     kept = [root for root in kept if not _is_out_of_reach(root, unknown)]
@@ -356,31 +356,6 @@ def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
     return [(polynomial, 1)]
 
 
-def _of_factor(factor: Poly, times: int) -> list[RootOf]:
-    coefficients = tuple(tidied(c) for c in factor.all_coeffs())
-    if len(coefficients) == 2:
-        return [RootOf(coefficients, 0, times)]
-    return [RootOf(coefficients, sign, times) for sign in (-1, 1)]
-
-
-def _sign(root: RootOf) -> int | None:
-    """Return the sign of a root; for a quadratic factor by Vieta: the sign of -b/a if the product is positive.
-    Without a linear term a root is real only if a and c have opposite signs, so one of the two decides.
-    """
-    if len(root.coefficients) == 2:
-        return sign_known(root.value)
-    a, b, c = root.coefficients
-    upper = root.sign * (sign_known(a) or (-(sign_known(c) or 0) if b == 0 else 0))
-    product, total = sign_known(c / a), sign_known(-b / a)
-    if product == -1 or b == 0:
-        return upper or None
-    if product == 1 and total is not None:
-        return total
-    if product == 0 and total:
-        return total if upper == total else 0
-    return sign_known(root.value)
-
-
 def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Return the condition for the root to be real, or positive if required."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
@@ -388,7 +363,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
         lost = sign_known(c) or sign_for_all(unknown) == 1  # no root of a x^2 + c if a = 0; or it is 0
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
-    if sign_for_all(unknown) == 1 and _sign(root) is None:
+    if sign_for_all(unknown) == 1 and root.sign_where_real() is None:
         return Relation(presented(without_positive(tidied(root.value))), ">", ZERO)
     return None
 
