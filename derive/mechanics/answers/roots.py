@@ -25,16 +25,17 @@ from sympy import (
 )
 from sympy.polys.polyerrors import PolynomialError
 
-from derive.algebra.expressions import RATES, Relation, Terms, explicit, scalar
+from derive.algebra.expressions import Relation, Terms, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.answers import claims
-from derive.mechanics.answers.quadratics import roots_together
+from derive.mechanics.answers.quadratics import roots_together, with_index
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Symbols, in_results
 from derive.solving.attainable import is_out_of_range, within_one
 from derive.solving.divisors import may_vanish
 from derive.solving.presentation import presented, without_positive
+from derive.solving.relations import conditions_told
 from derive.solving.root_of_factor import FOUR, RootOf, roots_of
 from derive.solving.unknowns import (
     ValueOf,
@@ -165,16 +166,12 @@ def _step(
 
     elsewhere = Mul(*factors_elsewhere(residual_of("roots", equation, or_value=True), unknown))
     condition = _condition(root, unknown)
-    told = {
-        role: (each, Relation(tidied(each.left), each.operator, tidied(each.right)))
-        for role, each in (
-            ("condition", condition),
-            ("excluded", _excluded(_common_factor(polynomial, every) * root.coefficients[0], condition)),
-            ("existing", _existing(root, unknown, equation)),
-            ("elsewhere", None if elsewhere == 1 else Relation(elsewhere, "=", ZERO)),
-        )
-        if each is not None
-    }
+    told = conditions_told(
+        condition=condition,
+        excluded=_excluded(_common_factor(polynomial, every) * root.coefficients[0], condition),
+        existing=_existing(root, unknown, equation),
+        elsewhere=None if elsewhere == 1 else Relation(elsewhere, "=", ZERO),
+    )
     return establish(
         ROOTS,
         name,
@@ -215,7 +212,7 @@ def _name(unknown: Expr, letter: str, number: int) -> Expr:
         return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
     if not letter and not number:
         return unknown
-    return scalar(letter or _numbered(unknown.name, number), **_assumed(unknown))
+    return scalar(letter or with_index(unknown.name, number), **_assumed(unknown))
 
 
 def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
@@ -389,12 +386,6 @@ def _turned(found: Sequence[RootOf]) -> bool:
     """Whether these are the two roots of one factor with a negative leading coefficient."""
     one_factor = len(found) == 2 and found[0].coefficients == found[1].coefficients and found[0].sign == -1
     return one_factor and sign_known(found[0].coefficients[0]) == -1
-
-
-def _numbered(name: str, n: int) -> str:
-    """Return the letter with a number: theta_1, or phi_1_dot for a rate."""
-    order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
-    return f"{name.removesuffix(order)}_{n}{order}"
 
 
 def _names(unknown: Expr, count: int, key: str | None) -> list[str]:
