@@ -50,7 +50,7 @@ def sign_known(value: Expr) -> int | None:
 def sign_where(value: Expr, exists: Relation | None) -> int | None:
     """The sign for all values of the letters for which the condition holds."""
     own = sign_for_all(value)
-    if own is not None or exists is None:
+    if own is not None or exists is None or exists.operator[0] not in "<>":
         return own
     difference = exists.residual if exists.operator[0] == ">" else -exists.residual
     try:

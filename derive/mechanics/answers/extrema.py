@@ -177,10 +177,8 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends, an empty list if it always does; None if never."""
-    if within is None and not x.is_positive:
+    if within is None and (real is not None or not x.is_positive):  # where it exists, it is an allowed value
         return []
-    if within is None and real is not None:  # a root that is positive if it is real
-        return None if place.could_extract_minus_sign() else []
     low, high = within or (Integer(0), None)
     found = []
     for ahead in (place - low, *([] if high is None else [high - place])):
