@@ -75,7 +75,7 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros; of a sine or cosine, which has infinitely many, those within three half turns.
+    """All real zeros near x = 0, for an interval of x; of a periodic function those within three half turns at least.
 
     A product of sines and cosines is also tried as a sum.
     """
@@ -83,7 +83,7 @@ def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
     for form in (numerator, tidied(TR8(numerator.expand()))):
         factors = [base for f in Mul.make_args(form) if (base := f.as_base_exp()[0]).has(x)]
         try:
-            return [zero for factor in factors for zero in _of_wave(factor, x) or zeros_of(factor, x)]
+            return [zero for factor in factors for zero in _of_wave(factor, x) or _turned(factor, x)]
         except Unsolved as unsolved:
             last = unsolved
     raise last
@@ -96,6 +96,12 @@ def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
         return []
     start = (pi / 2 if isinstance(function, cos) else ZERO) - function.args[0].subs(x, 0)
     return [Zero(tidied((start + n * pi) / slope)) for n in range(-3, 4)]
+
+
+def _turned(factor: Expr, x: Symbol) -> list[Zero]:
+    """All real zeros; if the factor is the same after a full turn, also those one turn before and after."""
+    turns = (0, -1, 1) if factor.has(sin, cos) and factor.subs(x, x + 2 * pi) == factor else (0,)
+    return [Zero(zero.value + 2 * n * pi, zero.exists) for zero in zeros_of(factor, x) for n in turns]
 
 
 def _order(zero: Zero) -> tuple[bool, int, str]:

@@ -20,7 +20,7 @@ from derive.mechanics.in_results import Ends, Letter, in_results
 from derive.solving.presentation import as_one_root, presented
 from derive.solving.relations import positive
 from derive.solving.unknowns import coordinates_of, kind_of_unknown, letter_of, unknown_of
-from derive.solving.zeros import Unsolved, Zero, zeros_nearby
+from derive.solving.zeros import Unsolved, Zero, zeros_nearby, zeros_of
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
@@ -101,7 +101,7 @@ def _extremum(
     slope, curvature = tidied(value.diff(x)), value.diff(x, 2)
     within = (explicit(within[0]), explicit(within[1])) if within else _range_as_interval(x)
     try:
-        places = _places(slope, x)
+        places = _places(slope, x, within)
     except Unsolved as unsolved:
         message = f"`{verb}`: the places where the slope of `{of.key}` vanishes have no closed form"
         help_line = f"the zeros of {unsolved.factor} are unknown"
@@ -203,9 +203,10 @@ def _apart(condition: Relation) -> Relation:
     return Relation(less, "<", more) if below.is_positive and more != 0 and less != 0 else condition
 
 
-def _places(slope: Expr, x: Symbol) -> list[Zero]:
-    """Return the zeros of the slope that the given numbers allow."""
-    found = zeros_nearby(slope, x) if slope.has(x) else []
+def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
+    """Return the zeros of the slope that the given numbers allow; without an interval, those within one turn."""
+    find = zeros_of if within is None else zeros_nearby
+    found = find(slope, x) if slope.has(x) else []
     return [Zero(as_one_root(zero.value), zero.exists) for zero in found if truth_known(zero.exists) is not False]
 
 
