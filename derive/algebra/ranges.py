@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, floor, oo, pi, sin, tan, together
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, Symbol, atan, cos, floor, oo, pi, sin, tan, together
 from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.order import known_order
@@ -190,7 +190,7 @@ def _sign_of_factor(factor: Expr) -> int | None:
         return sign
     if known_order().touches(factor) and (sign := known_order().sign(factor, sign_within)):
         return sign
-    if factor.free_symbols.isdisjoint(_KNOWN.get()):
+    if factor.free_symbols.isdisjoint(_KNOWN.get()) and not factor.has(atan):
         return None
     if isinstance(factor, Pow):
         return _sign_of_power(factor.base, factor.exp)
@@ -289,9 +289,12 @@ def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _between(rest: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of a symbol, of a sine or cosine that is monotonic in its range, or of a power of these."""
+    """The bounds of a symbol, of a sine or cosine that is monotonic in its range, of an arctangent, or of a power."""
     if (known := _range_of_letter(rest)) is not None:
         return known.least, known.greatest
+    if isinstance(rest, atan):
+        sign = sign_within(rest.args[0])
+        return (Integer(0) if sign == 1 else -pi / 2), (Integer(0) if sign == -1 else pi / 2)
     if isinstance(rest, Pow) and rest.exp.is_Integer and rest.exp.is_positive and sign_within(rest.base) == 1:
         ends = _between(rest.base)
         return (ends[0] ** rest.exp, ends[1] ** rest.exp) if ends and ends[0].is_nonnegative else None

@@ -20,6 +20,7 @@ from sympy import (
     factor,
     factor_terms,
     sin,
+    sqrt,
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
@@ -210,6 +211,15 @@ def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
 
 def _shortest(forms: Sequence[Expr]) -> Expr:
     return min(forms, key=length)
+
+
+def as_one_root(value: Expr) -> Expr:
+    """sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m); any value but such a root unchanged."""
+    factors = Mul.make_args(value)
+    outside = Mul(*(f for f in factors if not (f.is_Pow and f.base.is_Add)))
+    sign, square = sign_for_all(outside), (value**2).expand()
+    is_plain = all(f.is_Rational or not f.is_number for f in factors)
+    return value if is_plain or outside == value or not sign or not square.is_Add else sign * sqrt(square)
 
 
 def roots_together(value: Expr) -> Expr:

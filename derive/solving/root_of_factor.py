@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, factor_list, gcd, sqrt
+from sympy import Add, Expr, Integer, Mul, Poly, Pow, Rational, factor_list, gcd, sqrt
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import Factors, Ratio, Root, Terms
 from derive.algebra.tidy import tidied
 from derive.solving.presentation import presented
+from derive.steps.signs import sign_known
 from derive.steps.step import Fact
 
 FOUR = Integer(4)
@@ -39,6 +41,24 @@ class RootOf(Fact):
         a, b, _ = self.coefficients
         return _drawn(a, b, self.discriminant, self.sign)
 
+    def sign_where_real(self, sign_of: Callable[[Expr], int | None] = sign_known) -> int | None:
+        """The sign of the root; for a quadratic factor by Vieta: the sign of -b/a if the product is positive.
+
+        Without a linear term a root is real only if a and c have opposite signs, so one of the two decides.
+        """
+        if len(self.coefficients) == 2:
+            return sign_of(self.value)
+        a, b, c = self.coefficients
+        upper = self.sign * (sign_of(a) or (-(sign_of(c) or 0) if b == 0 else 0))
+        product, total = sign_of(tidied(c / a)), sign_of(tidied(-b / a))
+        if product == -1 or b == 0:
+            return upper or None
+        if product == 1 and total is not None:
+            return total
+        if product == 0 and total:
+            return total if upper == total else 0
+        return sign_of(self.value)
+
     @property
     def formula(self) -> Expr:
         if len(self.coefficients) == 2:
@@ -47,6 +67,12 @@ class RootOf(Fact):
         a, b, c = self.coefficients
         under = Root(Terms(b**2, -FOUR * a * c))
         return Ratio(Terms(-b, under if self.sign > 0 else Factors(Integer(-1), under)), 2 * a)
+
+
+def roots_of(factor: Poly, times: int = 1) -> list[RootOf]:
+    """The root of a linear polynomial, or both roots of a quadratic one, that with the minus sign first."""
+    coefficients = tuple(tidied(c) for c in factor.all_coeffs())
+    return [RootOf(coefficients, sign, times) for sign in ((0,) if len(coefficients) == 2 else (-1, 1))]
 
 
 def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:

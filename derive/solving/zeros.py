@@ -33,12 +33,14 @@ from sympy import (
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR8
 
 from derive.algebra.expressions import Relation
 from derive.algebra.ranges import never_vanishes_within, without_abs
 from derive.algebra.tidy import tidied
 from derive.solving.attainable import within_one
 from derive.solving.relations import positive
+from derive.solving.root_of_factor import roots_of
 from derive.steps.record import assume
 from derive.steps.signs import sign_for_all
 
@@ -70,6 +72,36 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
         for zero in _of_factor(factor, q):
             found.setdefault(tidied(zero.value), Zero(without_abs(zero.value), zero.exists))
     return sorted(found.values(), key=_order)
+
+
+def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
+    """All real zeros near x = 0, for an interval of x; of a periodic function those within three half turns at least.
+
+    A product of sines and cosines is also tried as a sum.
+    """
+    numerator = value.as_numer_denom()[0]
+    for form in (numerator, tidied(TR8(numerator.expand()))):
+        factors = [base for f in Mul.make_args(form) if (base := f.as_base_exp()[0]).has(x)]
+        try:
+            return [zero for factor in factors for zero in _of_wave(factor, x) or _turned(factor, x)]
+        except Unsolved as unsolved:
+            last = unsolved
+    raise last
+
+
+def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
+    """The zeros of cos(k x + c) within three half turns; none for any other function."""
+    slope = function.args[0].diff(x) if isinstance(function, sin | cos) else x
+    if slope.has(x):
+        return []
+    start = (pi / 2 if isinstance(function, cos) else ZERO) - function.args[0].subs(x, 0)
+    return [Zero(tidied((start + n * pi) / slope)) for n in range(-3, 4)]
+
+
+def _turned(factor: Expr, x: Symbol) -> list[Zero]:
+    """All real zeros; if the factor is the same after a full turn, also those one turn before and after."""
+    turns = (0, -1, 1) if factor.has(sin, cos) and factor.subs(x, x + 2 * pi) == factor else (0,)
+    return [Zero(zero.value + 2 * n * pi, zero.exists) for zero in zeros_of(factor, x) for n in turns]
 
 
 def _order(zero: Zero) -> tuple[bool, int, str]:
@@ -152,9 +184,9 @@ def _of_angle(factor: Expr, u: Expr) -> list[Zero]:
     if polynomial is None:
         raise Unsolved(factor)
     if not factor.has(s):
-        return [zero for value in _roots(factor, c) for zero in _with_cosine(value)]
+        return [zero for value in _sure_roots(factor, c) for zero in _with_cosine(value)]
     if not factor.has(c):
-        return [zero for value in _roots(factor, s) for zero in _with_sine(value)]
+        return [zero for value in _sure_roots(factor, s) for zero in _with_sine(value)]
     terms = dict(polynomial.terms())
     if set(terms) == {(1, 0), (0, 1)}:
         place = atan(tidied(-terms[0, 1] / terms[1, 0]))
@@ -179,22 +211,30 @@ def _with_sine(value: Expr) -> list[Zero]:
     return [Zero(asin(value), exists), Zero(other, exists)]
 
 
-def _roots(factor: Expr, x: Expr) -> list[Expr]:
-    """The real roots of a polynomial of first or second degree in x."""
+def _sure_roots(factor: Expr, x: Expr) -> list[Expr]:
+    """The roots of a polynomial in a cosine or a sine, whose own condition is that they are not greater than one."""
+    found = [root for root, _ in _roots(factor, x)]
+    if any(root.exists is not None for root in found):
+        raise Unsolved(factor)
+    return [root.value for root in found]
+
+
+def _roots(factor: Expr, x: Expr) -> list[tuple[Zero, int | None]]:
+    """The real roots of a polynomial of first or second degree in x, with the condition that they are real, and their
+    signs where they are."""
     polynomial = factor.as_poly(x)
     if polynomial is None or polynomial.degree() > 2:
         raise Unsolved(factor)
-    if polynomial.degree() == 1:
-        a, b = polynomial.all_coeffs()
-        return [tidied(-b / a)]
-    a, b, c = polynomial.all_coeffs()
-    inside = tidied(b**2 - 4 * a * c)
+    found = roots_of(polynomial)
+    if len(found) == 1:
+        return [(Zero(found[0].value), sign_for_all(found[0].value))]
+    inside = found[0].discriminant
     sign = sign_for_all(inside)
-    if sign is None:
-        raise Unsolved(factor)
     if sign == -1:
         return []
-    return [tidied((-b + turn * sqrt(inside)) / (2 * a)) for turn in ((1, -1) if sign else (1,))]
+    exists = positive(inside) if sign is None else None
+    kept = found[::-1] if sign != 0 else found[:1]
+    return [(Zero(root.value, exists), root.sign_where_real(sign_for_all)) for root in kept]
 
 
 def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
@@ -211,8 +251,8 @@ def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
     if polynomial.degree() > 2 and len(terms) == 2 and terms[1][0] == (0,):
         values = _of_power(int(terms[0][0][0]), tidied(-terms[1][1] / terms[0][1]), factor)
     else:
-        values = _roots(factor, q)
-    return [zero for value in values for zero in _allowed(value, q)]
+        return [zero for root, sign in _roots(factor, q) for zero in _allowed(root, sign, q)]
+    return [zero for value in values for zero in _allowed(Zero(value), sign_for_all(value), q)]
 
 
 def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
@@ -280,14 +320,16 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
     return both[:1] if q.is_positive or sign == 0 else both
 
 
-def _allowed(value: Expr, q: Symbol) -> list[Zero]:
-    """The zero, without values that are not positive if the coordinate is positive."""
+def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
+    """The zero with that sign, without values that are not positive if the coordinate is positive."""
     if not q.is_positive:
-        return [Zero(value)]
-    sign = sign_for_all(value)
+        return [zero]
+    value = zero.value
     if sign is None and (_is_square_of_letters(value) or _is_square_of_letters(-value)):
-        return [Zero(value)] if _is_square_of_letters(value) else []
-    return [] if sign in (0, -1) else [Zero(value, positive(value) if sign is None else None)]
+        return [zero] if _is_square_of_letters(value) else []
+    if sign is None and zero.exists is not None:
+        raise Unsolved(value)
+    return [] if sign in (0, -1) else [zero if sign == 1 else Zero(value, positive(value))]
 
 
 def _is_square_of_letters(value: Expr) -> bool:

@@ -50,7 +50,7 @@ def sign_known(value: Expr) -> int | None:
 def sign_where(value: Expr, exists: Relation | None) -> int | None:
     """The sign for all values of the letters for which the condition holds."""
     own = sign_for_all(value)
-    if own is not None or exists is None:
+    if own is not None or exists is None or exists.operator[0] not in "<>":
         return own
     difference = exists.residual if exists.operator[0] == ">" else -exists.residual
     try:
@@ -59,6 +59,12 @@ def sign_where(value: Expr, exists: Relation | None) -> int | None:
         return None
     with in_order(order):
         return sign_for_all(value)
+
+
+def truth_known(relation: Relation | None) -> bool | None:
+    """Whether the relation holds, by the letters or the given numbers; None if unknown. No relation always holds."""
+    sign = sign_known(relation.residual) if relation is not None else 0
+    return relation is None or (None if sign is None else sign in SIGNS_OF[relation.operator])
 
 
 def _sign_of_product(value: Expr, by_numbers: bool) -> int | None:

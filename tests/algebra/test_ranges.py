@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from sympy import Abs, Expr, Integer, Rational, Symbol, cos, oo, pi, sin, sqrt, symbols, tan
+from sympy import Abs, Expr, Integer, Rational, Symbol, atan, cos, oo, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import equal
 from derive.algebra.ranges import (
@@ -70,6 +70,11 @@ def acute() -> Iterator[None]:
         (x - E, None),
         (E, -1),
         (a - E, 1),
+        (pi - atan(a / b), 1),
+        (pi / 2 - atan(x), 1),
+        (atan(x) - 2, -1),
+        (atan(x) + pi / 3, None),
+        (pi / 4 - atan(a / b), None),
     ],
 )
 def test_a_sign_is_told_where_it_is_one_in_the_whole_range(expr: Expr, sign: int | None) -> None:

@@ -41,6 +41,7 @@ from derive.mechanics import (
     where,
 )
 from derive.mechanics.answers import roots as roots_module
+from derive.solving.zeros import Zero
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 
@@ -400,6 +401,15 @@ def test_a_physical_pendulum_swings_fastest_from_one_distance() -> None:
     assert equal(place.value, l / sqrt(12))
 
 
+def test_an_extremum_beyond_half_a_turn_is_found() -> None:
+    """M sin + m cos is least half a turn beyond the angle at which it is greatest."""
+    total = given(M * sin(theta0) + m * cos(theta0))
+    (highest, _), (lowest, least) = (verb(total, theta0, within=(0, 2 * pi)) for verb in (maximum, minimum))
+    assert equal(tan(highest.value), M / m)
+    assert equal(lowest.value, highest.value + pi)
+    assert equal(least.value, -sqrt(m**2 + M**2))
+
+
 def test_what_has_no_extremum_or_the_other_one_is_refused() -> None:
     for wrong in (lambda: maximum(given(x0), x0), lambda: maximum(given(x0 + R**2 / x0, "g_1"), x0)):
         with pytest.raises(Rejected, match="no place"):
@@ -599,7 +609,7 @@ def driven() -> tuple[Quantity, Quantity]:
         (
             "answers.extrema",
             "_places",
-            lambda slope, x: iter([(pi / 3, None)]),
+            lambda slope, x, within: [Zero(pi / 3)],
             lambda: maximum(given(sin(theta0)), theta0, within=(0, pi)),
         ),
         (

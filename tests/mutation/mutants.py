@@ -27,6 +27,7 @@ MODULES = (
     ),  # the others only check
     *sorted(f"solving.{path.stem}" for path in (ROOT / "derive" / "solving").glob("[a-z]*.py")),
     "steps.numeric",
+    "steps.signs",
     "steps.chain",
     "steps.establish",
     "steps.record",

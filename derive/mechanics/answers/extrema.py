@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
-from sympy.polys.polyerrors import PolynomialError
-from sympy.simplify.fu import TR8
+from sympy import Abs, Dummy, Expr, Integer, Rational, Symbol
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import At, Relation, explicit, scalar
@@ -19,15 +17,15 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.answers import claims
 from derive.mechanics.in_results import Ends, Letter, in_results
-from derive.solving.presentation import presented
+from derive.solving.presentation import as_one_root, presented
 from derive.solving.relations import positive
 from derive.solving.unknowns import coordinates_of, kind_of_unknown, letter_of, unknown_of
-from derive.solving.zeros import Unsolved, zeros_of
+from derive.solving.zeros import Unsolved, Zero, zeros_nearby, zeros_of
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
 from derive.steps.rule import CHECK, Rule
-from derive.steps.signs import holds, sign_for_all, sign_known
+from derive.steps.signs import holds, sign_for_all, sign_known, truth_known
 from derive.steps.step import Level, Quantity
 
 __all__ = ["maximum", "minimum"]
@@ -50,7 +48,8 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     within   its interval; by default all values that the letter can have
     Check: the value there against those at many other places of the interval.
     Outcomes: greatest, least; with a condition, if the place exists only for some values of the letters.
-    Errors: no place, or several, where the slope vanishes and the curvature has that sign.
+    Errors: no place, or several, where the slope vanishes and the curvature has that sign; such places have no closed
+    form.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
     return _extremum(of, letter, within, key, "maximum", -1)
@@ -69,7 +68,7 @@ def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minim
     letter   the variable: an angle, a frequency, a length
     within   its interval; by default all values that the letter can have
     Check: as `maximum`.
-    Errors: no place, or several, where the slope vanishes and the curvature has that sign.
+    Errors: as `maximum`.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
     return _extremum(of, letter, within, key, "minimum", 1)
@@ -101,14 +100,20 @@ def _extremum(
         raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{of.key}` is not a value that depends on {x.name}"))
     slope, curvature = tidied(value.diff(x)), value.diff(x, 2)
     within = (explicit(within[0]), explicit(within[1])) if within else _range_as_interval(x)
-    inside = [(place, real, _inside(place, real, within, x)) for place, real in _places(slope, x)]
+    try:
+        places = _places(slope, x, within)
+    except Unsolved as unsolved:
+        message = f"`{verb}`: the places where the slope of `{of.key}` vanishes have no closed form"
+        help_line = f"the zeros of {unsolved.factor} are unknown"
+        raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
+    inside = [(zero.value, zero.exists, _inside(zero.value, zero.exists, within, x)) for zero in places]
     found = [(place, _conditions(real, room)) for place, real, room in inside if room is not None]
     signs = [sign_known(curvature.subs(x, place)) for place, _ in found]
     sure = [pair for pair, sign in zip(found, signs, strict=True) if sign == curved]
     fitting = sure or [pair for pair, sign in zip(found, signs, strict=True) if sign is None]
     fitting = [pair for pair in fitting if not pair[1]] or fitting  # a place that exists for all values of the letters
     if len(fitting) != 1:
-        raise _not_one(of, x, verb, len(fitting), bool(inside) and not found)
+        raise _not_one(of, x, verb, len(fitting), slope.has(x) and not found)
     ((place, conditions),) = fitting
     name = scalar(f"{x.name}_{verb[:3]}", **({"positive": True} if x.is_positive else {}))
     at = establish(
@@ -172,10 +177,8 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends, an empty list if it always does; None if never."""
-    if within is None and not x.is_positive:
+    if within is None and (real is not None or not x.is_positive):  # where it exists, it is an allowed value
         return []
-    if within is None and real is not None:  # a root that is positive if it is real
-        return None if place.could_extract_minus_sign() else []
     low, high = within or (Integer(0), None)
     found = []
     for ahead in (place - low, *([] if high is None else [high - place])):
@@ -200,95 +203,11 @@ def _apart(condition: Relation) -> Relation:
     return Relation(less, "<", more) if below.is_positive and more != 0 and less != 0 else condition
 
 
-def _root_of(inside: Expr) -> Expr:
-    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m)."""
-    drawn = tidied(sqrt(inside))
-    numbers = [f for f in Mul.make_args(drawn) if f.is_number and not f.is_Rational]
-    return sqrt(inside.expand()) if numbers and inside.expand().is_Add else drawn
-
-
-# --- where the slope vanishes ---
-
-
-def _places(slope: Expr, x: Symbol) -> Iterator[tuple[Expr, Relation | None]]:
-    """Yield the zeros of each factor of the slope, with the condition under which they are real."""
-    numerator = slope.as_numer_denom()[0]
-    for form in dict.fromkeys((numerator, tidied(TR8(numerator.expand())))):
-        factors = [factor.as_base_exp()[0] for factor in Mul.make_args(form) if factor.has(x)]
-        found = [pair for factor in factors for pair in _zeros(factor, x) or _in_closed_form(factor, x)]
-        if found:
-            yield from found
-            return
-
-
-def _zeros(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
-    if not factor.has(x):
-        return []
-    if isinstance(factor, sin | cos):
-        return [(p, None) for p in _of_angle(factor, x)]
-    angles = {f.args[0] for f in factor.atoms(sin, cos) if f.has(x)}
-    if not angles:
-        return _of_polynomial(factor, x)
-    return _of_one_angle(factor, x) if angles == {x} else []
-
-
-def _in_closed_form(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
-    """Return the zeros by the method for equilibria of a force: r^4 = l^2/(k m)."""
-    try:
-        return [(zero.value, zero.exists) for zero in zeros_of(factor, x)]
-    except Unsolved:
-        return []
-
-
-def _of_angle(function: Function, x: Symbol) -> list[Expr]:
-    """Return the zeros of cos(k x + c), for a few half turns."""
-    (angle,) = function.args
-    k = angle.diff(x)
-    if k.has(x):
-        return []
-    start = pi / 2 if isinstance(function, cos) else Integer(0)
-    return [tidied((start + n * pi - angle.subs(x, 0)) / k) for n in range(-3, 4)]
-
-
-def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
-    try:
-        polynomial = factor.as_poly(x)
-    except PolynomialError:
-        return []
-    if polynomial is None:
-        return []
-    coefficients = polynomial.all_coeffs()
-    if len(coefficients) == 2:
-        a, b = coefficients
-        return [(tidied(-b / a), None)]
-    if len(coefficients) == 3:
-        a, b, c = coefficients
-        if b == 0:
-            inside = presented(-c / a, in_sums=False)
-            condition = None if sign_for_all(inside) == 1 else Relation(inside, ">", 0)
-            return [] if sign_known(inside) == -1 else [(sign * _root_of(inside), condition) for sign in (1, -1)]
-        inside = tidied(b**2 - 4 * a * c)
-        if sign_known(inside) == -1:
-            return []
-        condition = None if sign_for_all(inside) == 1 else Relation(inside, ">", 0)
-        return [(presented((-b + sign * sqrt(inside)) / (2 * a)), condition) for sign in (1, -1)]
-    return []
-
-
-def _of_one_angle(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
-    """Return the zeros of A cos + B, or of A sin + B cos, for one angle."""
-    u, v = Dummy("u"), Dummy("v")
-    written = factor.expand().xreplace({sin(x): u, cos(x): v})
-    if written.has(x):
-        return []
-    polynomial = Poly(written, u, v)
-    if polynomial.total_degree() == 1:
-        a, b, c = (polynomial.coeff_monomial(m) for m in (u, v, 1))
-        if c == 0 and a != 0:
-            return [(atan(tidied(-b / a)) + n * pi, None) for n in (-1, 0, 1)]
-        if a == 0:
-            return [(sign * acos(tidied(-c / b)), None) for sign in (1, -1)]
-    return []
+def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
+    """Return the zeros of the slope that the given numbers allow; without an interval, those within one turn."""
+    find = zeros_of if within is None else zeros_nearby
+    found = find(slope, x) if slope.has(x) else []
+    return [Zero(as_one_root(zero.value), zero.exists) for zero in found if truth_known(zero.exists) is not False]
 
 
 def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:

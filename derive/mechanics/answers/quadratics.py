@@ -18,7 +18,7 @@ from derive.mechanics.answers import claims
 from derive.mechanics.answers.conditions import where
 from derive.solving.divisors import may_vanish
 from derive.solving.presentation import presented
-from derive.solving.relations import solved_in_letters
+from derive.solving.relations import conditions_told, solved_in_letters
 from derive.solving.unknowns import coordinates_of, kind_of_unknown
 from derive.steps.claims import sign_is
 from derive.steps.establish import Lines, PhraseData, Scope, establish
@@ -178,7 +178,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
         outcome="linear" if linear else character(here),
         phrase_data=PhraseData(
             outcome_data={"quadratic": here},
-            formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
+            formulas=conditions_told(excluded=excluded),
             stands_for=keys if linear else (),
         ),
         lines=Lines(put_in=Level.FULL, arranged=lambda found: tidied(found) if linear else _arranged(here, found)),
@@ -288,7 +288,11 @@ def _one_of_two(
 
 def _indexed(name: str, key: str) -> str:
     """Return the letter of a root by its key: phi_slow_dot for slow_precession, phi_1_dot for roots_1."""
-    index = key.rpartition("_")[2] if key[-1].isdigit() else key.partition("_")[0]
+    return with_index(name, key.rpartition("_")[2] if key[-1].isdigit() else key.partition("_")[0])
+
+
+def with_index(name: str, index: str | int) -> str:
+    """Return the letter with an index: theta_1, or phi_1_dot for a rate."""
     order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
     return f"{name.removesuffix(order)}_{index}{order}"
 

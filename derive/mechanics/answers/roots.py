@@ -25,17 +25,18 @@ from sympy import (
 )
 from sympy.polys.polyerrors import PolynomialError
 
-from derive.algebra.expressions import RATES, Relation, Terms, explicit, scalar
+from derive.algebra.expressions import Relation, Terms, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.answers import claims
-from derive.mechanics.answers.quadratics import roots_together
+from derive.mechanics.answers.quadratics import roots_together, with_index
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Symbols, in_results
 from derive.solving.attainable import is_out_of_range, within_one
 from derive.solving.divisors import may_vanish
 from derive.solving.presentation import presented, without_positive
-from derive.solving.root_of_factor import FOUR, RootOf
+from derive.solving.relations import conditions_told
+from derive.solving.root_of_factor import FOUR, RootOf, roots_of
 from derive.solving.unknowns import (
     ValueOf,
     coordinates_of,
@@ -94,11 +95,11 @@ def roots(
     none = [*(keys or []), *([key] if key else []), f"no_{letter_of(unknown).name}"][0]
     left, (x,) = polynomial_in("roots", equation, [unknown], or_value=True)
     polynomial = _polynomial(equation, left, x, unknown)
-    every = [root for factor, times in _factors(polynomial, equation, unknown) for root in _of_factor(factor, times)]
+    every = [root for factor, times in _factors(polynomial, equation, unknown) for root in roots_of(factor, times)]
     real = [root for root in every if len(root.coefficients) == 2 or sign_known(root.discriminant) != -1]
     if not real:
         return (_no_root(equation, unknown, every, False, none),)
-    kept = [root for root in real if _sign(root) not in ((-1, 0) if sign_for_all(unknown) == 1 else ())]
+    kept = [root for root in real if root.sign_where_real() not in ((-1, 0) if sign_for_all(unknown) == 1 else ())]
     if not kept:
         return (_no_root(equation, unknown, real, True, none),)
     kept = [root for root in kept if not _is_out_of_reach(root, unknown)]
@@ -165,16 +166,12 @@ def _step(
 
     elsewhere = Mul(*factors_elsewhere(residual_of("roots", equation, or_value=True), unknown))
     condition = _condition(root, unknown)
-    told = {
-        role: (each, Relation(tidied(each.left), each.operator, tidied(each.right)))
-        for role, each in (
-            ("condition", condition),
-            ("excluded", _excluded(_common_factor(polynomial, every) * root.coefficients[0], condition)),
-            ("existing", _existing(root, unknown, equation)),
-            ("elsewhere", None if elsewhere == 1 else Relation(elsewhere, "=", ZERO)),
-        )
-        if each is not None
-    }
+    told = conditions_told(
+        condition=condition,
+        excluded=_excluded(_common_factor(polynomial, every) * root.coefficients[0], condition),
+        existing=_existing(root, unknown, equation),
+        elsewhere=None if elsewhere == 1 else Relation(elsewhere, "=", ZERO),
+    )
     return establish(
         ROOTS,
         name,
@@ -215,7 +212,7 @@ def _name(unknown: Expr, letter: str, number: int) -> Expr:
         return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
     if not letter and not number:
         return unknown
-    return scalar(letter or _numbered(unknown.name, number), **_assumed(unknown))
+    return scalar(letter or with_index(unknown.name, number), **_assumed(unknown))
 
 
 def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
@@ -356,31 +353,6 @@ def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
     return [(polynomial, 1)]
 
 
-def _of_factor(factor: Poly, times: int) -> list[RootOf]:
-    coefficients = tuple(tidied(c) for c in factor.all_coeffs())
-    if len(coefficients) == 2:
-        return [RootOf(coefficients, 0, times)]
-    return [RootOf(coefficients, sign, times) for sign in (-1, 1)]
-
-
-def _sign(root: RootOf) -> int | None:
-    """Return the sign of a root; for a quadratic factor by Vieta: the sign of -b/a if the product is positive.
-    Without a linear term a root is real only if a and c have opposite signs, so one of the two decides.
-    """
-    if len(root.coefficients) == 2:
-        return sign_known(root.value)
-    a, b, c = root.coefficients
-    upper = root.sign * (sign_known(a) or (-(sign_known(c) or 0) if b == 0 else 0))
-    product, total = sign_known(c / a), sign_known(-b / a)
-    if product == -1 or b == 0:
-        return upper or None
-    if product == 1 and total is not None:
-        return total
-    if product == 0 and total:
-        return total if upper == total else 0
-    return sign_known(root.value)
-
-
 def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Return the condition for the root to be real, or positive if required."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
@@ -388,7 +360,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
         lost = sign_known(c) or sign_for_all(unknown) == 1  # no root of a x^2 + c if a = 0; or it is 0
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
-    if sign_for_all(unknown) == 1 and _sign(root) is None:
+    if sign_for_all(unknown) == 1 and root.sign_where_real() is None:
         return Relation(presented(without_positive(tidied(root.value))), ">", ZERO)
     return None
 
@@ -414,12 +386,6 @@ def _turned(found: Sequence[RootOf]) -> bool:
     """Whether these are the two roots of one factor with a negative leading coefficient."""
     one_factor = len(found) == 2 and found[0].coefficients == found[1].coefficients and found[0].sign == -1
     return one_factor and sign_known(found[0].coefficients[0]) == -1
-
-
-def _numbered(name: str, n: int) -> str:
-    """Return the letter with a number: theta_1, or phi_1_dot for a rate."""
-    order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
-    return f"{name.removesuffix(order)}_{n}{order}"
 
 
 def _names(unknown: Expr, count: int, key: str | None) -> list[str]:

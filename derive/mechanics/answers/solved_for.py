@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol
 
-from derive.algebra.expressions import Ratio, Relation
+from derive.algebra.expressions import Ratio
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
@@ -15,6 +15,7 @@ from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letters, in_results
 from derive.solving.divisors import may_vanish
 from derive.solving.presentation import presented
+from derive.solving.relations import conditions_told
 from derive.solving.unknowns import (
     coordinates_of,
     kind_of_unknown,
@@ -133,7 +134,7 @@ def _solution(
         key=key,
         kind=kind_of_unknown(unknown, known),
         phrase_data=PhraseData(
-            formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
+            formulas=conditions_told(excluded=excluded),
             named={"unknown": unknown},
             outcome_data={"count": Integer(len(wanted)), "place": Integer(i)},
         ),
