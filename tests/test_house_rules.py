@@ -495,7 +495,7 @@ CARRIED = {  # facts that say where a value comes from; what does not fit togeth
         "Struck",
         "Witness",
     },
-    "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Turning", "Roots", "ValueOf"},
+    "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Roots", "ValueOf"},
     "numbers that a test of their own compares": {"WholeSwing"},
 }
 
