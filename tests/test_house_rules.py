@@ -505,8 +505,8 @@ CARRIED = {  # facts about the origin of a value; where they are read, values th
         "Struck",
         "Witness",
     },
-    "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Turning", "Roots", "ValueOf"},
-    "numbers that a separate test compares": {"WholeSwing"},
+    "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Roots", "ValueOf"},
+    "numbers that a test of their own compares": {"WholeSwing"},
 }
 
 

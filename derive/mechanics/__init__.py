@@ -69,7 +69,7 @@ from derive.mechanics.rotation.tensors import *
 from derive.mechanics.rotation.vectors import *
 from derive.mechanics.vibrations.about_steady_motion import *
 from derive.mechanics.vibrations.driven import *
-from derive.mechanics.vibrations.gyroscopic_stability import *
+from derive.mechanics.vibrations.gyroscopic import *
 from derive.mechanics.vibrations.linear_motion import *
 from derive.mechanics.vibrations.linearised import *
 from derive.mechanics.vibrations.modes import *

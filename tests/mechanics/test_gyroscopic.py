@@ -33,9 +33,8 @@ from derive.mechanics import (
     weight,
 )
 from derive.mechanics.vibrations import gyroscopic
-from derive.mechanics.vibrations import gyroscopic_stability as turning_stability
-from derive.solving import gyroscopic as turning_modes
-from derive.solving.gyroscopic import GyroscopicPencil
+from derive.solving import linear_systems
+from derive.solving.linear_systems import Gyroscopic
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 
@@ -223,12 +222,12 @@ def test_drag_beside_turning_is_said_to_be_too_much_for_a_verdict() -> None:
 
 
 WRONG: dict[str, tuple[Any, str, Any]] = {
-    "a root too large": (turning_modes, "_sum_with_root", lambda middle, a, d, ways: middle / a + sqrt(d)),
+    "a root too large": (linear_systems, "_with_root", lambda plain, before, root, by_terms: 2 * plain + root),
     "another sense": (gyroscopic, "_of_time", lambda entry, w, turn: _other_sense(entry, w, turn)),
     "a determinant without turning": (
-        GyroscopicPencil,
+        Gyroscopic,
         "at",
-        lambda self, omega: ImmutableDenseMatrix(self.stiffness - omega**2 * self.mass),
+        lambda self, s: ImmutableDenseMatrix(self.stiffness + s**2 * self.mass),
     ),
 }
 
@@ -248,7 +247,7 @@ def test_a_wrong_law_is_refused(slip: str, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_a_wrong_condition_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(turning_stability, "positive", lambda need, *letter: Relation(q**2 * B**2, ">", 3 * k * m))
+    monkeypatch.setattr(gyroscopic, "positive", lambda need, *letter: Relation(q**2 * B**2, ">", 3 * k * m))
     with pytest.raises(Unverified):
         linear_stability(in_field(-k))
 

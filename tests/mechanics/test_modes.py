@@ -35,8 +35,8 @@ from derive.mechanics import (
     weight,
 )
 from derive.mechanics.vibrations import modes
-from derive.solving import characteristic
-from derive.solving.characteristic import Pencil
+from derive.solving import linear_systems
+from derive.solving.linear_systems import Conservative
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 
@@ -149,7 +149,7 @@ def test_a_linear_molecule_moves_freely_as_a_whole() -> None:
 def test_the_frequencies_of_a_uniform_chain(size: int) -> None:
     """Fetter, Walecka, section 24: lambda = 4 (k/m) sin^2(n pi/2(N + 1))."""
     stiffness = ImmutableDenseMatrix(size, size, lambda i, j: k * (2 if i == j else -int(abs(i - j) == 1)))
-    found = Pencil(stiffness, m * ImmutableDenseMatrix.eye(size)).roots
+    found = Conservative(m * ImmutableDenseMatrix.eye(size), ImmutableDenseMatrix.zeros(size), stiffness).roots
     for n, root in enumerate(found, 1):
         exact = 4 * k / m * sin(n * pi / (2 * (size + 1))) ** 2
         assert equal(root.value, exact)
@@ -160,8 +160,8 @@ def test_the_frequencies_of_a_uniform_chain(size: int) -> None:
 def test_three_equal_masses_joined_in_a_triangle_have_a_repeated_frequency() -> None:
     """K = k ((2, -1, -1), ...): 0, 3k/m, 3k/m, with shapes orthogonal to each other."""
     stiffness = ImmutableDenseMatrix([[2 * k, -k, -k], [-k, 2 * k, -k], [-k, -k, 2 * k]])
-    free, pair = Pencil(stiffness, m * ImmutableDenseMatrix.eye(3)).roots
-    assert (free.value, pair.value, pair.multiplicity) == (0, 3 * k / m, 2)
+    free, pair = Conservative(m * ImmutableDenseMatrix.eye(3), ImmutableDenseMatrix.zeros(3), stiffness).roots
+    assert (free.value, pair.value, pair.times) == (0, 3 * k / m, 2)
     assert (pair.columns[0].T * pair.columns[1])[0] == 0
 
 
@@ -281,11 +281,11 @@ WRONG: dict[str, tuple[Any, str, Callable[..., Any]]] = {
     "a root too large": (modes, "root_of", lambda square: 2 * sqrt(square)),
     "a root of the other sign": (modes, "root_of", lambda square: -sqrt(square)),
     "another shape": (
-        characteristic,
+        linear_systems,
         "_presentable",
         lambda column: ImmutableDenseMatrix([column[0], *(2 * e for e in column[1:])]),
     ),
-    "another determinant": (Pencil, "factored", lambda self, unknown: unknown**2 - k * unknown / m),
+    "another determinant": (Conservative, "written", lambda self, letter: letter**4 - k * letter**2 / m),
 }
 
 
@@ -383,14 +383,14 @@ def test_roots_of_another_polynomial_or_in_another_order_are_refused(monkeypatch
         return OrderedRoot([*coefficients[:-1], 2 * coefficients[-1]], number, name)
 
     with monkeypatch.context() as patched:
-        patched.setattr(characteristic, "OrderedRoot", of_another)
+        patched.setattr(linear_systems, "OrderedRoot", of_another)
         with pytest.raises(Unverified, match="put_back"):
             chain_in_numbers((1, 1, 1), (2, 3, 4, 5))
 
     def misnamed(coefficients: Sequence[Expr], number: int, name: Any) -> Any:
         return OrderedRoot(coefficients, len(coefficients) - number, name)
 
-    monkeypatch.setattr(characteristic, "OrderedRoot", misnamed)
+    monkeypatch.setattr(linear_systems, "OrderedRoot", misnamed)
     with pytest.raises(Unverified, match="the sentence for this result could not be confirmed"):
         chain_in_numbers((1, 1, 1), (2, 3, 4, 5))
 

@@ -258,7 +258,7 @@ def test_a_curvature_with_the_rate_held_in_place_of_the_momentum_is_refused(monk
     """The commonest slip: the rate is not constant in the oscillation, the momentum is."""
     U, steady = conical()
     wrong = Omega**2 * (1 - cos(alpha) ** 2)  # that of a hoop driven at this rate
-    monkeypatch.setattr(about_module, "_of_plain_sign", lambda _: wrong)
+    monkeypatch.setattr(about_module, "by_one_square", lambda _: wrong)
     monkeypatch.setattr(about_module, "Ratio", lambda *_: wrong)
     with pytest.raises(Unverified):
         frequency_squared_about(U, steady)

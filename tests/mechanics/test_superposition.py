@@ -122,8 +122,8 @@ def test_a_start_that_is_none_is_refused() -> None:
 @pytest.mark.parametrize("factor", [Rational(1, 2), -1])
 def test_a_wrong_share_of_a_mode_is_refused(factor: Expr, monkeypatch: pytest.MonkeyPatch) -> None:
     x, _, modes = carts(three_springs())
-    right = superposition.Swing.course
-    monkeypatch.setattr(superposition.Swing, "course", lambda self, w: factor * right(self, w))
+    right = superposition.ExcitedMode.course
+    monkeypatch.setattr(superposition.ExcitedMode, "course", lambda self, w: factor * right(self, w))
     monkeypatch.setattr(superposition, "_as_product", lambda *_: None)
     with pytest.raises(Unverified, match=r"its check `(put_back|start)`"):
         motions_by_modes(modes, {x: A})

@@ -5,11 +5,15 @@ Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Cla
 
 from __future__ import annotations
 
-from sympy import Expr, Integer, Mul, Symbol, cos, diff, factor, sin, sqrt
-from sympy.simplify.fu import TR5, TR6
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
+from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Symbol, diff, expand, sqrt
+
+from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import At, Ratio, Relation, Slope, bound, explicit, rate, scalar
 from derive.algebra.length import length
+from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.arguments import checked
@@ -19,22 +23,58 @@ from derive.mechanics.kinematics.coordinates import OfCoordinate
 from derive.mechanics.lagrange.facts import KeptMomentum
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.motion.facts import Steady
-from derive.mechanics.motion.steady import ZERO
 from derive.mechanics.rest.facts import RestOf, matter_behind
 from derive.mechanics.vibrations import claims
-from derive.mechanics.vibrations.about_motion import About, determinant_about, letter_of_value
 from derive.mechanics.vibrations.facts import SquareOf
 from derive.mechanics.vibrations.oscillations import frequency
-from derive.solving.presentation import presented
+from derive.solving.presentation import by_one_square, presented
 from derive.solving.relations import solved_for_letter
 from derive.steps.claims import sign_where_it_exists
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.rule import ROUTE, Rule
-from derive.steps.signs import sign_for_all, sign_known, sign_where
+from derive.steps.signs import sign_known, sign_where
 from derive.steps.step import Quantity, is_zero
 from derive.witness.facts import Rest
 
 __all__ = ["frequency_squared_about"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True, eq=False)
+class About:
+    """A potential energy of one coordinate, its matter, a place, and further conditions there.
+    rates     of the cyclic coordinates there
+    momenta   letters of their momenta with the values there, if these are not given
+    letter    a letter that the condition of the steady motion determines, and its value
+    instead   a rate expressed by the letter of a momentum, for a shorter result
+    """
+
+    potential: Quantity
+    matter: Matter
+    q: Symbol
+    place: Expr
+    rates: Mapping[Symbol, Expr]
+    momenta: Mapping[Symbol, Expr]
+    letter: Mapping[Symbol, Expr]
+    instead: Mapping[Symbol, Expr] = field(default_factory=dict)
+
+    def there(self, value: Expr) -> Expr:
+        """Return the value at that place, where only the cyclic coordinates move."""
+        still = {rate(s, n): ZERO for s in self.matter.coordinates for n in (1, 2)}
+        return bound(explicit(value), still).subs(self.q, self.place)
+
+    def known(self, value: Expr) -> Expr:
+        """Substitute the momenta for these rates, and eliminate one letter by the condition."""
+        return bound(bound(bound(value, self.momenta), self.letter), self.instead)
+
+    def by_momenta(self) -> Iterator[About]:
+        """Yield versions with a rate given by a momentum: s = w - Omega cos(alpha) from w = s + Omega cos(alpha)."""
+        for momentum, value in self.momenta.items():
+            for turning in self.rates.values():
+                found = solved_for_letter(momentum - value, turning) if isinstance(turning, Symbol) else None
+                if found is not None and momentum in self.potential.value.free_symbols - self.letter.keys():
+                    yield replace(self, instead={turning: found})
 
 
 FREQUENCY_SQUARED_ABOUT = Rule(
@@ -79,7 +119,7 @@ def frequency_squared_about(
     curvature = about.there(diff(energy, q, 2))
     if is_zero(mass):
         raise Rejected(Complaint("wrong-argument", f"nothing has a mass along {q.name} there, so nothing oscillates"))
-    forms = {each: _of_plain_sign(presented(each.known(curvature / mass))) for each in (about, *about.by_momenta())}
+    forms = {each: by_one_square(presented(each.known(curvature / mass))) for each in (about, *about.by_momenta())}
     about, result = min(forms.items(), key=lambda form: length(form[1]))
     exists = at.needed(Rest).exists if at.fact(Rest) is not None else None
     told = {
@@ -99,7 +139,7 @@ def frequency_squared_about(
             motion={s: about.known(value) for s, value in (*about.letter.items(), *about.momenta.items())},
             means={scalar(symbol): sqrt(curvature / mass)},
         ),
-        routes={"all_coordinates": lambda found: (about.known(determinant_about(about, found)), ZERO)},
+        routes={"all_coordinates": lambda found: (about.known(_determinant_about(about, found)), ZERO)},
         outcome=_sort(result, exists),
         key=key,
         kind="squared angular speed",
@@ -112,18 +152,6 @@ def frequency_squared_about(
         ),
         facts=[SquareOf(symbol, exists)],
     )
-
-
-def _of_plain_sign(value: Expr) -> Expr:
-    """Write each factor with sines or cosines so that its sign is obvious: 1 + 3 cos^2, not 4 - 3 sin^2."""
-
-    def shown(part: Expr) -> Expr:
-        base, power = part.as_base_exp()
-        forms = [base, *(way(base).expand() for way in (TR5, TR6))] if base.has(sin, cos) else [base]
-        return min(forms, key=lambda f: (sign_for_all(f) is None, length(f), str(f))) ** power
-
-    forms = [Mul(*map(shown, Mul.make_args(form))) for form in (value, factor(value))]
-    return min(forms, key=lambda f: (sign_known(f) is None, length(f), str(f)))
 
 
 def _sort(value: Expr, exists: Relation | None) -> str:
@@ -161,7 +189,7 @@ def _about_steady(of: Quantity, at: Quantity, without: Expr | None) -> About:
     for c in seen.constants:
         value = presented(about.there(bound(explicit(c.value), going)))
         given = kept.get(c.symbol)
-        momenta.update({c.symbol: value} if given is None else letter_of_value(given, value, steady.lagrangian, of))
+        momenta.update({c.symbol: value} if given is None else _letter_of_value(given, value, steady.lagrangian, of))
     whole = About(of, matter, q, place, steady.rates, momenta, {})
     mass = about.there(diff(matter.momentum_along(q), rate(q)))
     value = whole.known(about.there(diff(explicit(of.value), q, 2)) / mass)
@@ -202,6 +230,48 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
         return ways[0]
     value = presented(value)
     return min(ways, key=lambda way: (length(tidied(bound(value, way))), str(way)))
+
+
+def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity) -> dict[Symbol, Expr]:
+    """Return the letter of a given momentum: w = s + Omega cos(alpha) from C w = C (s + Omega cos(alpha))."""
+    known = explicit(lagrangian.value).free_symbols | value.free_symbols
+    for letter in sorted(given.free_symbols - known, key=str):
+        if (found := solved_for_letter(given - value, letter)) is not None:
+            return {letter: presented(found)}
+    message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, but in the steady motion it is {value}"
+    help_line = "give the momentum by a separate letter, or leave it out"
+    raise Rejected(Complaint("wrong-argument", message, help=help_line))
+
+
+def _determinant_about(about: About, found: Expr) -> Expr:
+    """Return the determinant of d'Alembert's principle to first order, with displacements e^(s t), s^2 = -omega^2.
+    The cyclic coordinates have the factor s in each entry, which is taken out of their rows and columns.
+    """
+    matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
+    moving = [about.q, *about.rates]
+    s = Dummy("s")
+    still = {rate(q, n): ZERO for q in moving for n in (1, 2)} | {rate(q): v for q, v in about.rates.items()}
+
+    def entry(i: int, j: int) -> Expr:
+        left = explicit(matter.inertia_along(moving[int(i)]) - matter.force_along(moving[int(i)]))
+        other = moving[int(j)]
+        slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
+        at_place = [_without_angles(each.xreplace({**still, about.q: about.place}), about.rates) for each in slopes]
+        if j:  # a cyclic coordinate occurs only by its rates: its rate is the unknown
+            return at_place[1] + s * at_place[2]
+        return at_place[0] + s * at_place[1] + s**2 * at_place[2]
+
+    matrix = ImmutableDenseMatrix(len(moving), len(moving), entry)
+    polynomial = expand(determinant_of(matrix)).as_poly(s)
+    lowest = min(n for (n,) in polynomial.monoms())
+    powers = [(n - lowest, c) for (n,), c in polynomial.terms()]
+    return Add(*(c * (s**n if n % 2 else (-found) ** (n // 2)) for n, c in powers))
+
+
+def _without_angles(value: Expr, cyclic: Iterable[Symbol]) -> Expr:
+    """Set the cyclic coordinates to zero in the value, if it does not depend on them: most terms vanish."""
+    at_zero = value.xreplace(dict.fromkeys(cyclic, ZERO))
+    return at_zero if is_zero(value - at_zero) else value
 
 
 @in_results(

@@ -12,7 +12,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
-from derive.mechanics.vibrations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
+from derive.mechanics.vibrations.linear_motion import LinearCoefficients, is_linear_in_time, linear_equation, put_back
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
 from derive.solving.relations import positive
@@ -157,7 +157,7 @@ def _of_unknown_sign(value: Expr) -> Expr:
     return Mul(*(f for f in Mul.make_args(tidied(value)) if not f.is_positive))
 
 
-def _one_swing(linear: Linear, equation: Quantity) -> tuple[Expr, Expr]:
+def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:
     """Return the amplitude and the phase of the driving force, F cos(omega t)."""
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
     if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
@@ -232,7 +232,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
     )
 
 
-def _sense(equation: Quantity, linear: Linear, q: Coordinate) -> int:
+def _sense(equation: Quantity, linear: LinearCoefficients, q: Coordinate) -> int:
     """Return 1 if the equation was found with the signs of these coefficients, -1 if all signs are reversed."""
     unit = put_back(equation, q, Integer(1)) - put_back(equation, q, Integer(0))
     return 1 if tidied(unit - linear.c) == 0 else -1

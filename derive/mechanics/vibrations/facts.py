@@ -19,21 +19,17 @@ from sympy.matrices import MatrixBase
 from derive.algebra.expressions import Relation
 from derive.algebra.tidy import common_factor, tidied
 from derive.mechanics.kinematics.coordinates import Coordinate
-from derive.solving.characteristic import Root as RootOfPencil
+from derive.solving.linear_systems import CharacteristicRoot, LinearSystem
 from derive.steps.step import Fact
 
 
 @dataclass(frozen=True)
-class Linear(Fact):
-    """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, the condition
-    for the equilibrium, the driving forces, and the value of each coordinate at equilibrium."""
+class Linear(LinearSystem, Fact):
+    """Linear equations M eta_ddot + (G + C) eta_dot + K eta = f(t) together: the matrices, the condition for the
+    equilibrium, the displacements, the driving forces, and the value of each coordinate at equilibrium."""
 
     missing = "is not an equation of motion to first order"
-    mass: MatrixBase
-    turning: MatrixBase
-    stiffness: MatrixBase
-    displacements: tuple[Coordinate, ...]
-    exists: Relation | None = None
+    displacements: tuple[Coordinate, ...] = ()
     driven: tuple[Expr, ...] = ()
     place: tuple[tuple[Coordinate, Expr], ...] = ()
 
@@ -61,7 +57,7 @@ class Mode(Fact):
     """The frequency, or the rate of growth, of a mode: its root lambda = omega^2 with its sign, and its columns."""
 
     missing = "is not the frequency of a normal mode"
-    root: RootOfPencil
+    root: CharacteristicRoot
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
 
 from sympy import (
     Add,
@@ -18,11 +16,15 @@ from sympy import (
     ImmutableDenseMatrix,
     Integer,
     MatrixSymbol,
+    Mul,
     Poly,
     Symbol,
+    cancel,
     cos,
     diff,
+    discriminant,
     exp,
+    factor,
     sin,
 )
 from sympy.matrices import MatrixBase
@@ -33,78 +35,40 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import T
 from derive.mechanics.vibrations import claims
-from derive.mechanics.vibrations.facts import Linear
-from derive.mechanics.vibrations.linearised import with_motion
-from derive.solving.gyroscopic import OMEGA, GyroscopicPencil, Swing, factored
-from derive.solving.relations import positive
+from derive.mechanics.vibrations.linear_equations import (
+    OF_SIGN,
+    Equations,
+    letter_of_shapes,
+    together_for,
+    with_motion,
+)
+from derive.solving.linear_systems import OMEGA, CharacteristicRoot, Factor, Gyroscopic, LinearSystem
+from derive.solving.relations import border_of, positive
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule
-from derive.steps.step import Fact, Quantity, is_zero
+from derive.steps.step import Form, Level, Quantity, is_zero
+from derive.witness.facts import Rest
 
-__all__: list[str] = []
+__all__ = ["linear_stability"]
 
 ZERO = Integer(0)
+LARGEST = 200  # operations of a condition that is factored
 
 
 @dataclass(frozen=True)
-class Turning(Fact):
-    """The frequency of a motion with gyroscopic forces: the root that it is."""
-
-    missing = "is not the frequency of a motion with forces linear in the rates"
-    swing: Swing
-
-
-@dataclass(frozen=True)
-class TurningModes:
+class TurningModes(Equations[Gyroscopic]):
     """The results of `normal_modes` with forces linear in the rates that do no work."""
-
-    linear: Sequence[Quantity]
-    together: Linear
-    letter: Symbol
-    start: str
 
     def found(self) -> tuple[Quantity, ...]:
         """Return the frequencies, and the motions of those that have one shape."""
-        linear, together, start, pencil = self.linear, self.together, self.start, self.pencil
-        characteristic, name = self.characteristic, self.letter.name
-        found = [_frequency(characteristic, together, pencil, n, name, start) for n in range(len(pencil.swings))]
+        characteristic = _characteristic(self)
+        found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
         motions: list[Quantity] = []
-        for n, each in enumerate(found, 1):
-            column = pencil.column(each.needed(Turning).swing)
+        for n, (root, each) in enumerate(zip(self.system.roots, found, strict=True), 1):
+            column = self.system.column(root)
             if column is not None:
-                motions.append(_motion(linear, together, each, column, n, start))
+                motions.append(_motion(self, each, root, column, n))
         return (*found, *motions)
-
-    @cached_property
-    def pencil(self) -> GyroscopicPencil:
-        return pencil_of(self.together)
-
-    @cached_property
-    def characteristic(self) -> Quantity:
-        return _characteristic(self.linear, self.together, self.pencil, self.letter, self.start)
-
-
-def pencil_of(together: Linear) -> GyroscopicPencil:
-    """Return the matrices, for forces that do no work and forces with a potential energy."""
-    require_turning("normal_modes", together)
-    return GyroscopicPencil(together.stiffness, together.turning, together.mass, together.exists)
-
-
-def require_turning(verb: str, together: Linear) -> None:
-    """Require no driving force, a symmetric stiffness matrix, and no work of the forces linear in the rates."""
-    if any(force != 0 for force in together.driven):
-        message = f"`{verb}` needs equations without a driving force, but a force depends on the time"
-        raise Rejected(Complaint("wrong-argument", message))
-    symmetric = is_zero((together.stiffness - together.stiffness.T).applyfunc(tidied))
-    if not symmetric or not is_zero((together.mass - together.mass.T).applyfunc(tidied)):
-        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs forces that have a potential energy"))
-    if not is_zero((together.turning + together.turning.T).applyfunc(tidied)):
-        message = f"`{verb}` needs forces linear in the rates that do no work, but there is also drag"
-        raise Rejected(Complaint("wrong-argument", message))
-    for matrix, role in ((together.mass, "mass"), (together.turning, "turning"), (together.stiffness, "stiffness")):
-        for entry in matrix:
-            require_constant(verb, role, entry)
 
 
 GYROSCOPIC_CHARACTERISTIC = Rule(
@@ -116,37 +80,35 @@ GYROSCOPIC_CHARACTERISTIC = Rule(
 )
 
 
-def _characteristic(
-    linear: Sequence[Quantity], together: Linear, pencil: GyroscopicPencil, letter: Symbol, start: str
-) -> Quantity:
+def _characteristic(equations: TurningModes) -> Quantity:
     """Characteristic equation, det(K + i omega G - omega^2 M) = 0.
 
     Outcomes: generic, plain (no term is linear in the rates).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23.
     """
-    matrix = ImmutableDenseMatrix(together.rows_of(pencil.at(letter)).applyfunc(_tidy_entry))
+    system, letter = equations.system, equations.letter
+    matrix = ImmutableDenseMatrix(equations.matrix(I * letter).applyfunc(_tidy_entry))
 
     return establish(
         GYROSCOPIC_CHARACTERISTIC,
         None,
         lambda *_: Relation(Determinant(matrix), "=", 0),
         {"omega": letter},
-        lines=Lines(put_in=None, arranged=lambda _: Relation(factored(pencil.parts, letter), "=", 0)),
-        routes={"quadrature": lambda found: in_quadrature(found, linear, together, letter)},
-        outcome="plain" if is_zero(together.turning) else "generic",
-        phrase_data=PhraseData(named={"trial": exp(I * letter * T)}, outcome_data={"turning": tuple(together.turning)}),
-        key=f"{start}characteristic_equation",
-        parents=linear,
+        lines=Lines(put_in=None, arranged=lambda _: Relation(system.written(letter), "=", 0)),
+        routes={"quadrature": lambda found: _in_quadrature(found, equations)},
+        outcome="plain" if system.is_conservative else "generic",
+        phrase_data=PhraseData(named={"trial": exp(I * letter * T)}, outcome_data={"turning": tuple(system.turning)}),
+        key=f"{equations.start}characteristic_equation",
+        parents=equations.linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
 
 
-def in_quadrature(
-    found: Relation, linear: Sequence[Quantity], together: Linear, letter: Symbol
-) -> tuple[Relation, Relation]:
+def _in_quadrature(found: Relation, equations: TurningModes) -> tuple[Relation, Relation]:
     """Substitute cosines and sines with real amplitudes: the determinant of twice as many equations is the square."""
-    whole = of_cosines_and_sines(linear, together, letter)
-    return Relation(explicit(found).residual ** 2, found.operator, 0), Relation(whole, "=", 0)
+    return Relation(explicit(found).residual ** 2, found.operator, 0), Relation(
+        _of_cosines_and_sines(equations), "=", 0
+    )
 
 
 def _tidy_entry(entry: Expr) -> Expr:
@@ -154,19 +116,14 @@ def _tidy_entry(entry: Expr) -> Expr:
     return tidied(real) + I * tidied(imaginary)
 
 
-def of_cosines_and_sines(linear: Sequence[Quantity], together: Linear, letter: Symbol) -> Expr:
+def _of_cosines_and_sines(equations: TurningModes) -> Expr:
     """Return the determinant of the equations for eta = u cos(omega t) + v sin(omega t), sorted by cos and sin."""
-    size = len(linear)
-    u, v = ([Symbol(f"{name}_{n}", real=True) for n in range(size)] for name in ("u", "v"))
-    c, s = cos(letter * T), sin(letter * T)
+    u, v = ([Symbol(f"{name}_{n}", real=True) for n in range(len(equations.linear))] for name in ("u", "v"))
+    c, s = cos(equations.letter * T), sin(equations.letter * T)
     rows = []
-    for equation in linear:
-        left = with_motion(equation, together, [a * c + b * s for a, b in zip(u, v, strict=True)]).expand()
-        rows += [[diff(left.coeff(part), a) for a in (*u, *v)] for part in (c, s)]
+    for left in with_motion(equations.linear, [a * c + b * s for a, b in zip(u, v, strict=True)]):
+        rows += [[diff(left.expand().coeff(part), a) for a in (*u, *v)] for part in (c, s)]
     return determinant_of(ImmutableDenseMatrix(rows))
-
-
-_OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
 
 
 GYROSCOPIC_FREQUENCY = Rule(
@@ -182,75 +139,58 @@ GYROSCOPIC_FREQUENCY = Rule(
 )
 
 
-def _frequency(
-    characteristic: Quantity, together: Linear, pencil: GyroscopicPencil, n: int, symbol: str, start: str
-) -> Quantity:
+def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Quantity:
     """Frequency of one mode, or its growth rate.
 
     Outcomes: oscillating, growing, free, conditional.
     Source: that of `normal_modes`.
     """
-    swing = pencil.swings[n]
-    name = f"{'kappa' if swing.sign == -1 else symbol}_{n + 1}"
-    letter = characteristic.step.coordinates[-1][0]
-    turned = -1 if swing.sign == -1 else 1
+    system, letter = equations.system, equations.letter
+    root = system.roots[n]
+    turned = -1 if root.sign == -1 else 1
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
-        return _at_square(_polynomial_of(characteristic), letter, turned * explicit(found) ** 2), ZERO
+        left = explicit(characteristic.value).left.expand()
+        return _by_square(left, letter, turned * explicit(found) ** 2), ZERO
 
     def sum_of_squares(found: Expr) -> tuple[Expr, Expr]:
-        others = ((i, s) for i, s in enumerate(pencil.swings) if i != n)
-        signed = Add(*((-1 if s.sign == -1 else 1) * explicit(s.value) ** 2 * s.part.times for _, s in others))
-        return turned * explicit(found) ** 2 * swing.part.times + signed, _sum_of_squares(together)
+        others = (s for i, s in enumerate(system.roots) if i != n)
+        signed = Add(*((-1 if s.sign == -1 else 1) * explicit(s.value) ** 2 * s.times for s in others))
+        return turned * explicit(found) ** 2 * root.times + signed, _sum_of_squares(system)
 
-    needs = [need.as_content_primitive()[1] for need in swing.needs if pencil.sign(need) != 1]
+    needs = [need.as_content_primitive()[1] for need in root.needs if system.sign(need) != 1]
     conditions = [positive(need) for need in needs]
     pairs = enumerate(zip(conditions, needs, strict=True), 1)
     told = {f"condition_{i}": (condition, Relation(need, ">", 0)) for i, (condition, need) in pairs}
     return establish(
         GYROSCOPIC_FREQUENCY,
-        scalar(name),
-        lambda *_: swing.value,
+        scalar(f"{'kappa' if root.sign == -1 else letter.name}_{n + 1}"),
+        lambda *_: root.value,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"put_back": put_back, "sum_of_squares": sum_of_squares},
-        outcome=_OF_SIGN[swing.sign],
+        outcome=OF_SIGN[root.sign],
         phrase_data=PhraseData(
-            formulas=told, points_to={"characteristic": characteristic}, outcome_data=outcome_data(together, conditions)
+            formulas=told,
+            points_to={"characteristic": characteristic},
+            outcome_data=equations.judged_by(conditions),
         ),
-        key=f"{start}frequency_{n + 1}",
+        key=f"{equations.start}frequency_{n + 1}",
         kind="angular speed",
         parents=[characteristic],
-        facts=[Turning(swing)],
     )
 
 
-def outcome_data(together: Linear, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
-    """Return the data for judging an outcome of such a motion: the matrices, and the stated conditions."""
-    found: dict[str, Any] = {
-        "stiffness": together.stiffness,
-        "turning": together.turning,
-        "mass": together.mass,
-        "conditions": tuple(conditions),
-    }
-    return {**found, **({"exists": together.exists} if together.exists is not None else {})}
+def _by_square(value: Expr, letter: Symbol, square: Expr) -> Expr:
+    """Return a polynomial in omega^2 with this value or letter for omega^2."""
+    return Add(*(c * square ** (n // 2) for (n,), c in Poly(value, letter).terms()))
 
 
-def _polynomial_of(characteristic: Quantity) -> Expr:
-    return explicit(characteristic.value).left.expand()
-
-
-def _at_square(value: Expr, letter: Symbol, square: Expr) -> Expr:
-    """Return a polynomial in omega^2 at this value of omega^2."""
-    polynomial = Poly(value, letter)
-    return Add(*(c * square ** (n // 2) for (n,), c in polynomial.terms()))
-
-
-def _sum_of_squares(together: Linear) -> Expr:
+def _sum_of_squares(system: LinearSystem) -> Expr:
     """Return the sum of all omega^2: tr(M^-1 K) - tr((M^-1 G)^2)/2, by the square of the first-order matrix."""
-    inverse = together.mass.inv()
-    turning = inverse * together.turning
-    return tidied((inverse * together.stiffness).trace() - (turning * turning).trace() / 2)
+    inverse = system.mass.inv()
+    turning = inverse * system.turning
+    return tidied((inverse * system.stiffness).trace() - (turning * turning).trace() / 2)
 
 
 # --- how the coordinates move ----------------------------------------------------------------------------------------
@@ -275,12 +215,7 @@ GYROSCOPIC_MOTION = Rule(
 
 
 def _motion(
-    linear: Sequence[Quantity],
-    together: Linear,
-    frequency: Quantity,
-    column: tuple[Expr, ...],
-    n: int,
-    start: str,
+    equations: TurningModes, frequency: Quantity, root: CharacteristicRoot, column: tuple[Expr, ...], n: int
 ) -> Quantity:
     """Motion of one mode: a cosine or a sine for each coordinate, or a common growth.
 
@@ -288,42 +223,41 @@ def _motion(
     generic.
     Source: Landau, Lifshitz, *Mechanics*, section 39, problem 3.
     """
-    swing = frequency.needed(Turning).swing
+    linear, system, displacements = equations.linear, equations.system, equations.together.displacements
 
     def moving(w: Expr) -> list[Expr]:
-        if swing.sign == -1:
+        if root.sign == -1:
             return [entry.xreplace({OMEGA: w}) * exp(w * T) for entry in column]
-        return [_of_time(entry, w, swing.turn) for entry in column]
+        return [_of_time(entry, w, root.turn) for entry in column]
 
     def in_equations(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """Substitute the motion in the linear equations, at any time."""
-        left = [with_motion(each, together, list(explicit(found))) for each in linear]
+        left = with_motion(linear, list(explicit(found)))
         return ImmutableDenseMatrix(left), ImmutableDenseMatrix([ZERO] * len(left))
 
     def energy(found: MatrixBase) -> tuple[Expr, Expr]:
         """Check that T + U is conserved, since the forces linear in the rates do no work."""
         eta = explicit(found)
         rates = eta.applyfunc(lambda value: diff(value, T))
-        whole = (rates.T * together.mass * rates + eta.T * together.stiffness * eta)[0]
+        whole = (rates.T * system.mass * rates + eta.T * system.stiffness * eta)[0]
         return whole, whole.subs(T, 0)
 
-    own = [s.symbol for s, entry in zip(together.displacements, column, strict=True) if not is_zero(entry)]
-    displacements = Amplitudes(*(s.symbol for s in together.displacements))
+    own = [s.symbol for s, entry in zip(displacements, column, strict=True) if not is_zero(entry)]
     names = dict(zip(("first", "second"), own, strict=False))
     return establish(
         GYROSCOPIC_MOTION,
-        MatrixSymbol(f"{_letter(together)}_{n}", len(column), 1),
+        MatrixSymbol(f"{letter_of_shapes(system.letters)}_{n}", len(column), 1),
         lambda w: Amplitudes(*moving(w)),
         {"frequency": frequency},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"motion": in_equations, "energy": energy},
-        outcome=_outcome(column, swing),
+        outcome=_outcome(column, root),
         phrase_data=PhraseData(
-            named={"displacements": displacements, **names},
+            named={"displacements": Amplitudes(*(s.symbol for s in displacements)), **names},
             points_to={"linear": linear[0]},
-            outcome_data=outcome_data(together),
+            outcome_data=equations.judged_by(),
         ),
-        key=f"{start}mode_{n}",
+        key=f"{equations.start}mode_{n}",
         parents=[*linear],
         scope=Scope(),
     )
@@ -336,22 +270,190 @@ def _of_time(entry: Expr, w: Expr, turn: int) -> Expr:
     return entry.xreplace({OMEGA: turn * w}) * cos(w * T)
 
 
-def _letter(together: Linear) -> str:
-    taken = {s.name.partition("_")[0] for each in (together.mass, together.turning, together.stiffness)
-             for s in each.free_symbols}  # fmt: skip
-    return next((letter for letter in ("a", "A", "b", "u") if letter not in taken), "v")
-
-
-def _outcome(column: Sequence[Expr], swing: Swing) -> str:
+def _outcome(column: Sequence[Expr], root: CharacteristicRoot) -> str:
     """Return the shape of the path if two coordinates move, and its sense, from the first to the second."""
-    if swing.sign == -1:
+    if root.sign == -1:
         return "departing"
     entries = [entry for entry in column if not is_zero(entry)]
     if not any(entry.has(I) for entry in entries):
         return "straight"
     if len(entries) != 2:
         return "generic"
-    size = tidied(-swing.turn * (entries[1] / I).xreplace({OMEGA: swing.turn * OMEGA}))
+    size = tidied(-root.turn * (entries[1] / I).xreplace({OMEGA: root.turn * OMEGA}))
     if is_zero(size - 1) or is_zero(size + 1):
         return "circle_forwards" if is_zero(size - 1) else "circle_backwards"
     return {True: "ellipse_forwards", False: "ellipse_backwards", None: "ellipse"}[size.is_positive]
+
+
+# --- stability -------------------------------------------------------------------------------------------------------
+
+
+def linear_stability(
+    linear: Sequence[Quantity], letter: Expr | None = None, key: str = "stability"
+) -> Quantity | tuple[Quantity, ...]:
+    """Stability of an equilibrium with gyroscopic forces, linear in the rates: all omega^2 real, positive, different.
+
+    linear   the equations, as `linearised` yields them together
+    letter   the letter that a condition is solved for; by default one that occurs only as a square, if any
+    Gyroscopic forces may stabilise an equilibrium that is not a minimum of the potential energy; drag, however small,
+    makes it unstable again.
+    Second route: on the boundary of the condition two roots of the determinant coincide, or one vanishes; the
+    determinant is that of cosines and sines substituted in the equations.
+    Outcomes: stable, unstable, depends; with several conditions first, further, and last for the last one.
+    Errors: there is drag; the determinant does not factor.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
+    """
+    together = together_for("linear_stability", linear)
+    if not together.is_gyroscopic:
+        message = "`linear_stability` needs forces linear in the rates that do no work, but there is also drag"
+        raise Rejected(Complaint("wrong-argument", message))
+    letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
+    is_shared = key == "stability" and not together.is_conservative  # then the modes share this equation
+    system = together.of_kind(Gyroscopic)
+    equations = TurningModes(linear, system, letter_of_frequency, "" if is_shared else f"{key}_")
+    characteristic = _characteristic(equations)
+    needs = _needed(system)
+    if any(system.sign(need) == -1 for need in needs):
+        return _verdict(equations, characteristic, "unstable", key)
+    undecided = [_open(need, system) for need in needs if system.sign(need) != 1]
+    if not undecided:
+        return _verdict(equations, characteristic, "stable", key)
+    conditions = [positive(need, *([letter] if isinstance(letter, Symbol) else [])) for need in undecided]
+    found = [
+        _condition(equations, characteristic, i, conditions, undecided[i], key if i == 0 else f"{key}_{i + 1}")
+        for i in range(len(conditions))
+    ]
+    return found[0] if len(found) == 1 else tuple(found)
+
+
+def _needed(system: Gyroscopic) -> list[Expr]:
+    """Return the expressions that must be positive."""
+    if system.is_minimum:
+        return []
+    free = [part for part in system.factors if part.is_free or part.degree > 2 or part.times > 1]
+    if free or any(_may_drift(part, system) for part in system.factors):
+        message = "`linear_stability`: a root of the determinant is zero or repeated, so first order does not decide"
+        if any(not part.is_free and part.degree > 2 for part in free):
+            message = "`linear_stability`: the determinant has a factor whose roots have no known closed form"
+        raise Rejected(Complaint("not-decided", message))
+    return [need for part in system.factors for need in part.needs]
+
+
+def _open(need: Expr, system: Gyroscopic) -> Expr:
+    """Return the factors of unknown sign where the state exists: K - m w^2 of (K - m w^2)(k - m w^2), if k > m w^2."""
+    if need.count_ops() > LARGEST:
+        return need
+    factors = Mul.make_args(factor(need))
+    return Mul(*(f / abs(f) if f.is_number else f for f in factors if system.sign(f) != 1))
+
+
+def _may_drift(part: Factor, system: Gyroscopic) -> bool:
+    """Whether a root may be zero, so that the coordinates move uniformly, while some stiffness remains."""
+    if not part.mirrored or part.degree != 2 or system.sign(part.coefficients[2]) is not None:
+        return any(system.sign(need) == 0 for need in part.needs)
+    below = (cancel(entry / part.coefficients[2]).as_numer_denom()[1] for entry in system.stiffness)
+    return any(system.sign(tidied(each)) is None for each in below)
+
+
+GYROSCOPIC_STABILITY = Rule(
+    "vibrations.gyroscopic_stability",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7",
+    outcomes={
+        "stable": claims.always(True),
+        "unstable": claims.always(False),
+        "depends": claims.gyroscopic_stability_depends,
+        "first": claims.gyroscopic_stability_first,
+        "further": claims.gyroscopic_stability_further,
+        "last": claims.gyroscopic_stability_last,
+    },
+    evidence={"quadrature": ROUTE, "border": CHECK},
+)
+
+
+def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, key: str) -> Quantity:
+    """Stability that is the same for all values of the letters.
+
+    Outcomes: stable, unstable.
+    Source: that of `linear_stability`.
+    """
+    return establish(
+        GYROSCOPIC_STABILITY,
+        None,
+        lambda equation: equation,
+        {"characteristic": characteristic.value},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"quadrature": lambda found: _in_quadrature(found, equations)},
+        outcome=outcome,
+        phrase_data=PhraseData(points_to=_named(characteristic), outcome_data=equations.judged_by()),
+        key=key,
+        parents=[characteristic, *_rests(characteristic)],
+    )
+
+
+def _rests(characteristic: Quantity) -> list[Quantity]:
+    """Return the equilibrium of the equations, if it is a result."""
+    return [each for each in characteristic.parents[0].parents if each.fact(Rest) is not None]
+
+
+def _named(characteristic: Quantity) -> dict[str, Quantity]:
+    """Return the steps that the sentence of a verdict names."""
+    return {"characteristic": characteristic, **dict(zip(("rest",), _rests(characteristic), strict=False))}
+
+
+def _condition(
+    equations: TurningModes,
+    characteristic: Quantity,
+    i: int,
+    conditions: Sequence[Relation],
+    need: Expr,
+    key: str,
+) -> Quantity:
+    """Condition for stability, one of those required.
+    Outcomes: depends, first, further, last.
+    Source: that of `linear_stability`.
+    """
+    condition, square = conditions[i], Symbol("z")
+
+    def at_border(found: Relation) -> tuple[Expr, Expr]:
+        """Check that, where the two sides are equal, two roots of the determinant coincide, or one is zero."""
+        by_square = _by_square(_of_cosines_and_sines(equations), equations.letter, square)
+        border = border_of(explicit(found))
+        meets = _without_squares(by_square, square)
+        value = meets * Poly(by_square, square).eval(0)
+        residual = value.subs(border.left, border.right) if border is not None else _remainder(value, explicit(found))
+        return residual, ZERO
+
+    return establish(
+        GYROSCOPIC_STABILITY,
+        None,
+        lambda *_: Relation(need, ">", 0),
+        {},
+        lines=Lines(
+            put_in=None, law=Level.FULL, result=False, after=[Form(condition, "solved")], arranged=lambda _: condition
+        ),
+        routes={"border": at_border},
+        outcome=_place_among(i, len(conditions)),
+        phrase_data=PhraseData(points_to=_named(characteristic), outcome_data=equations.judged_by(conditions)),
+        key=key,
+        parents=[characteristic, *_rests(characteristic)],
+    )
+
+
+def _place_among(i: int, number: int) -> str:
+    """Return the outcome; the last condition's sentence states stability for all conditions together."""
+    if i == number - 1:
+        return "last" if i else "depends"
+    return "further" if i else "first"
+
+
+def _without_squares(value: Expr, square: Symbol) -> Expr:
+    """Return the discriminant of the polynomial whose square this is: zero where two of its roots coincide."""
+    found = Poly(value, square).sqf_part()
+    return discriminant(found.as_expr(), square)
+
+
+def _remainder(value: Expr, condition: Relation) -> Expr:
+    """Return the remainder of the value where both sides of a condition are equal."""
+    residual = condition.residual.as_numer_denom()[0].expand()
+    letter = min(residual.free_symbols, key=str)
+    return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual, letter)).as_expr()

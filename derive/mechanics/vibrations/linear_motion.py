@@ -60,7 +60,7 @@ CASES = {"underdamped": -1, "critically_damped": 0, "overdamped": 1}  # case -> 
 
 
 @dataclass(frozen=True)
-class Linear:
+class LinearCoefficients:
     """The coefficients of a q_ddot + b q_dot + c q = f(t)."""
 
     a: Expr
@@ -180,7 +180,7 @@ def _by_powers(motion: Expr) -> Expr:
     return Add(*(by_terms(c.expand()) if c.is_Add and n == 0 else c * TIME**n for n, c in terms))
 
 
-def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) -> Expr:
+def free_motion(linear: LinearCoefficients, first: Expr, initial: Expr, case: str | None) -> Expr:
     """Return the free motion, from its initial value and rate; the page states the condition of the case."""
     sort, condition = _sort(linear, case, None)
     if condition is not None:
@@ -189,7 +189,7 @@ def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) ->
     return _free(basis, _constants(basis, ZERO, first, initial), linear, sort)
 
 
-def _told(linear: Linear, condition: Relation | None) -> dict[str, tuple[Any, Any]]:
+def _told(linear: LinearCoefficients, condition: Relation | None) -> dict[str, tuple[Any, Any]]:
     """Return the condition of the case, and the factors that must not vanish."""
     told: dict[str, tuple[Any, Any]] = {}
     excluded = _excluded(linear)
@@ -215,21 +215,21 @@ def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
     return expand(left.xreplace(dict(zip(state, (motion, first, slope(first, TIME)), strict=True))))
 
 
-def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
+def linear_equation(equation: Quantity, q: Coordinate) -> LinearCoefficients:
     left = _left_of(equation, q).expand()
     state = (q.acceleration, q.rate, q.symbol)
     a, b, c = (tidied(derivative(left, s)) for s in state)
     rest = left.xreplace(dict.fromkeys(state, ZERO))
     _check_alone(equation, left, q)
     if a == 0 and c == 0 and b.has(TIME) and not rest.has(*state) and is_zero(left - b * state[1] - rest):
-        return Linear(ZERO, ONE, ZERO, tidied(-rest / b))
+        return LinearCoefficients(ZERO, ONE, ZERO, tidied(-rest / b))
     constant = not any(k.has(*state, TIME) for k in (a, b, c))
     whole = is_zero(left - a * state[0] - b * state[1] - c * state[2] - rest)
     if not constant or not whole or (a == 0 and b == 0):
         message = f"`{equation.key}` is not a linear equation for only {q.symbol.name} with constant coefficients"
         raise Rejected(Complaint("not-linear", message))
     sign = -1 if (a if a != 0 else b).could_extract_minus_sign() else 1
-    return Linear(sign * a, sign * b, sign * c, -sign * rest)
+    return LinearCoefficients(sign * a, sign * b, sign * c, -sign * rest)
 
 
 def _left_of(equation: Quantity, q: Coordinate) -> Expr:
@@ -248,7 +248,7 @@ def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
         raise Rejected(Complaint("not-linear", message, help=help_line))
 
 
-def _sort(linear: Linear, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
+def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
     """Return the kind of motion, and its condition if the letters leave the kind open."""
     a, b, c = linear.a, linear.b, linear.c
     key = "the motion along a mode" if equation is None else f"`{equation.key}`"
@@ -295,7 +295,7 @@ def _compared(left: Expr, mark: str, right: Expr) -> Relation:
     return Relation(roots[0], mark, roots[1]) if plain else Relation(left, mark, right)
 
 
-def _basis(linear: Linear, sort: str) -> list[Expr]:
+def _basis(linear: LinearCoefficients, sort: str) -> list[Expr]:
     """Return the free motions: one for an equation of first order, else two."""
     a, b, c, t = linear.a, linear.b, linear.c, TIME
     if linear.order == 1:
@@ -325,7 +325,7 @@ def _root_over(inside: Expr, below: Expr) -> Expr:
 # --- the driving force ---
 
 
-def _particular(linear: Linear, equation: Quantity) -> Expr:
+def _particular(linear: LinearCoefficients, equation: Quantity) -> Expr:
     """Return a particular motion under the driving force, a sum of those under each of its terms."""
     if linear.driven == 0:
         return ZERO
@@ -339,7 +339,7 @@ def _driving(driven: Expr) -> Expr:
     return TR8(value).expand() if len([f for f in value.atoms(sin, cos) if f.has(TIME)]) > 1 else value
 
 
-def _particular_of(linear: Linear, term: Expr, equation: Quantity) -> Expr:
+def _particular_of(linear: LinearCoefficients, term: Expr, equation: Quantity) -> Expr:
     outside, inside = term.as_independent(TIME, as_Add=False)
     swings = [f for f in Mul.make_args(inside) if isinstance(f, sin | cos)]
     if linear.order == 1 and linear.c == 0:
@@ -363,13 +363,13 @@ def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
     return Rejected(Complaint("unknown-driving", message, help=help_line))
 
 
-def _of_power(linear: Linear, power: Expr) -> Expr:
+def _of_power(linear: LinearCoefficients, power: Expr) -> Expr:
     """Return a polynomial by undetermined coefficients, times t or t^2 if the free motion has constants or powers."""
     degree = power.as_poly(TIME).degree() if power.has(TIME) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2
     unknown = [stand_in(f"u_{n}") for n in range(degree + 1)]
     trial = Add(*(u * TIME ** (n + lowest) for n, u in enumerate(unknown)))
-    free = Linear(linear.a, linear.b, linear.c, power)
+    free = LinearCoefficients(linear.a, linear.b, linear.c, power)
     rows = expand(free.residual(trial)).as_poly(TIME).all_coeffs()
     matrix = Matrix([[diff(row, u) for u in unknown] for row in rows])
     right = Matrix([-row.xreplace(dict.fromkeys(unknown, ZERO)) for row in rows])
@@ -378,7 +378,7 @@ def _of_power(linear: Linear, power: Expr) -> Expr:
     return trial.xreplace(dict(zip(unknown, values, strict=True)))
 
 
-def _under_exponential(linear: Linear, k: Expr) -> Expr:
+def _under_exponential(linear: LinearCoefficients, k: Expr) -> Expr:
     """Return 1/P(k), or t/P'(k) and t^2/P''(k) if k is a root of P = a s^2 + b s + c."""
     for power, value in enumerate(
         (linear.a * k**2 + linear.b * k + linear.c, 2 * linear.a * k + linear.b, 2 * linear.a)
@@ -388,7 +388,7 @@ def _under_exponential(linear: Linear, k: Expr) -> Expr:
     raise Rejected(Complaint("unknown-driving", "the equation has no response to this exponential"))
 
 
-def _under_swing(linear: Linear, swing: Expr) -> Expr:
+def _under_swing(linear: LinearCoefficients, swing: Expr) -> Expr:
     """Return the forced oscillation; it grows at resonance, the frequency of an undamped free motion."""
     (angle,) = swing.args
     w = diff(angle, TIME)
@@ -399,7 +399,7 @@ def _under_swing(linear: Linear, swing: Expr) -> Expr:
     return (stiff * swing + loss * quarter_on) / (stiff**2 + loss**2)
 
 
-def _excluded(linear: Linear) -> Relation | None:
+def _excluded(linear: LinearCoefficients) -> Relation | None:
     """Return the condition against resonance: no free motion has the frequency or the rate of the driving force."""
     found: dict[Relation, None] = {}
     for term in Add.make_args(_driving(linear.driven)):
@@ -451,7 +451,7 @@ def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Ex
     return [tidied(value) for value in Matrix(rows).LUsolve(Matrix(right))]
 
 
-def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: Linear, sort: str) -> Expr:
+def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: LinearCoefficients, sort: str) -> Expr:
     """Write e^(-b t/2a) (C cos + D sin), with the common exponential as a factor."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
     inside = Add(*(presented(C) * (e / common) for C, e in zip(values, basis, strict=True)))

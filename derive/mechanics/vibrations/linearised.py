@@ -15,12 +15,12 @@ from sympy.matrices import MatrixBase
 from derive.algebra.collect import by_accelerations, spread
 from derive.algebra.derivatives import derivative
 from derive.algebra.expansion import FirstOrder
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar, stand_in
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
 from derive.algebra.squares import with_squares
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, T
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.rest.constrained_stability import constraints_of
 from derive.mechanics.rest.equilibria import place_given
@@ -78,7 +78,7 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     mass, turning, stiffness = (_coefficients(equations, moving, place, order) for order in (2, 1, 0))
     driven = tuple(-_at_rest(explicit(equation.value).residual, moving, place) for equation in equations)
     rest = tuple((q, place[q.symbol]) for q in moving)
-    linear = Linear(mass, turning, stiffness, eta, exists, driven, rest)
+    linear = Linear(mass, turning, stiffness, exists, eta, driven, rest)
     rests = [at] if isinstance(at, Quantity) else []
     return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
 
@@ -358,27 +358,3 @@ def _of_second_order(
             terms.append(_at_rest(value, moving, place) * letter)
     driving = pushed - in_time
     return Relation(Add(*terms), "=", _at_rest(driving, moving, place))
-
-
-def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
-    """Return the left side of a linear equation with a motion eta(t) substituted."""
-    put_in: dict[Any, Expr] = {}
-    for s, eta in zip(together.displacements, motion, strict=True):
-        put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
-    return explicit(equation.value).residual.xreplace(put_in)
-
-
-def left_by_drift(linear: Sequence[Quantity], together: Linear, column: Sequence[Expr], time: Expr) -> list[Expr]:
-    """Return the residuals of the nonlinear equations for a uniform motion from equilibrium along a column."""
-    equations = {e.needed(OfCoordinate).coordinate: e for each in linear for e in each.parents if e.fact(OfCoordinate)}
-    moved: dict[Any, Expr] = {}
-    for (q, at), share in zip(together.place, column, strict=True):
-        moved.update({q.symbol: at + share * time, q.rate: share, q.acceleration: ZERO})
-    return [explicit(equations[q].value).residual.xreplace(moved) for q, _ in together.place]
-
-
-def factors_of_amplitudes(linear: Sequence[Quantity], together: Linear, course: Expr) -> MatrixBase:
-    """Return the factor of each amplitude in each equation, with eta = a course(t), divided by the course."""
-    amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
-    left = [with_motion(each, together, [a * course for a in amplitudes]) / course for each in linear]
-    return ImmutableDenseMatrix([[derivative(value.expand(), a) for a in amplitudes] for value in left])

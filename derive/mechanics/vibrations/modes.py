@@ -10,18 +10,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
-from sympy import (
-    Add,
-    Expr,
-    ImmutableDenseMatrix,
-    Integer,
-    MatrixSymbol,
-    Symbol,
-    cos,
-    exp,
-    pi,
-    sin,
-)
+from sympy import Add, Expr, I, ImmutableDenseMatrix, Integer, MatrixSymbol, cos, exp, pi, sin
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
@@ -32,19 +21,26 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import in_results
-from derive.mechanics.kinematics.coordinates import Coordinate, T
+from derive.mechanics.kinematics.coordinates import T
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.damped import DampedModes
-from derive.mechanics.vibrations.facts import Linear, Mode
+from derive.mechanics.vibrations.facts import Mode
 from derive.mechanics.vibrations.gyroscopic import TurningModes
-from derive.mechanics.vibrations.linearised import factors_of_amplitudes, left_by_drift, with_motion
+from derive.mechanics.vibrations.linear_equations import (
+    OF_SIGN,
+    Equations,
+    factors_of_amplitudes,
+    left_by_drift,
+    letter_of_shapes,
+    together_for,
+    with_motion,
+)
 from derive.mechanics.vibrations.oscillations import frequency, frequency_squared, told_where_positive
-from derive.solving.characteristic import Pencil, root_of
-from derive.solving.characteristic import Root as RootOfPencil
+from derive.solving.linear_systems import CharacteristicRoot, Conservative, Damped, Gyroscopic, root_of
 from derive.steps.claims import nowhere_negative
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import have_numbers
-from derive.steps.record import free_letter, require_constant
+from derive.steps.record import free_letter
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Level, Quantity, is_zero, require_kind
 
@@ -52,6 +48,7 @@ __all__ = ["beats", "normal_modes", "period"]
 
 ZERO = Integer(0)
 LETTERS = ("omega", "Omega")  # of a frequency: the second if the first is given
+LETTERS_OF_EXPONENT = ("s", "lambda", "sigma", "p")
 
 
 def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str = "") -> tuple[Quantity, ...]:
@@ -74,53 +71,32 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     letters.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     """
-    together = linear[0].needed(Linear)
-    _check_whole(linear, together)
-    turns = not is_zero(together.turning)
-    if turns and not is_zero(together.turning + together.turning.T):
-        return DampedModes(linear, together, f"{key}_" if key else "").found()
-    in_numbers = have_numbers(together.stiffness, together.mass)
-    pencil = Pencil(together.stiffness, together.mass, together.exists, free_letter("lambda") if in_numbers else "")
-    matrices = (together.stiffness, together.turning, together.mass)
-    given = {s.name for each in matrices for s in each.free_symbols}
+    together = together_for("normal_modes", linear)
+    start = f"{key}_" if key else ""
+    given = {s.name for s in together.letters}
+    if not together.is_gyroscopic:
+        exponent = scalar(next((name for name in LETTERS_OF_EXPONENT if name not in given), "s_0"))
+        return DampedModes(linear, together.of_kind(Damped), exponent, start).found()
     free = next((name for name in LETTERS if name not in given), LETTERS[0])
     letter = scalar(symbol if symbol and len(linear) > 1 else free)
     if letter.name in given:
         message = f"`normal_modes` would call the frequency {letter}, but {letter} denotes a given quantity"
-        raise Rejected(
-            Complaint(
-                "letter-clash", message, help=Spelled('give another letter, `symbol="Omega"`', "use another letter")
-            )
-        )
-    before = f"{key}_" if key else ""
-    if turns:
-        return TurningModes(linear, together, letter, before).found()
+        other = Spelled('give another letter, `symbol="Omega"`', "use another letter")
+        raise Rejected(Complaint("letter-clash", message, help=other))
+    if not together.is_conservative:
+        return TurningModes(linear, together.of_kind(Gyroscopic), letter, start).found()
     if len(linear) == 1:
-        squared = frequency_squared(linear[0], symbol or f"{letter.name}_0", f"{before}frequency_squared")
-        return (frequency(squared, key=f"{before}frequency", condition=True),)
-    characteristic = _characteristic(linear, together, pencil, letter, before)
-    frequencies = [
-        _frequency(characteristic, linear, together, pencil, n, letter.name, before) for n in range(len(pencil.roots))
-    ]
+        squared = frequency_squared(linear[0], symbol or f"{letter.name}_0", f"{start}frequency_squared")
+        return (frequency(squared, key=f"{start}frequency", condition=True),)
+    name = free_letter("lambda") if have_numbers(together.stiffness, together.mass) else ""
+    equations = Equations(linear, together.of_kind(Conservative, name=name), letter, start)
+    characteristic = _characteristic(equations)
+    frequencies = [_frequency(equations, characteristic, n) for n in range(len(equations.system.roots))]
     shapes: list[Quantity] = []
     for found in frequencies:
         for column in found.needed(Mode).root.columns:
-            shapes.append(_shape(linear, together, found, column, shapes, before))
+            shapes.append(_shape(equations, found, column, shapes))
     return (*frequencies, *shapes)
-
-
-def _check_whole(linear: Sequence[Quantity], together: Linear) -> None:
-    if len(linear) != len(together.displacements) or any(each.fact(Linear) != together for each in linear):
-        message = "`normal_modes` needs all the equations that `linearised` yields together"
-        raise Rejected(Complaint("wrong-argument", message))
-    if any(force != 0 for force in together.driven):
-        message = "`normal_modes` needs equations without a driving force, but a force depends on the time"
-        raise Rejected(Complaint("wrong-argument", message))
-    if together.stiffness != together.stiffness.T or together.mass != together.mass.T:
-        raise Rejected(Complaint("wrong-argument", "`normal_modes` needs forces that have a potential energy"))
-    for matrix, role in ((together.mass, "mass"), (together.stiffness, "stiffness")):
-        for entry in matrix:
-            require_constant("normal_modes", role, entry)
 
 
 CHARACTERISTIC = Rule(
@@ -130,20 +106,18 @@ CHARACTERISTIC = Rule(
 )
 
 
-def _characteristic(
-    linear: Sequence[Quantity], together: Linear, pencil: Pencil, letter: Symbol, start: str
-) -> Quantity:
+def _characteristic(equations: Equations[Conservative]) -> Quantity:
     """Characteristic equation, det(K - omega^2 M) = 0.
 
     Source: that of `normal_modes`.
     """
-    matrix = together.rows_of(together.stiffness - letter**2 * together.mass)
-    factored = pencil.factored(letter**2).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
+    linear, letter = equations.linear, equations.letter
+    matrix = equations.matrix(I * letter)
+    factored = equations.system.written(letter).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
         """Compare with the factors of the amplitudes after substituting eta = a cos(omega t) in the equations."""
-        matrix = factors_of_amplitudes(linear, together, cos(letter * T))
-        return found, Relation(expanded_by_rows(matrix), "=", 0)
+        return found, Relation(expanded_by_rows(factors_of_amplitudes(linear, cos(letter * T))), "=", 0)
 
     return establish(
         CHARACTERISTIC,
@@ -152,23 +126,20 @@ def _characteristic(
         {"omega": letter},
         lines=Lines(put_in=None, arranged=lambda _: Relation(factored, "=", 0)),
         routes={"trial": by_trial},
-        key=f"{start}characteristic_equation",
+        key=f"{equations.start}characteristic_equation",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
 
 
-_OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
-
-
-def _drift(linear: Sequence[Quantity], together: Linear, root: RootOfPencil) -> dict[str, Any]:
+def _drift(linear: Sequence[Quantity], root: CharacteristicRoot) -> dict[str, Any]:
     """Return the residuals of the equations of motion for a uniform motion along a zero mode, if all vanish: then no
     force acts to any order."""
     if root.sign != 0:
         return {}
     time = stand_in("s")
-    left = [value for column in root.columns for value in left_by_drift(linear, together, column, time)]
-    return {"drift": Integer(0), "left": tuple(left)} if all(map(is_zero, left)) else {}
+    left = [value for column in root.columns for value in left_by_drift(linear, column, time)]
+    return {"drift": ZERO, "left": tuple(left)} if all(map(is_zero, left)) else {}
 
 
 MODE_FREQUENCY = Rule(
@@ -186,72 +157,56 @@ MODE_FREQUENCY = Rule(
 )
 
 
-def _frequency(
-    characteristic: Quantity,
-    linear: Sequence[Quantity],
-    together: Linear,
-    pencil: Pencil,
-    n: int,
-    symbol: str,
-    start: str,
-) -> Quantity:
+def _frequency(equations: Equations[Conservative], characteristic: Quantity, n: int) -> Quantity:
     """Frequency of one mode, or its growth rate.
 
     Outcomes: oscillating, growing, free, conditional, oscillating_repeated, growing_repeated, free_repeated,
     conditional_repeated.
     Source: that of `normal_modes`.
     """
-    root = pencil.roots[n]
-    name = f"kappa_{n + 1}" if root.sign == -1 else f"{symbol}_{n + 1}"
-    letter = characteristic.step.coordinates[-1][0]
+    system, letter = equations.system, equations.letter
+    root = system.roots[n]
     turned = -1 if root.sign == -1 else 1
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
-        return characteristic.value.left.xreplace({letter**2: turned * found**2}).subs(
-            letter**2, turned * found**2
-        ), ZERO
+        square = {letter**2: turned * found**2}
+        return characteristic.value.left.xreplace(square).subs(square), ZERO
 
     def rayleigh(found: Expr) -> tuple[Expr, Expr]:
         column = root.columns[0]
-        stiffness, mass = ((column.T * each * column)[0] for each in (together.stiffness, together.mass))
+        stiffness, mass = ((column.T * each * column)[0] for each in (system.stiffness, system.mass))
         return turned * found**2 * mass, stiffness
 
     def trace(found: Expr) -> tuple[Expr, Expr]:
-        others = Add(*(r.value * r.multiplicity for i, r in enumerate(pencil.roots) if i != n))
-        return turned * found**2 * root.multiplicity + others, _trace(together.mass, together.stiffness)
+        others = Add(*(r.value * r.times for i, r in enumerate(system.roots) if i != n))
+        return turned * found**2 * root.times + others, _trace(system.mass, system.stiffness)
 
-    outcome = _OF_SIGN[root.sign] + ("_repeated" if root.multiplicity > 1 else "")
-    drift = _drift(linear, together, root)
-    named = {} if root.has_formula else {"root": scalar(f"{pencil.name}_1")}  # the sentence introduces the first root
+    outcome = OF_SIGN[root.sign] + ("_repeated" if root.times > 1 else "")
+    routes = {"put_back": put_back, "rayleigh": rayleigh, "trace": trace}
+    drift, named = _drift(equations.linear, root), {}
+    if not root.has_formula:
+        outcome = "ordered" if root.factor.degree == len(equations.linear) else "ordered_part"
+        named = {"root": scalar(f"{system.name}_1")}  # the sentence introduces the first root
+        del routes["rayleigh"]
     return establish(
         MODE_FREQUENCY,
-        scalar(name),
+        scalar(f"{'kappa' if root.sign == -1 else letter.name}_{n + 1}"),
         lambda *_: root_of(turned * root.value),
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
-        routes={"put_back": put_back, **({"rayleigh": rayleigh} if root.has_formula else {}), "trace": trace},
-        outcome=outcome if root.has_formula else _of_polynomial(root, together),
+        routes=routes,
+        outcome=outcome,
         phrase_data=PhraseData(
             points_to={"characteristic": characteristic},
-            outcome_data={**_judged_by(together), "left": drift.pop("left", ())},
+            outcome_data={**equations.judged_by(), "left": drift.pop("left", ())},
             formulas=told_where_positive(root.value) if root.sign is None else {},
             named={**drift, **named},
         ),
-        key=f"{start}frequency_{n + 1}",
+        key=f"{equations.start}frequency_{n + 1}",
         kind="angular speed",
         parents=[characteristic],
         facts=[Mode(root)],
     )
-
-
-def _of_polynomial(root: RootOfPencil, together: Linear) -> str:
-    """Whether all frequencies are roots of one polynomial, or some of a factor."""
-    return "ordered" if len(root.value.args[0]) - 1 == len(together.displacements) else "ordered_part"
-
-
-def _judged_by(together: Linear) -> dict[str, Any]:
-    exists = {"exists": together.exists} if together.exists is not None else {}
-    return {"stiffness": together.stiffness, "mass": together.mass, **exists}
 
 
 @lru_cache(maxsize=8)  # the same for all frequencies of a system
@@ -281,72 +236,56 @@ MODE_SHAPE = Rule(
 
 
 def _shape(
-    linear: Sequence[Quantity],
-    together: Linear,
-    frequency: Quantity,
-    column: MatrixBase,
-    before: Sequence[Quantity],
-    start: str,
+    equations: Equations[Conservative], frequency: Quantity, column: MatrixBase, before: Sequence[Quantity]
 ) -> Quantity:
     """Amplitudes of one mode.
 
     Outcomes: in_phase, opposite, alone, generic, uniform, departing, any_of_several.
     Source: that of `normal_modes`.
     """
-    root = frequency.needed(Mode).root
-    drift = _drift(linear, together, root)
-    n = len(before) + 1
-    squared = root.value
+    linear, root, n = equations.linear, frequency.needed(Mode).root, len(before) + 1
+    drift = _drift(linear, root)
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """Substitute the motion in the linear equations, at any time."""
         w = stand_in("w", positive=True)
         course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
-        turned = -squared if root.sign == -1 else squared
-        left = [with_motion(each, together, [a * course for a in found]) / course for each in linear]
-        values = [value.expand().subs(w**2, turned) if root.sign != 0 else value for value in left]
+        square = {w**2: -root.value if root.sign == -1 else root.value}
+        left = [value / course for value in with_motion(linear, [a * course for a in found])]
+        values = [value.expand().subs(square) if root.sign != 0 else value for value in left]
         return ImmutableDenseMatrix(values), ImmutableDenseMatrix([ZERO] * len(values))
 
     def across(found: MatrixBase) -> tuple[Expr, Expr]:
         marks = [stand_in(f"u_{i}") for i in range(len(before))]
-        products = [(other.value.T * together.mass * found)[0] for other in before]
+        products = [(other.value.T * equations.system.mass * found)[0] for other in before]
         return Add(*(mark * product for mark, product in zip(marks, products, strict=True))), ZERO
 
-    entries = zip(together.displacements, column, strict=True)
+    entries = zip(equations.together.displacements, column, strict=True)
     moved = next(s.symbol for s, entry in entries if not is_zero(entry))
     return establish(
         MODE_SHAPE,
-        MatrixSymbol(f"{_letter_of_shapes(column)}_{n}", len(column), 1),
+        MatrixSymbol(f"{letter_of_shapes(column.free_symbols)}_{n}", len(column), 1),
         lambda _: Amplitudes(*column),
         {"frequency": frequency},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"motion": moving, "orthogonal": across},
-        outcome=_shape_outcome(root, column, together.displacements),
+        outcome=_shape_outcome(root, column),
         phrase_data=PhraseData(
             points_to={"linear": linear[0]},
-            outcome_data={"squared": squared, **_judged_by(together), "left": drift.pop("left", ())},
+            outcome_data={"squared": root.value, **equations.judged_by(), "left": drift.pop("left", ())},
             named={"moving": moved, **drift},
         ),
-        key=f"{start}mode_{n}",
+        key=f"{equations.start}mode_{n}",
         parents=[*linear, *before],
     )
 
 
-def _letter_of_shapes(column: MatrixBase) -> str:
-    taken = {s.name.partition("_")[0] for s in column.free_symbols}
-    return next((letter for letter in ("a", "A", "b", "u") if letter not in taken), "v")
-
-
-def _shape_outcome(root: RootOfPencil, column: MatrixBase, displacements: Sequence[Coordinate]) -> str:
-    if root.multiplicity > 1:
+def _shape_outcome(root: CharacteristicRoot, column: MatrixBase) -> str:
+    if root.times > 1:
         return "any_of_several"
-    if root.sign == 0:
-        return "uniform"
-    if root.sign == -1:
-        return "departing"
-    if len(column) != 2:
-        return "generic"
-    return _pair(*column)
+    if root.sign in (0, -1):
+        return "uniform" if root.sign == 0 else "departing"
+    return _pair(*column) if len(column) == 2 else "generic"
 
 
 def _pair(first: Expr, second: Expr) -> str:

@@ -15,7 +15,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import OfCoordinate, T
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.facts import Linear, SquareOf
-from derive.solving.characteristic import root_of
+from derive.solving.linear_systems import root_of
 from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.level import Manner

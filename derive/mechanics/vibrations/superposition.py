@@ -22,8 +22,8 @@ from derive.mechanics.in_results import Value, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims, linear_motion
 from derive.mechanics.vibrations.facts import Linear, Mode
-from derive.mechanics.vibrations.linearised import with_motion
-from derive.solving.characteristic import Pencil
+from derive.mechanics.vibrations.linear_equations import with_motion
+from derive.solving.linear_systems import Conservative
 from derive.steps.claims import lasts, vanishes
 from derive.steps.derivation import with_ancestors
 from derive.steps.establish import Lines, PhraseData, establish
@@ -37,7 +37,7 @@ ZERO = Integer(0)
 
 
 @dataclass(frozen=True)
-class Swing:
+class ExcitedMode:
     """One mode in a motion: its shape, the initial values of its oscillator, and its frequency if that is a step."""
 
     column: MatrixBase
@@ -84,10 +84,10 @@ def motions_by_modes(
     equations = _equations(modes)
     together = equations[0].needed(Linear)
     first, initial = _start(start, together), _start(start_rate or {}, together)
-    swings = [s for s in _swings(modes, together, first, initial, case) if s.is_there]
-    motion = [tidied_motion(Add(*(_part(s, i) for s in swings))) for i in range(len(first))]
+    excited = [s for s in _excited(modes, together, first, initial, case) if s.is_there]
+    motion = [tidied_motion(Add(*(_part(s, i) for s in excited))) for i in range(len(first))]
     equations += approximations_among(*start.values(), *(start_rate or {}).values())
-    return tuple(_motion(equations, together, swings, motion, i, (first, initial), key) for i in range(len(first)))
+    return tuple(_motion(equations, together, excited, motion, i, (first, initial), key) for i in range(len(first)))
 
 
 def _equations(modes: Sequence[Quantity]) -> list[Quantity]:
@@ -114,11 +114,11 @@ def _start(given: Mapping[Coordinate, Expr], together: Linear) -> list[Expr]:
     return [by_name.get(s.symbol, ZERO) for s in together.displacements]
 
 
-def _swings(
+def _excited(
     modes: Sequence[Quantity], together: Linear, first: Sequence[Expr], initial: Sequence[Expr], case: str | None
-) -> list[Swing]:
+) -> list[ExcitedMode]:
     M, C = together.mass, together.turning
-    roots = Pencil(together.stiffness, M, together.exists).roots
+    roots = together.of_kind(Conservative).roots
     columns = [c for root in roots for c in root.columns]
     frequencies = {c: (q, m.root.sign) for q in modes if (m := q.fact(Mode)) is not None for c in m.root.columns}
     if len(columns) == 1:
@@ -136,9 +136,9 @@ def _swings(
         ]
         if is_zero(C):
             frequency, sign = frequencies[column]
-            found.append(Swing(column, own[0], own[1], frequency, sign))
+            found.append(ExcitedMode(column, own[0], own[1], frequency, sign))
         elif any(own):
-            found.append(Swing(column, own[0], own[1], None, 1, _damped(together, column, own, case)))
+            found.append(ExcitedMode(column, own[0], own[1], None, 1, _damped(together, column, own, case)))
     return found
 
 
@@ -150,12 +150,12 @@ def _separates(drag: MatrixBase, columns: Sequence[MatrixBase]) -> bool:
 def _damped(together: Linear, column: MatrixBase, own: Sequence[Expr], case: str | None) -> Expr:
     """Return the motion of the oscillator along a shape."""
     a, b, c = (tidied((column.T * each * column)[0]) for each in (together.mass, together.turning, together.stiffness))
-    return linear_motion.free_motion(linear_motion.Linear(a, b, c, ZERO), own[0], own[1], case)
+    return linear_motion.free_motion(linear_motion.LinearCoefficients(a, b, c, ZERO), own[0], own[1], case)
 
 
-def _part(swing: Swing, i: int) -> Expr:
-    w = ZERO if swing.frequency is None else explicit(swing.frequency.value)
-    return swing.column[i] * swing.course(w)
+def _part(mode: ExcitedMode, i: int) -> Expr:
+    w = ZERO if mode.frequency is None else explicit(mode.frequency.value)
+    return mode.column[i] * mode.course(w)
 
 
 def tidied_motion(motion: Expr) -> Expr:
@@ -178,7 +178,7 @@ SUPERPOSITION = Rule(
 def _motion(
     equations: Sequence[Quantity],
     together: Linear,
-    swings: Sequence[Swing],
+    excited: Sequence[ExcitedMode],
     motion: Sequence[Expr],
     i: int,
     started: tuple[Sequence[Expr], Sequence[Expr]],
@@ -190,7 +190,7 @@ def _motion(
     Source: that of `motions_by_modes`.
     """
     q = together.displacements[i]
-    own = [s for s in swings if not is_zero(s.column[i])]
+    own = [s for s in excited if not is_zero(s.column[i])]
     named = {s.frequency.key: s.frequency for s in own if s.frequency is not None and s.sign != 0}
 
     def law(*letters: Expr) -> Expr:
@@ -203,7 +203,7 @@ def _motion(
 
     def put_back(found: Expr) -> tuple[Any, Any]:
         whole = [found if j == i else value for j, value in enumerate(motion)]
-        left = [with_motion(each, together, whole) for each in equations if each.fact(Linear) is not None]
+        left = with_motion([each for each in equations if each.fact(Linear) is not None], whole)
         return ImmutableDenseMatrix([value.expand() for value in left]), ImmutableDenseMatrix([ZERO for _ in left])
 
     def from_the_start(found: Expr) -> tuple[Any, Any]:
@@ -247,11 +247,11 @@ def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) ->
     return list(zip(letters, [*started[0], *started[1]], strict=True))
 
 
-def _as_product(swings: Sequence[Swing], i: int) -> Expr | None:
+def _as_product(excited: Sequence[ExcitedMode], i: int) -> Expr | None:
     """A cos(w_1 t) + A cos(w_2 t) = 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), by the letters of the frequencies:
     the form that shows the beats."""
-    plain = [s for s in swings if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
-    if len(swings) != 2 or len(plain) != 2:
+    plain = [s for s in excited if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
+    if len(excited) != 2 or len(plain) != 2:
         return None
     one, other = (tidied(s.column[i] * s.first) for s in plain)
     slow, fast = (s.frequency.symbol for s in plain if s.frequency is not None)

@@ -1,0 +1,97 @@
+"""The linear equations of all coordinates, read as one linear system, and motions substituted in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol
+from sympy.matrices import MatrixBase
+
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import Relation, explicit, stand_in
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import OfCoordinate, T
+from derive.mechanics.vibrations.facts import Linear
+from derive.solving.linear_systems import Kind
+from derive.steps.record import require_constant
+from derive.steps.step import Quantity, is_zero
+
+ZERO = Integer(0)
+OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}  # sign of a root -> outcome
+
+
+@dataclass(frozen=True)
+class Equations(Generic[Kind]):
+    """Linear equations, the system that they are, the letter of its roots, and the beginning of the keys of results."""
+
+    linear: Sequence[Quantity]
+    system: Kind
+    letter: Symbol
+    start: str
+
+    @property
+    def together(self) -> Linear:
+        return self.linear[0].needed(Linear)
+
+    def matrix(self, s: Expr) -> MatrixBase:
+        """Return the matrix of the amplitudes for a motion e^(s t), each row without its common factor."""
+        return self.together.rows_of(self.system.at(s))
+
+    def judged_by(self, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
+        """Return the data for judging an outcome: the matrices, and the stated conditions."""
+        system = self.system
+        found: dict[str, Any] = {"stiffness": system.stiffness, "turning": system.turning, "mass": system.mass}
+        exists = {} if system.exists is None else {"exists": system.exists}
+        return {**found, "conditions": tuple(conditions), **exists}
+
+
+def letter_of_shapes(given: Iterable[Symbol]) -> str:
+    """Return a letter for the amplitudes that is not a given one."""
+    taken = {s.name.partition("_")[0] for s in given}
+    return next((letter for letter in ("a", "A", "b", "u") if letter not in taken), "v")
+
+
+def together_for(verb: str, linear: Sequence[Quantity]) -> Linear:
+    """Return the system of these equations: all of them, without a driving force, with a potential energy of the forces
+    that do not depend on the rates, and with constant matrices."""
+    together = linear[0].needed(Linear)
+    if len(linear) != len(together.displacements) or any(each.fact(Linear) != together for each in linear):
+        message = f"`{verb}` needs all the equations that `linearised` yields together"
+        raise Rejected(Complaint("wrong-argument", message))
+    if any(force != 0 for force in together.driven):
+        message = f"`{verb}` needs equations without a driving force, but a force depends on the time"
+        raise Rejected(Complaint("wrong-argument", message))
+    if any(not is_zero((each - each.T).applyfunc(tidied)) for each in (together.stiffness, together.mass)):
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs forces that have a potential energy"))
+    rates = "turning" if together.is_gyroscopic else "drag"
+    for matrix, role in ((together.mass, "mass"), (together.turning, rates), (together.stiffness, "stiffness")):
+        for entry in matrix:
+            require_constant(verb, role, entry)
+    return together
+
+
+def with_motion(linear: Sequence[Quantity], motion: Sequence[Expr]) -> list[Expr]:
+    """Return the left side of each linear equation with a motion eta(t) substituted."""
+    put_in: dict[Any, Expr] = {}
+    for s, eta in zip(linear[0].needed(Linear).displacements, motion, strict=True):
+        put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
+    return [explicit(equation.value).residual.xreplace(put_in) for equation in linear]
+
+
+def factors_of_amplitudes(linear: Sequence[Quantity], course: Expr) -> MatrixBase:
+    """Return the factor of each amplitude in each equation, with eta = a course(t), divided by the course."""
+    amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
+    left = [value / course for value in with_motion(linear, [a * course for a in amplitudes])]
+    return ImmutableDenseMatrix([[derivative(value.expand(), a) for a in amplitudes] for value in left])
+
+
+def left_by_drift(linear: Sequence[Quantity], column: Sequence[Expr], time: Expr) -> list[Expr]:
+    """Return the residuals of the nonlinear equations for a uniform motion from equilibrium along a column."""
+    equations = {e.needed(OfCoordinate).coordinate: e for each in linear for e in each.parents if e.fact(OfCoordinate)}
+    place, moved = linear[0].needed(Linear).place, {}
+    for (q, at), share in zip(place, column, strict=True):
+        moved.update({q.symbol: at + share * time, q.rate: share, q.acceleration: ZERO})
+    return [explicit(equations[q].value).residual.xreplace(moved) for q, _ in place]
