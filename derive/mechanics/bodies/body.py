@@ -19,6 +19,7 @@ from derive.algebra.direction import Direction
 from derive.algebra.expressions import AXES, Ratio, column, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies import claims
+from derive.mechanics.bodies.boundary import Boundary, Round, of_map
 from derive.mechanics.bodies.components import centre_component, is_its_own_image, is_round_solid
 from derive.mechanics.bodies.equimomental import OfParticles, summed
 from derive.mechanics.bodies.facts import CountedFrom
@@ -100,6 +101,10 @@ class Body(Placeable, OfParticles):
     def map(self) -> Map:
         """The position along its body axes, and the limits of its variables, outermost first."""
         raise AttributeError(f"{type(self).__name__} must say where its points are")
+
+    @property
+    def boundary(self) -> Boundary | None:
+        return of_map(*self.map())
 
     @property
     def profile(self) -> Expr:
@@ -256,10 +261,8 @@ class RoundBody(Body):
         return cylindrical(self.letters, z, 0 if self.filling == "length" else (0, self.radius_at))
 
     @property
-    def is_straight(self) -> bool:
-        """Whether its radius is a linear function of z."""
-        z = Symbol("z_along", real=True)
-        return bool(self.radius_at(z).diff(z, 2) == 0)
+    def boundary(self) -> Round:
+        return Round(self.ends, self.radius_at, self.filling == "length")
 
 
 @dataclass(frozen=True)

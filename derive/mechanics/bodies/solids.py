@@ -12,6 +12,7 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, di
 from derive.algebra.expressions import Factors, Terms, column, explicit
 from derive.mechanics.bodies import claims
 from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody, require_order
+from derive.mechanics.bodies.boundary import Ellipsoidal, Extruded, Hollowed, Toroidal
 from derive.mechanics.bodies.equimomental import (
     HALF,
     Particles,
@@ -248,6 +249,10 @@ class Tube(Body):
         whole, removed = (Cylinder(r, self.height, self.mass * r**2 / across) for r in (self.outer, self.inner))
         return whole, removed
 
+    @property
+    def boundary(self) -> Hollowed:
+        return Hollowed(*(each.boundary for each in self.whole_and_removed()))
+
     def particles(self) -> Particles:
         """The particles of the whole, minus those of the removed part."""
         whole, removed = self.whole_and_removed()
@@ -276,6 +281,10 @@ class ThickShell(Hollow):
         whole, removed = (Ball(r, self.mass * r**3 / between) for r in (self.outer, self.inner))
         return whole, removed
 
+    @property
+    def boundary(self) -> Hollowed:
+        return Hollowed(*(each.boundary for each in self.whole_and_removed()))
+
     def particles(self) -> Particles:
         """The particles of the whole, minus those of the removed part."""
         whole, removed = self.whole_and_removed()
@@ -301,6 +310,10 @@ class HalfCylinder(OfHeight):
     def map(self) -> Map:
         return cylindrical(self.letters, (0, self.height), (0, self.radius), (0, pi))
 
+    @property
+    def boundary(self) -> Extruded:
+        return Extruded(HalfDisc(self.radius, self.mass).boundary)
+
     def particles(self) -> Particles:
         """Half-discs spread evenly along z."""
         return drawn_out(HalfDisc(self.radius, self.mass).particles(), (ZERO, self.height))
@@ -325,6 +338,10 @@ class Ellipsoid(Body):
     def map(self) -> Map:
         """A ball of radius 1, scaled along each axis."""
         return spherical(self.letters, (0, 1), by=self.semi_axes)
+
+    @property
+    def boundary(self) -> Ellipsoidal:
+        return Ellipsoidal(self.semi_axes)
 
     def particles(self) -> Particles:
         """The particles of a ball of radius 1, scaled as the ball is."""
@@ -360,6 +377,10 @@ class Torus(Body):
         across = self.radius + s * cos(u)
         limits = ((s, ZERO, self.section), (u, ZERO, 2 * pi), (phi, ZERO, 2 * pi))
         return column(across * cos(phi), across * sin(phi), s * sin(u)), limits
+
+    @property
+    def boundary(self) -> Toroidal:
+        return Toroidal(self.radius, self.section)
 
     def particles(self) -> Particles:
         """Rings through the five particles of the cross-section; the mass of each is proportional to its radius."""
@@ -444,7 +465,9 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
         lambda _: value,
         {"along": z},
         routes={"edge": lambda r: body.edge_condition(point.along_body(z), r)},
-        outcome=lambda radius: "straight" if body.is_straight else "ball" if _is_of_a_ball(radius, z) else "curved",
+        outcome=lambda radius: (
+            "straight" if body.boundary.is_straight else "ball" if _is_of_a_ball(radius, z) else "curved"
+        ),
         kind="length",
         lines=Lines(put_in=None),
         scope=Scope(coordinates={z: "length"}, about=Subject(body=body, point=point)),

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sympy import Expr, Integer, Rational, cos, pi, sin, sqrt
 
 from derive.algebra.expressions import Factors, Terms, column, explicit
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody
+from derive.mechanics.bodies.boundary import Hollowed, Rim
 from derive.mechanics.bodies.equimomental import (
     HALF,
     Particles,
@@ -188,6 +189,10 @@ class Annulus(Hollow):
         whole, removed = (Disc(r, self.mass * r**2 / across) for r in (self.outer, self.inner))
         return whole, removed
 
+    @property
+    def boundary(self) -> Hollowed:
+        return Hollowed(*(each.boundary for each in self.whole_and_removed()))
+
     def particles(self) -> Particles:
         """The particles of the whole, minus those of the removed part."""
         whole, removed = self.whole_and_removed()
@@ -211,6 +216,13 @@ class HalfDisc(OfRadius):
 
     def map(self) -> Map:
         return cylindrical(self.letters, ZERO, (0, self.radius), (0, pi))
+
+    @property
+    def boundary(self) -> Rim:
+        """Its edge; half of the diameter shows its radius."""
+        edge = super().boundary
+        assert isinstance(edge, Rim)
+        return replace(edge, radius=(column(-self.radius, 0, 0), ORIGIN, self.radius))
 
     def particles(self) -> Particles:
         """By Pappus: revolved about its diameter it is a ball, 4/3 pi R^3 = 2 pi y_C (pi R^2/2). Its second moments
