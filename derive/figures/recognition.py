@@ -72,9 +72,9 @@ def is_fixed(system: System, place: Location) -> bool:
 
 
 def is_spring(each: Central) -> bool:
-    """Whether the energy is of at most second degree in the distance."""
-    third: Expr = derivative(explicit(each.energy), each.distance, 3)
-    return third.is_zero is True
+    """Whether the energy is of second degree in the distance and has a minimum: a constant force has no spring."""
+    constant = tidied(derivative(explicit(each.energy), each.distance, 2))
+    return each.distance not in constant.free_symbols and constant.is_nonpositive is not True
 
 
 def same(a: Location, b: Location) -> bool:
