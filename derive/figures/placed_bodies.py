@@ -313,10 +313,12 @@ def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]
 def placed_outline(placed: Any) -> list[Mark]:
     """The visible outline of a body at its place; empty if only its mass and moments of inertia are known."""
     shown = _as_it_looks(placed)
-    body, words = shown.body, words_of(shown.body)
+    body, boundary = shown.body, getattr(shown.body, "boundary", None)
     if hasattr(body, "parts"):
         return _of_parts(shown)
-    boundary, at = getattr(body, "boundary", None), _place_in(shown)
+    if boundary is None:
+        return []
+    at, words = _place_in(shown), words_of(body)
     if body is not placed.body:
         words["measures"] = ()
     match boundary:
