@@ -1,19 +1,19 @@
-"""The outline of a body from its profile or corners, relative to one of its points or on an inclined axis."""
+"""The outline of a body from its boundary, relative to one of its points or on an inclined axis."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-from itertools import chain
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, Integer, Rational, pi, sqrt
+from sympy import Expr, Rational, sqrt
 
 from derive.algebra.expressions import AXES, column, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import Axis, CentreMark, LengthMark, Line
 from derive.figures.marks import Mark, Position, Surface
+from derive.figures.space import numeric
 from derive.figures.surfaces import (
     Bore,
     Cavity,
@@ -26,12 +26,10 @@ from derive.figures.surfaces import (
     ThinRod,
     TorusMark,
 )
-from derive.mechanics.bodies.body import Body, OfRadius, RoundBody
-from derive.mechanics.bodies.edged_bodies import EdgedBody
-from derive.mechanics.bodies.general import Solid
+from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.boundary import Boundary, Ellipsoidal, Faces, Hollowed, Rim, Round, Segment, Toroidal
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.bodies.solids import Ellipsoid, Torus, Tube
-from derive.mechanics.bodies.thin_bodies import Annulus
+from derive.mechanics.bodies.solids import Ellipsoid
 from derive.steps.step import is_zero
 
 __all__ = ["centre_mark", "outline"]
@@ -39,7 +37,7 @@ __all__ = ["centre_mark", "outline"]
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
 THIN = Rational(1, 40)  # half the drawn thickness of a disc, relative to its radius
-EDGE = 32  # steps along each side of the edge of a flat body
+EDGE = 32  # steps along each curve of the edge of a flat body
 CUT, SLICE = Rational(11, 20), Rational(1, 20)  # place and thickness of a slice, relative to the height
 BESIDE_IT = 17.0  # points between the dimension line for a slice's height and that for the whole
 CURVED = 48  # circles that draw a curved side, closer together at its ends, which may be tips
@@ -54,8 +52,8 @@ def outline(body: Any, about: str | None = None, named: bool = True, sliced: boo
     sliced  whether a slice across the axis of a round solid is marked, as for an integral over its height
     """
     found = seen_outline(body, about, named) if isinstance(body, Body) else []
-    if sliced and isinstance(body, RoundBody) and body.filling == "volume":
-        found = _with_slice(found, body, body.point(about or body.reference))
+    if sliced and found and isinstance(body.boundary, Round) and body.filling == "volume":
+        found = _with_slice(found, body.boundary, body.point(about or body.reference))
     if not found:
         raise Rejected(Complaint("wrong-argument", f"the outline of a {type(body).__name__} is unknown"))
     return found
@@ -64,21 +62,25 @@ def outline(body: Any, about: str | None = None, named: bool = True, sliced: boo
 def seen_outline(body: Body, about: str | None = None, named: bool = True) -> list[Mark]:
     """The outline of a body; an empty list if it is unknown."""
     point: Point = body.point(about or body.reference)
-    if isinstance(body, EdgedBody):
-        return _with_edges(body, point, named)
-    if isinstance(body, RoundBody):
-        surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
-        return [surface, *_measures(body, point)] if named else [surface]
-    if isinstance(body, Torus):
-        return _torus(body, point, named)
-    if (semi_axes := semi_axes_of(body)) is not None:
-        return _ellipsoid(body, semi_axes, point, named)
-    in_plane = is_in_plane(body)
-    found = _of_parts(body.parts, point, named, in_plane) if hasattr(body, "parts") else _by_its_map(body, point, named)
-    if found and named:
-        for along, name in list(zip(UNIT, AXES, strict=True))[: 2 if in_plane else 3]:
-            start = _end_on(found, along)
-            found.append(Axis(start, start, along, label=scalar(name)))
+    boundary = body.boundary
+    if isinstance(boundary, Ellipsoidal):
+        return _ellipsoid(boundary, point, named)
+    if isinstance(boundary, Toroidal):
+        return _torus(boundary, words_of(body), point, named)
+    if hasattr(body, "parts"):
+        found = _of_parts(body.parts, point, named, is_in_plane(body))
+    else:
+        found = in_space(boundary, _pose(point), words_of(body), named)
+    if not found or not named:
+        return found
+    if isinstance(boundary, Faces):
+        return [*found, *body_axes(boundary, point), *([] if boundary.faces else _edge_lengths(boundary, point))]
+    if isinstance(boundary, Round):
+        return [*found, *_measures(body, boundary, point)]
+    found += _sizes(body, boundary, point, Y)
+    for along, name in list(zip(UNIT, AXES, strict=True))[: 2 if is_in_plane(body) else 3]:
+        start = _end_on(found, along)
+        found.append(Axis(start, start, along, label=scalar(name)))
     return found
 
 
@@ -87,15 +89,15 @@ def _end_on(marks: Sequence[Mark], along: Position) -> Position:
     for mark in marks:
         if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
             _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
-            if all(is_zero(entry) for entry in end.cross(along)) and in_units(end.dot(along)) > 0:
+            if all(is_zero(entry) for entry in end.cross(along)) and numeric(end.dot(along)) > 0:
                 return end
     return ORIGIN
 
 
 def axes_at(body: Body, about: str) -> list[Mark]:
     """The axes that begin at a point of the body."""
-    if isinstance(body, EdgedBody):
-        return body_axes(body, body.point(about))
+    if isinstance(body.boundary, Faces):
+        return body_axes(body.boundary, body.point(about))
     return [mark for mark in outline(body, about) if isinstance(mark, Axis)]
 
 
@@ -104,27 +106,174 @@ def is_in_plane(body: Body) -> bool:
     return hasattr(body, "parts") and body.flat_across == "z"
 
 
-# --- bodies with edges -----------------------------------------------------------------------------------------------
+def words_of(body: Any) -> dict[str, Any]:
+    """The name of a body and its measures, for the description of its surface."""
+    return {"name": body.id, "measures": tuple(getattr(body, "measures", {}).items())}
 
 
-def _with_edges(body: EdgedBody, point: Point, named: bool) -> list[Mark]:
-    """The outline, with a label at one edge of each length; for a flat body, with dimension lines in its plane."""
-    corners = tuple(point.seen(corner) for corner in body.corners)
-    lengths = tuple((length if named and body.faces else None, edges) for length, edges in body.edges)
-    marks: list[Mark] = [Polyhedron(corners, body.faces, lengths, **_words(body))]
-    if named:
-        marks += body_axes(body, point)
-    if named and not body.faces:
-        middle = sum(corners, ORIGIN) / len(corners)
-        ends_of = ((length, corners[edges[0][0]], corners[edges[0][1]]) for length, edges in body.edges)
-        marks += [LengthMark(a, b, (a + b) / 2 - middle, label=length) for length, a, b in ends_of]
+# --- surfaces in space -----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Pose:
+    """How a body lies in a drawing in space.
+
+    at      a place along the body axes -> that place in the drawing
+    along   the direction of its own z axis, a unit vector (3)
+    """
+
+    at: Callable[[Position], Position]
+    along: Position
+
+
+def _pose(point: Point) -> Pose:
+    """The body as it is seen from one of its points."""
+    return Pose(point.seen, point.axes.T * Z)
+
+
+def in_space(boundary: Boundary | None, pose: Pose, words: dict[str, Any], named: bool = False) -> list[Mark]:
+    """The surface of a body in space, in any position; empty if it cannot be drawn.
+
+    named   whether lengths are written at the edges of a body with faces
+    """
+    match boundary:
+        case Round():
+            return [round_outline(boundary, pose, words)]
+        case Faces(corners, faces, edges):
+            lengths = tuple((length if named and faces else None, at) for length, at in edges)
+            return [Polyhedron(tuple(map(pose.at, corners)), faces, lengths, **words)]
+        case Segment(start, end):
+            return [ThinRod(pose.at(start), pose.at(end), **words)]
+        case Rim():
+            return [Polyhedron(tuple(map(pose.at, boundary.places(EDGE))), **words)]
+        case Hollowed(whole, removed):
+            outer = _flat_circle(whole, pose, words) if whole.is_flat else round_outline(whole, pose, words)
+            return [outer, _room(removed, pose, {})]
+    return []
+
+
+def round_outline(boundary: Round, pose: Pose, words: dict[str, Any]) -> Surface:
+    """The surface of a body of revolution, for any position of its axis in the drawing."""
+    (lower, upper), through, along = boundary.ends, pose.at(ORIGIN), pose.along
+    if boundary.is_line:
+        return ThinRod(through + lower * along, through + upper * along, **words)
+    if not boundary.is_flat:
+        return Revolved(_profile(boundary), through, along, **words)
+    radius = boundary.radius_at(lower)
+    if boundary.is_curve:
+        return Circle(through + lower * along, along, radius, **words)
+    half = THIN * radius
+    return Revolved(((lower - half, radius), (lower + half, radius)), through, along, **words)
+
+
+def _room(removed: Round, pose: Pose, words: dict[str, Any]) -> Cavity:
+    """The room that a removed round part leaves: a hole in a flat body, a cavity without a rim, or a bore."""
+    if removed.is_flat:
+        return Hole(_flat_circle(removed, pose, words))
+    return (Cavity if removed.is_closed else Bore)(round_outline(removed, pose, words))
+
+
+def _flat_circle(boundary: Round, pose: Pose, words: dict[str, Any]) -> Circle:
+    height = boundary.ends[0]
+    middle = pose.at(ORIGIN) + height * pose.along
+    return Circle(middle, pose.along, boundary.radius_at(height), filled=True, **words)
+
+
+def _profile(boundary: Round) -> tuple[tuple[Expr, Expr], ...]:
+    """Heights along its own z axis with the radius there: both ends, or many heights if the side is curved."""
+    lower, upper = boundary.ends
+    parts = [Rational(k, CURVED) for k in ((0, CURVED) if boundary.is_straight else range(CURVED + 1))]
+    heights = [lower + (upper - lower) * part**2 * (3 - 2 * part) for part in parts]
+    return tuple((z, boundary.radius_at(z)) for z in heights)
+
+
+def widest_of(boundary: Round) -> tuple[Expr, Expr]:
+    """The height of the widest place, and the radius there."""
+    return max(_profile(boundary), key=lambda ring: numeric(ring[1]))
+
+
+# --- bodies of several parts -----------------------------------------------------------------------------------------
+
+
+def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
+    """All parts at their places; empty if the outline of a part is unknown, or if a hole would be visible inside."""
+    marks: list[Mark] = []
+    for part in parts:
+        body, held = part.body, part.body.point(part.of).position
+        point = Point(part.of, held - part.turn.T * (part.position - whole.position), part.turn.T * whole.axes)
+        aside = X if in_plane else Y
+        if part.sign < 0:
+            found = _hollow(body, point, -aside, named, in_plane)
+        elif hasattr(body, "parts"):
+            found = _of_parts(body.parts, point, named, in_plane)
+        else:
+            found = in_space(body.boundary, _pose(point), words_of(body), named)
+            found += _sizes(body, body.boundary, point, aside) if named else []
+        if not found:
+            return []
+        told = [mark.label for mark in marks]
+        marks += [mark for mark in found if mark.label is None or mark.label not in told]  # label equal sizes once
     return marks
 
 
-def body_axes(body: EdgedBody, point: Point) -> list[Mark]:
+def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
+    """A removed part, if it has no rim or is shown in its plane; else empty."""
+    boundary, pose = body.boundary, _pose(point)
+    if isinstance(boundary, Faces) and in_plane:
+        return [Hole(mark) for mark in in_space(boundary, pose, words_of(body)) if isinstance(mark, Surface)]
+    if not isinstance(boundary, Round) or boundary.is_line or boundary.is_curve:
+        return []
+    if not (boundary.is_closed or boundary.is_flat and in_plane):
+        return []
+    return [_room(boundary, pose, words_of(body)), *(_sizes(body, boundary, point, aside) if named else [])]
+
+
+# --- lengths and axes ------------------------------------------------------------------------------------------------
+
+
+def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
+    """The sizes of a body with any orientation that have a line in a drawing."""
+    match boundary:
+        case Round():
+            return _round_sizes(body, boundary, point, aside)
+        case Segment(start, end):
+            ends = point.seen(start), point.seen(end)
+            way = ends[1] - ends[0]
+            return [LengthMark(*ends, None, label=tidied(sqrt(way.dot(way))))]
+        case Rim(_, (start, end, radius)):
+            return [Line(point.seen(start), point.seen(end), "edge", label=radius)]
+        case Hollowed(whole, removed):
+            sizes = [*_round_sizes(body, whole, point, aside), *_round_sizes(body, removed, point, -aside)]
+            return list({mark.label: mark for mark in sizes}.values())
+    return []
+
+
+def _round_sizes(body: Body, boundary: Round, point: Point, aside: Position) -> list[Mark]:
+    """The radius at the widest place, and the length."""
+    along, origin = point.axes.T * Z, point.seen(ORIGIN)
+    low, high = boundary.ends
+    wide, radius = widest_of(boundary)
+    marks: list[Mark] = []
+    if _is_told(radius, body):
+        middle = origin + wide * along
+        marks.append(Line(middle + radius * aside, middle, "hidden", label=radius))
+    if _is_told(high - low, body):
+        marks.append(LengthMark(origin + low * along, origin + high * along, None, radius, label=high - low))
+    return marks
+
+
+def _edge_lengths(boundary: Faces, point: Point) -> list[Mark]:
+    """Dimension lines in the plane of a flat body."""
+    corners = tuple(map(point.seen, boundary.corners))
+    middle = sum(corners, ORIGIN) / len(corners)
+    ends_of = ((length, corners[edges[0][0]], corners[edges[0][1]]) for length, edges in boundary.edges)
+    return [LengthMark(a, b, (a + b) / 2 - middle, label=length) for length, a, b in ends_of]
+
+
+def body_axes(boundary: Faces, point: Point) -> list[Mark]:
     """The axes that begin at a point of the body: dashed inside it, unless they are edges, and arrows outside."""
-    corners = [point.seen(corner) for corner in body.corners]
-    reaches = (max((corner[k] for corner in corners), key=in_units) for k in range(3))
+    corners = [point.seen(corner) for corner in boundary.corners]
+    reaches = (max((corner[k] for corner in corners), key=numeric) for k in range(3))
     ends = [reach * along for reach, along in zip(reaches, UNIT, strict=True)]
     marks: list[Mark] = [
         Axis(end, end, along, label=scalar(name)) for end, along, name in zip(ends, UNIT, AXES, strict=True)
@@ -134,55 +283,17 @@ def body_axes(body: EdgedBody, point: Point) -> list[Mark]:
     return marks
 
 
-# --- round bodies ----------------------------------------------------------------------------------------------------
-
-
-def round_outline(body: RoundBody, through: Position, along: Position) -> Surface:
-    """The surface of a body of revolution about its z axis, for any position of that axis in the drawing.
-
-    through   the place of its own z = 0
-    along     the direction of its own z axis, a unit vector (3)
-    """
-    lower, upper = body.ends
-    if is_line(body):
-        return ThinRod(through + lower * along, through + upper * along, **_words(body))
-    if lower != upper:
-        return Revolved(_profile(body), through, along, **_words(body))
-    radius = body.radius_at(lower)
-    if body.filling == "length":
-        return Circle(through + lower * along, along, radius, **_words(body))
-    half = THIN * radius
-    return Revolved(((lower - half, radius), (lower + half, radius)), through, along, **_words(body))
-
-
-def is_line(body: Body) -> bool:
-    """Whether the whole body lies on its axis."""
-    return isinstance(body, RoundBody) and body.is_straight and all(body.radius_at(end) == 0 for end in body.ends)
-
-
-def _profile(body: RoundBody) -> tuple[tuple[Expr, Expr], ...]:
-    """Heights along its own z axis with the radius there: both ends, or many heights if the side is curved."""
-    lower, upper = body.ends
-    parts = [Rational(k, CURVED) for k in ((0, CURVED) if body.is_straight else range(CURVED + 1))]
-    heights = [lower + (upper - lower) * part**2 * (3 - 2 * part) for part in parts]
-    return tuple((z, body.radius_at(z)) for z in heights)
-
-
-def _words(body: Body) -> dict[str, Any]:
-    return {"name": body.id, "measures": tuple(body.measures.items())}
-
-
-def _measures(body: RoundBody, point: Point) -> list[Mark]:
+def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
     """The radius at the widest place, the height next to the body, and the axes from the point."""
-    profile = [(point.seen(column(0, 0, z))[2], radius) for z, radius in _profile(body)]
+    profile = [(point.seen(column(0, 0, z))[2], radius) for z, radius in _profile(boundary)]
     (low, below), (high, above) = sorted((profile[0], profile[-1]), key=lambda end: not end[0].is_nonpositive)
-    wide, radius = max([(low, below), (high, above), *profile], key=lambda ring: in_units(ring[1]))
-    start = body.radius_at(point.position[2])
+    wide, radius = max([(low, below), (high, above), *profile], key=lambda ring: numeric(ring[1]))
+    start = boundary.radius_at(point.position[2])
     marks: list[Mark] = [
         Axis(start * along, start * along, along, label=scalar(name)) for along, name in zip((X, Y), "xy", strict=True)
     ]
     # If the base is on top, the axis arrow must start beyond the far part of the rim.
-    top = high + radius / 4 if in_units(above) > in_units(below) else high
+    top = high + radius / 4 if numeric(above) > numeric(below) else high
     marks.append(Axis(high * Z, top * Z, Z, label=scalar("z")))
     if _is_told(radius, body):
         marks.append(Line(wide * Z + radius * Y, wide * Z, "hidden", label=radius))
@@ -192,20 +303,15 @@ def _measures(body: RoundBody, point: Point) -> list[Mark]:
     return marks
 
 
-def widest_of(body: RoundBody) -> tuple[Expr, Expr]:
-    """The height of the widest place, and the radius there."""
-    return max(_profile(body), key=lambda ring: in_units(ring[1]))
-
-
-def _with_slice(marks: Sequence[Mark], body: RoundBody, point: Point) -> list[Mark]:
+def _with_slice(marks: Sequence[Mark], boundary: Round, point: Point) -> list[Mark]:
     """Add a slice at the height z from the point, with its radius; existing dimension lines move outwards."""
     z = scalar("z")
-    lower, upper = body.ends
+    lower, upper = boundary.ends
     at = lower + CUT * (upper - lower)
-    near, far = sorted((at, at + SLICE * (upper - lower)), key=lambda own: in_units(_height(point, own)))
-    radius = max((radius for _, radius in _profile(body)), key=in_units)
-    rings = tuple((_height(point, own), body.radius_at(at)) for own in (near, far))
-    label = tidied(body.radius_at(point.along_body(z)))
+    near, far = sorted((at, at + SLICE * (upper - lower)), key=lambda own: numeric(_height(point, own)))
+    _, radius = widest_of(boundary)
+    rings = tuple((_height(point, own), boundary.radius_at(at)) for own in (near, far))
+    label = tidied(boundary.radius_at(point.along_body(z)))
     slice_of_it = SliceMark(rings, ORIGIN, Z, label=label, height=z, thickness=(scalar("d"), z))
     moved = [replace(mark, beyond=BESIDE_IT) if isinstance(mark, LengthMark) else mark for mark in marks]
     return [*moved, slice_of_it, LengthMark(ORIGIN, _height(point, near) * Z, None, radius, label=z)]
@@ -226,164 +332,23 @@ def _is_told(length: Expr, body: Body) -> bool:
     return length != 0 and any(is_zero(length - measure) for measure in body.measures.values())
 
 
-def in_units(length: Expr) -> float:
-    """The length with all symbols set to one, to sort lengths."""
-    return float(length.subs(dict.fromkeys(length.free_symbols, Integer(1))))
-
-
-# --- bodies of several parts, and others -----------------------------------------------------------------------------
-
-
-def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
-    """All parts at their places; empty if the outline of a part is unknown, or if a hole would be visible inside."""
-    marks: list[Mark] = []
-    for part in parts:
-        body, held = part.body, part.body.point(part.of).position
-        point = Point(part.of, held - part.turn.T * (part.position - whole.position), part.turn.T * whole.axes)
-        aside = X if in_plane else Y
-        if part.sign < 0:
-            found = _hollow(body, point, -aside, named, in_plane)
-        elif isinstance(body, RoundBody):
-            surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
-            found = [surface, *(_sizes(body, point, aside) if named else [])]
-        elif isinstance(body, EdgedBody):
-            found = _with_edges(body, point, named)[:1]
-        elif hasattr(body, "parts"):
-            found = _of_parts(body.parts, point, named, in_plane)
-        elif hasattr(body, "whole_and_removed"):
-            found = _with_room(body, point, named)
-        else:
-            found = []
-        if not found:
-            return []
-        told = [mark.label for mark in marks]
-        marks += [mark for mark in found if mark.label is None or mark.label not in told]  # label equal sizes once
-    return marks
-
-
-def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
-    """A removed part, if it has no rim or is shown in its plane; else empty."""
-    if isinstance(body, EdgedBody) and in_plane:
-        return [Hole(mark) for mark in _with_edges(body, point, named=False) if isinstance(mark, Surface)]
-    if not isinstance(body, RoundBody) or is_line(body):
-        return []
-    origin, along = point.seen(ORIGIN), point.axes.T * Z
-    sizes = _sizes(body, point, aside) if named else []
-    if all(body.radius_at(end) == 0 for end in body.ends):
-        return [Cavity(round_outline(body, origin, along)), *sizes]
-    if not in_plane or body.filling != "area":
-        return []
-    middle, radius = origin + body.ends[0] * along, body.radius_at(body.ends[0])
-    return [Hole(Circle(middle, along, radius, filled=True, **_words(body))), *sizes]
-
-
-def _sizes(body: RoundBody, point: Point, aside: Position) -> list[Mark]:
-    """The radius at the widest place, and the length, for a body with any orientation."""
-    along, origin = point.axes.T * Z, point.seen(ORIGIN)
-    low, high = body.ends
-    wide, radius = widest_of(body)
-    marks: list[Mark] = []
-    if _is_told(radius, body):
-        middle = origin + wide * along
-        marks.append(Line(middle + radius * aside, middle, "hidden", label=radius))
-    if _is_told(high - low, body):
-        marks.append(LengthMark(origin + low * along, origin + high * along, None, radius, label=high - low))
-    return marks
-
-
-def semi_axes_of(body: Body) -> tuple[Expr, Expr, Expr] | None:
-    """The semi-axes of an ellipsoid about its origin, also if it is given by a map as a stretched ball."""
-    if isinstance(body, Ellipsoid):
-        return body.semi_axes
-    place, limits = body.map() if isinstance(body, Solid) else (None, ())
-    if place is None or [tuple(ends) for _, *ends in limits] != [(0, 1), (0, pi), (0, 2 * pi)]:
-        return None
-    r, *angles = (letter for letter, *_ in limits)
-    (a, x), (b, y), (c, z) = ((entry / r).as_independent(r, *angles, as_Add=False) for entry in place)
-    is_ball = is_zero(Add(*(each**2 for each in (x, y, z))) - 1) and all(size.is_positive for size in (a, b, c))
-    return (a, b, c) if is_ball else None
-
-
-def _ellipsoid(body: Body, semi_axes: tuple[Expr, Expr, Expr], point: Point, named: bool) -> list[Mark]:
+def _ellipsoid(boundary: Ellipsoidal, point: Point, named: bool) -> list[Mark]:
     """The ellipsoid, with its semi-axes dashed and labelled, and with axes beyond them."""
-    centre = point.seen(ORIGIN)
-    words = {**_words(body), "name": Ellipsoid.id, "measures": (("semi_axes", semi_axes),)}
-    marks: list[Mark] = [EllipsoidMark(centre, semi_axes, **words)]
+    centre, semi_axes = point.seen(ORIGIN), boundary.semi_axes
+    marks: list[Mark] = [EllipsoidMark(centre, semi_axes, name=Ellipsoid.id, measures=(("semi_axes", semi_axes),))]
     for size, along, name in zip(semi_axes, UNIT, AXES, strict=True) if named else ():
         end = centre + size * along
         marks += [Line(centre, end, "hidden", label=size), Axis(end, end, along, label=scalar(name))]
     return marks
 
 
-def _torus(body: Torus, point: Point, named: bool) -> list[Mark]:
+def _torus(boundary: Toroidal, words: dict[str, Any], point: Point, named: bool) -> list[Mark]:
     """The torus, with both radii along y, and with axes outside it."""
-    centre = point.seen(ORIGIN)
-    marks: list[Mark] = [TorusMark(centre, body.radius, body.section, **_words(body))]
+    centre, radius, section = point.seen(ORIGIN), boundary.radius, boundary.section
+    marks: list[Mark] = [TorusMark(centre, radius, section, **words)]
     if not named:
         return marks
-    middle, edge = centre + body.radius * Y, centre + (body.radius + body.section) * Y
-    marks += [Line(centre, middle, "hidden", label=body.radius), Line(middle, edge, "hidden", label=body.section)]
-    ends = (centre + (body.radius + body.section) * X, edge, centre)
+    middle, edge = centre + radius * Y, centre + (radius + section) * Y
+    marks += [Line(centre, middle, "hidden", label=radius), Line(middle, edge, "hidden", label=section)]
+    ends = (centre + (radius + section) * X, edge, centre)
     return [*marks, *(Axis(e, e, along, label=scalar(name)) for e, along, name in zip(ends, UNIT, AXES, strict=True))]
-
-
-def _by_its_map(body: Body, point: Point, named: bool) -> list[Mark]:
-    """A straight wire, or a plate in the xy plane whose edge is given by the limits of its map."""
-    if hasattr(body, "whole_and_removed"):
-        return _with_room(body, point, named)
-    if not hasattr(body, "map"):
-        return []
-    place, limits = body.map()
-    if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
-        u, *ends = limits[0]
-        start, end = (point.seen(place.xreplace({u: at})) for at in ends)
-        length = tidied(sqrt((end - start).dot(end - start)))
-        return [ThinRod(start, end, **_words(body)), *([LengthMark(start, end, None, label=length)] if named else [])]
-    spots = edge_of(body)
-    if not spots:
-        return []
-    rim = Polyhedron(tuple(point.seen(spot) for spot in spots), **_words(body))
-    if not named or not isinstance(body, OfRadius):
-        return [rim]
-    return [rim, (Line(point.seen(-body.radius * X), point.seen(ORIGIN), "edge", label=body.radius))]
-
-
-def _with_room(body: Any, point: Point, named: bool) -> list[Mark]:
-    """A body minus a smaller body of the same kind, which leaves a cavity, a bore or a hole."""
-    whole, removed = body.whole_and_removed()
-    centre, along = point.seen(ORIGIN), point.axes.T * Z
-    marks: list[Mark]
-    if isinstance(body, Annulus):
-        rim, edge = (Circle(centre, along, each.radius, filled=True) for each in (whole, removed))
-        marks = [replace(rim, **_words(body)), Hole(edge)]
-    else:
-        outer, inner = (round_outline(each, centre, along) for each in (whole, removed))
-        room: type[Cavity] = Bore if isinstance(body, Tube) else Cavity
-        marks = [replace(outer, **_words(body)), room(replace(inner, name=""))]
-    sizes = [*_sizes(whole, point, Y), *_sizes(removed, point, -Y)] if named else []
-    return [*marks, *{mark.label: mark for mark in sizes}.values()]
-
-
-def edge_of(body: Body) -> list[Position]:
-    """Places along the whole edge of a flat body in the xy plane, from the limits of its map; empty if the body has a
-    hole."""
-    if not hasattr(body, "map") or body.flat_across != "z":
-        return []
-    place, limits = body.map()
-    if len(limits) != 2 or any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
-        return []
-    (u, *u_ends), (v, *v_ends) = limits
-    sides = [
-        (u, u_ends[0], v, v_ends),
-        (v, v_ends[1], u, u_ends),
-        (u, u_ends[1], v, v_ends[::-1]),
-        (v, v_ends[0], u, u_ends[::-1]),
-    ]
-    curves = [
-        [place.xreplace({held: end, letter: first + (last - first) * Rational(k, EDGE)}) for k in range(EDGE + 1)]
-        for held, end, letter, (first, last) in sides
-    ]
-    # Two limits with the same curve form a seam, not an edge; the rest is one closed line, or an edge and a hole.
-    seamless = [curves[k::2] for k in (0, 1) if curves[1 - k] == curves[3 - k][::-1]]
-    rounds = [curve for curve in seamless[0] if len(set(curve)) > 1] if seamless else [[*chain(*curves)]]
-    return list(dict.fromkeys(rounds[0])) if len(rounds) == 1 else []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from sympy import Add, Expr, Float, Integer, Rational, cos, pi, sqrt
+from sympy import Add, Expr, Integer, Rational, cos, pi, sqrt
 
 from derive.algebra.expressions import column
 from derive.algebra.tidy import tidied
@@ -13,6 +13,7 @@ from derive.figures.marks import Mark
 from derive.figures.parts import ConnectionMark
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, link_from_fixed, moving_in
+from derive.figures.space import numeric
 from derive.figures.surfaces import Circle
 from derive.figures.surroundings import UprightAngle, WayMark
 from derive.figures.turning import angle_marks
@@ -21,6 +22,7 @@ from derive.mechanics.model.no_slip import Rolling
 from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
+ZERO = Integer(0)
 ACROSS = column(0, 0, 1)
 # The distance of a rotation arrow, and of the end of its axis, relative to that of the centre of mass.
 ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
@@ -93,9 +95,8 @@ def _between_axes(system: System, link: Link, rolling: Rolling) -> Expr | None:
 
 
 def _is_outside(system: System, link: Link, rolling: Rolling) -> bool:
-    """Whether the body rolls outside the cylinder, for all symbols 1 and all coordinates 0."""
+    """Whether the body is farther from the axis than the contact where all coordinates are zero."""
     middle = rolling.body.centre - link.start
     beyond = Add(*(c**2 for c in middle.components)) - link.length**2
-    there = beyond.xreplace(dict.fromkeys(system.coordinates, Integer(0))).subs(system.known)
-    number = there.xreplace(dict.fromkeys(there.free_symbols, Float(1)))
-    return bool(is_fixed(system, link.start) and number.evalf() > 0)
+    at_zero = dict.fromkeys(system.coordinates, ZERO)
+    return is_fixed(system, link.start) and numeric(beyond.subs(system.known), at_zero) > 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, ClassVar
@@ -13,29 +13,28 @@ from derive.algebra.expressions import TIME, column
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import PointMark, Support
-from derive.figures.bodies import edge_of, is_line, round_outline
+from derive.figures.bodies import EDGE, ORIGIN, Pose, X, Y, Z, in_space, round_outline, widest_of, words_of
 from derive.figures.marks import Mark, Position, Surface
 from derive.figures.parts import BarMark, ConnectionMark, WheelMark, beside
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, links_about_fixed, moving_in, same, track_of
 from derive.figures.rollers import roller_of, rolling_marks, way_marks
-from derive.figures.space import Spot, Vector, hull
-from derive.figures.surfaces import Cavity, Circle, Hole, Polyhedron, Revolved, ThinRod
+from derive.figures.space import Spot, Vector, hull, numeric
+from derive.figures.surfaces import Cavity, Circle, Hole, Revolved, ThinRod
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
 from derive.figures.tops import follows_nodes, seen_upright, sizes_of_top, turns_about_axes
 from derive.figures.turning import angle_marks, downwards
-from derive.mechanics.bodies.body import RoundBody
-from derive.mechanics.bodies.edged_bodies import EdgedBody
+from derive.mechanics.bodies.boundary import Boundary, Extruded, Faces, Hollowed, Rim, Round, Segment
 from derive.mechanics.bodies.placed import PlacedBody
-from derive.mechanics.bodies.solids import HalfCylinder, Tube
-from derive.mechanics.bodies.thin_bodies import Annulus, HalfDisc
+from derive.mechanics.bodies.regions import Point
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.no_slip import Rolling
 from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
+STEPS = 24  # along the side of a round body
 FAR = Rational(8, 5)  # length of the drawn line, relative to the coordinate
 
 
@@ -170,7 +169,7 @@ def _holder(system: System, placed: Any) -> Mark:
         return FixedEnd(at, downwards(2), True)
     if TIME in moving_in(system, *way):
         return PointMark(at)
-    return Support(at) if _in_units(way[-1]) > 0 else FixedEnd(at, downwards(3), True)
+    return Support(at) if numeric(way[-1]) > 0 else FixedEnd(at, downwards(3), True)
 
 
 def with_its_shape(placed: Any) -> Any:
@@ -187,8 +186,8 @@ def _far_end(placed: Any) -> Location:
     parts = getattr(placed.body, "parts", ()) or (placed.body,)
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position
-    far = max(ends, key=lambda z: _in_units(z - held[2]), default=None)
-    if far is None or _in_units(far - held[2]) <= 0:
+    far = max(ends, key=lambda z: numeric(z - held[2]), default=None)
+    if far is None or numeric(far - held[2]) <= 0:
         far = placed.body.middle.position[2]
     end: Location = placed.at + placed.seen_in_space(column(0, 0, far - held[2]))
     return end
@@ -197,9 +196,9 @@ def _far_end(placed: Any) -> Location:
 def _ends_on_axis(part: Any) -> list[Expr]:
     """The lower and upper heights of a round part on the z axis of the whole body."""
     body = getattr(part, "body", part)
-    if not isinstance(body, RoundBody):
+    if not isinstance(getattr(body, "boundary", None), Round):
         return []
-    places = [column(0, 0, z) for z in body.ends]
+    places = [z * Z for z in body.boundary.ends]
     seen = [part.seen(place) for place in places] if body is not part else places
     return [place[2] for place in seen if place[0] == place[1] == 0]
 
@@ -216,13 +215,13 @@ def _of_parts(placed: Any) -> list[Mark]:
                 return []
             marks = [*(_towards(mark, placed.centre) for mark in marks), *found]
             continue
-        if not (isinstance(part.body, RoundBody | EdgedBody) or hasattr(part.body, "parts")):
+        if part.body.boundary is None and not hasattr(part.body, "parts"):
             continue
         there = _placed_part(placed, part)
         if there is None:
             continue
-        if is_line(part.body) and not placed.is_plane:
-            marks += _in_pieces(there, [other.centre for other in placed.body.parts if not is_line(other.body)], part)
+        if _is_line(part.body) and not placed.is_plane:
+            marks += _in_pieces(there, [other.centre for other in placed.body.parts if not _is_line(other.body)], part)
         else:
             marks += placed_outline(there)
     return marks
@@ -258,22 +257,23 @@ def _placed_part(placed: Any, part: Any) -> Any:
     return replace(placed, body=part.body, point=point, at=at) if part.turn.is_Identity else None
 
 
+def _is_line(body: Any) -> bool:
+    return isinstance(body.boundary, Round) and body.boundary.is_line
+
+
 def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
     """A rod in space, cut at the centres of other parts that lie on it."""
-    held = there.point.position
-
-    def at(z: Expr) -> ImmutableDenseMatrix:
-        return column_of(there.at + there.seen_in_space(ImmutableDenseMatrix(column(0, 0, z) - held)))
-
-    lower, upper = there.body.ends
-    along = part.turn * column(0, 0, 1)
-    ways = [centre - part.seen(column(0, 0, 0)) for centre in centres]
+    at, (lower, upper) = _place_in(there), there.body.boundary.ends
+    along = part.turn * Z
+    ways = [centre - part.seen(ORIGIN) for centre in centres]
     heights = [(along.T * way)[0] for way in ways if is_zero(ImmutableDenseMatrix(along.cross(way)))]
-    cuts = sorted((z for z in heights if _in_units(lower) < _in_units(z) < _in_units(upper)), key=_in_units)
-    surface = round_outline(there.body, at(Integer(0)), at(Integer(1)) - at(Integer(0)))
+    cuts = sorted((z for z in heights if numeric(lower) < numeric(z) < numeric(upper)), key=numeric)
+    surface = round_outline(there.body.boundary, Pose(at, at(Z) - at(ORIGIN)), words_of(there.body))
     assert isinstance(surface, ThinRod)
     pieces = pairwise([lower, *cuts, upper])
-    return [replace(surface, start=at(a), end=at(b), name=surface.name if a == lower else "") for a, b in pieces]
+    return [
+        replace(surface, start=at(a * Z), end=at(b * Z), name=surface.name if a == lower else "") for a, b in pieces
+    ]
 
 
 def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
@@ -296,7 +296,7 @@ def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]
     if track is None or not track.is_unit or not is_fixed(system, track.start) or track.way.components[0] == 0:
         return
     x, y = track.way.components
-    below = Location((y, -x)) if _in_units(x) > 0 else Location((-y, x))
+    below = Location((y, -x)) if numeric(x) > 0 else Location((-y, x))
     foot = track.start + radius * below
     far: Location = (FAR * track.by + radius) * track.way
     near: Location = -radius * track.way
@@ -305,79 +305,85 @@ def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]
     yield from way_marks(foot, foot + track.by * track.way, below, track.by)
     slope = [f.args[0] for f in y.atoms(sin)]
     if slope and slope[0].is_Symbol:
-        low, high = ends if _in_units(y) > 0 else ends[::-1]
+        low, high = ends if numeric(y) > 0 else ends[::-1]
         level = ImmutableDenseMatrix([(high - low).components[0], 0])
         yield AngleBetween(column_of(low), level, column_of(high - low), True, label=slope[0])
 
 
 def placed_outline(placed: Any) -> list[Mark]:
     """The visible outline of a body at its place; empty if only its mass and moments of inertia are known."""
-    body = getattr(placed.body, "look", None) or placed.body
+    shown = _as_it_looks(placed)
+    body, boundary = shown.body, getattr(shown.body, "boundary", None)
     if hasattr(body, "parts"):
-        return _of_parts(placed)
-    words: dict[str, Any] = {
-        "name": getattr(body, "id", ""),
-        "measures": _measures(body) if body is placed.body else (),
-    }
-    # A shape that represents a body has its centre at the body's centre of mass.
-    reference = placed.point.position
+        return _of_parts(shown)
+    if boundary is None:
+        return []
+    at, words = _place_in(shown), words_of(body)
     if body is not placed.body:
-        reference = reference - placed.body.middle.position + body.middle.position
-
-    def at(x: Expr | int, y: Expr | int, z: Expr | int) -> ImmutableDenseMatrix:
-        """The place of a point of the body."""
-        own = ImmutableDenseMatrix(column(x, y, z) - reference)
-        return column_of(placed.at + placed.seen_in_space(own))
-
-    if isinstance(body, EdgedBody):
-        corners = tuple(at(*corner) for corner in body.corners)
-        if len(corners[0]) == 3:
-            return [Polyhedron(corners, body.faces, **words)]
-        return [SilhouetteMark(corners, **words), *_sides(body, corners)]
-    if isinstance(body, Annulus | Tube):
-        return _seen_through(body, placed, words) if placed.across == 2 else []
-    if not isinstance(body, RoundBody):
-        return _mapped(body, placed, at, words)
-    (lower, upper), origin = body.ends, at(0, 0, 0)
-    if is_line(body):
-        return [ThickBar(at(0, 0, lower), at(0, 0, upper), label=upper - lower, **words)]
-    if len(origin) == 3:
-        return [round_outline(body, origin, at(0, 0, 1) - origin)]
-    if placed.across == 2:
-        widest = max((body.radius_at(z) for z in (lower, upper, (lower + upper) / 2)), key=_in_units)
-        ring = body.filling == "length"
-        return [WheelMark(origin, widest, at(1, 0, 0) - origin, is_ring=ring, label=widest, **words)]
-    heights = [lower + (upper - lower) * k / 24 for k in range(25)]
-    sides = [(side * body.radius_at(z), z) for z in heights for side in (-1, 1)]
-    corners = tuple(at(0, r, z) if placed.across == 0 else at(r, 0, z) for r, z in sides)
-    return [SilhouetteMark(corners, **words)]
+        words["measures"] = ()
+    match boundary:
+        case Round(ends=(lower, upper)) if boundary.is_line:
+            return [ThickBar(at(lower * Z), at(upper * Z), label=upper - lower, **words)]
+        case Segment(start, end):
+            return [ThickBar(at(start), at(end), **words)]
+    if shown.across is None:
+        return in_space(boundary, Pose(at, at(Z) - at(ORIGIN)), words)
+    return _in_plane(boundary, at, shown.across, words)
 
 
-def _seen_through(body: Annulus | Tube, placed: Any, words: dict[str, Any]) -> list[Mark]:
-    """A ring or a tube seen along its axis: a disc with a hole."""
-    (rim,), (edge,) = (placed_outline(replace(placed, body=each)) for each in body.whole_and_removed())
-    assert isinstance(rim, WheelMark) and isinstance(edge, WheelMark)
-    return [replace(rim, **words), Hole(replace(edge, name=""))]
+def _as_it_looks(placed: Any) -> Any:
+    """Replace a body of which only the moments are known by the body that represents it, with its centre there."""
+    look = getattr(placed.body, "look", None)
+    if look is None:
+        return placed
+    shift = look.middle.position - placed.body.middle.position
+    return replace(placed, body=look, point=Point(placed.point.name, placed.point.position + shift))
 
 
-def _sides(body: Any, corners: tuple[Position, ...]) -> Iterable[Mark]:
+def _place_in(placed: Any) -> Callable[[Position], Position]:
+    """A place along the axes of a body -> that place in the drawing."""
+    held = placed.point.position
+
+    def at(own: Position) -> Position:
+        return column_of(placed.at + placed.seen_in_space(ImmutableDenseMatrix(own - held)))
+
+    return at
+
+
+def _in_plane(boundary: Boundary | None, at: Callable[[Position], Position], across: int, words: Any) -> list[Mark]:
+    """The silhouette of a body in a plane.
+
+    across   the index of its axis perpendicular to the plane
+    """
+    match boundary:
+        case Faces():
+            corners = tuple(map(at, boundary.corners))
+            return [SilhouetteMark(corners, **words), *_sides(boundary, corners)]
+        case Round() if across == 2:
+            return [_wheel(boundary, at, words)]
+        case Round(ends=(lower, upper)):
+            side = Y if across == 0 else X
+            heights = [lower + (upper - lower) * Rational(k, STEPS) for k in range(STEPS + 1)]
+            spots = [sign * boundary.radius_at(z) * side + z * Z for z in heights for sign in (-1, 1)]
+            return [SilhouetteMark(tuple(map(at, spots)), **words)]
+        case Rim() if across == 2:
+            return [SilhouetteMark(tuple(dict.fromkeys(map(at, boundary.places(EDGE)))), **words)]
+        case Extruded(section) if across == 2:
+            return _in_plane(section, at, across, words)
+        case Hollowed(whole, removed) if across == 2 and not removed.is_closed:
+            return [_wheel(whole, at, words), Hole(_wheel(removed, at, {}))]
+    return []
+
+
+def _wheel(boundary: Round, at: Callable[[Position], Position], words: dict[str, Any]) -> WheelMark:
+    """A round body seen along its axis."""
+    centre, (_, radius) = at(ORIGIN), widest_of(boundary)
+    return WheelMark(centre, radius, at(X) - centre, is_ring=boundary.is_curve, label=radius, **words)
+
+
+def _sides(boundary: Faces, corners: tuple[Position, ...]) -> Iterable[Mark]:
     """The edge lengths of a flat figure that are symbols or multiples of a symbol, each at one edge."""
-    for length, edges in body.edges if len(corners) <= 4 else ():
+    for length, edges in boundary.edges if len(corners) <= 4 else ():
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])
             yield DistanceMark(start, end, label=length)
-
-
-def _mapped(body: Any, placed: Any, at: Any, words: dict[str, Any]) -> list[Mark]:
-    """A flat body in its own plane, by its edge, which is given by the limits of its map."""
-    flat = HalfDisc(body.radius, body.mass) if isinstance(body, HalfCylinder) else body  # its cross-section
-    corners = tuple(dict.fromkeys(at(*spot) for spot in edge_of(flat))) if placed.across == 2 and placed.point else ()
-    return [SilhouetteMark(corners, **words)] if corners else []
-
-
-def _measures(body: Any) -> tuple[tuple[str, Any], ...]:
-    return tuple(getattr(body, "measures", {}).items())
-
-
-def _in_units(length: Expr) -> float:
-    return float(length.subs(dict.fromkeys(length.free_symbols, 1)).evalf())

@@ -12,7 +12,8 @@ from derive.figures.elements import CLEAR
 from derive.figures.marks import Mark
 from derive.figures.parts import BLOCK, BarMark, BlockMark, RopeMark, WheelMark
 from derive.figures.positions import column_of
-from derive.figures.recognition import Track, is_fixed, moving_in, numeric, same, track_of
+from derive.figures.recognition import Track, is_fixed, moving_in, same, track_of
+from derive.figures.space import numeric
 from derive.figures.surroundings import DistanceMark, FixedEnd
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System

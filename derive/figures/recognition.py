@@ -8,16 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from sympy import Abs, Add, Expr, Float, Integer, Symbol, cos, expand, factor, sin, sqrt
+from sympy import Abs, Add, Expr, Float, Integer, Rational, Symbol, cos, expand, factor, sin, sqrt
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
+from derive.figures.space import numeric
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import Central, System
 
-ZERO = Integer(0)
+ZERO, HALF = Integer(0), Rational(1, 2)
 SAMPLES = (0.37, 0.83)
 
 
@@ -75,15 +76,9 @@ def is_fixed(system: System, place: Location) -> bool:
 
 
 def is_spring(each: Central) -> bool:
-    """Whether the potential energy is a polynomial of at most second degree in the distance."""
-    third: Expr = derivative(explicit(each.energy), each.distance, 3)
-    return third.is_zero is True
-
-
-def numeric(value: Expr) -> float:
-    """Return the value for the numbers 0.6, 0.67, ... as its symbols, which are possible lengths and acute angles."""
-    letters = sorted(value.free_symbols, key=str)
-    return float(value.xreplace({letter: Float(0.6 + 0.07 * i) for i, letter in enumerate(letters)}).evalf())
+    """Whether the energy is of second degree in the distance and has a minimum: a constant force has no spring."""
+    constant = tidied(derivative(explicit(each.energy), each.distance, 2))
+    return each.distance not in constant.free_symbols and constant.is_nonpositive is not True
 
 
 def same(a: Location, b: Location) -> bool:
@@ -272,7 +267,6 @@ def through_hole(system: System, link: Link, other: Location) -> Symbol | None:
 
 
 def _way_from_foot(track: Track) -> float:
-    """Return the signed distance of a particle from the foot of its line, for all symbols 1 and the coordinate 1/2."""
+    """Return the signed distance of a particle from the foot of its line, when the coordinate is 1/2."""
     along = Add(*(a * b for a, b in _pairs(track.start, track.way))) + track.by
-    numbers = {letter: Float(1) for letter in along.free_symbols - {track.by}}
-    return float(along.xreplace({**numbers, track.by: Float(0.5)}).evalf())
+    return numeric(along, {track.by: HALF})

@@ -18,7 +18,8 @@ from derive.figures.annotations import LengthMark, Line, PointMark
 from derive.figures.marks import Mark
 from derive.figures.parts import ConnectionMark, ParticleMark, WheelMark
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, angle_of_link, is_fixed, moving_in, numeric
+from derive.figures.recognition import Link, angle_of_link, is_fixed, moving_in
+from derive.figures.space import numeric
 from derive.figures.surroundings import WayMark
 from derive.figures.turning import angle_marks
 from derive.mechanics.kinematics.places import Location

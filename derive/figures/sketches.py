@@ -33,13 +33,13 @@ from derive.figures.recognition import (
     kept_length,
     link_to,
     moving_in,
-    numeric,
     same,
     through_hole,
 )
 from derive.figures.rollers import carrying_marks, roller_with
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
+from derive.figures.space import numeric
 from derive.figures.surroundings import FieldMark, FixedEnd, FloorMark, GravityMark, WayMark
 from derive.figures.tops import stance_values
 from derive.figures.touching import Touching

@@ -37,6 +37,7 @@ from derive.figures.recognition import (
     strings_of,
     track_of,
 )
+from derive.figures.space import numeric
 from derive.figures.surroundings import ROOM, AngleBetween, DistanceMark, FixedEnd, FloorMark
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
@@ -50,6 +51,7 @@ class Sliding:
 
     def __init__(self, system: System, links: Mapping[int, Link]):
         self.system, self.links = system, links
+        self.small = dict.fromkeys(system.coordinates, Rational(1, 5))  # values of coordinates, to find directions
         free = [i for i in range(len(system.particles)) if i not in links]
         tracks = {i: track for i in free if (track := track_of(system, system.particles[i].at)) is not None}
         self.carriers = {i: carrier_of(system, i, track) for i, track in tracks.items()}
@@ -117,7 +119,7 @@ class Sliding:
         """Return the free side of a hanging particle, 1 for right or -1 for left: without a string end or a pulley."""
         other = next((k for pair in (*self.ropes, *self.strings) if i in pair for k in pair if k != i), None)
         beside = [self._at(other)] if other is not None else [placed.centre for placed in self.system.bodies]
-        ways = [self._numeric((place - self._at(i)).components[0]) for place in beside]
+        ways = [numeric((place - self._at(i)).components[0], self.small) for place in beside]
         return 1 if ways and max(ways) < 0 else -1
 
     def _is_measured(self, i: int) -> bool:
@@ -137,7 +139,7 @@ class Sliding:
         left, right = ROOM, ROOM
         if walls or corners:
             at = self.system.particles[i].at.components[0]
-            before = [self._numeric(at - end.components[0]) > 0 for end in walls + corners]
+            before = [numeric(at - end.components[0], self.small) > 0 for end in walls + corners]
             short = -2 * WHEEL - 3 if corners else 0.0
             left, right = short if any(before) else ROOM, short if not all(before) else ROOM
         return FloorMark(tuple(column_of(each) for each in (*above, *walls, *corners)), off, (left, right))
@@ -165,7 +167,7 @@ class Sliding:
             yield AngleBetween(column_of(low), column_of(foot - low), column_of(top - low), label=slope[0])
         if track.is_unit and self._is_measured(i):
             normal = ImmutableDenseMatrix([-track.way.components[1], track.way.components[0]])
-            normal = normal if self._numeric(normal[1]) > 0 else -normal
+            normal = normal if numeric(normal[1], self.small) > 0 else -normal
             yield DistanceMark(column_of(track.start), column_of(at), normal, BLOCK[1] + CLEAR, label=track.by)
 
     def _slope(self, i: int, track: Track) -> tuple[Location, Location]:
@@ -174,26 +176,20 @@ class Sliding:
         roped = next((pair for pair in self.ropes if i in pair), None)
         if roped is not None:
             ends = [self._past(k) for k in roped if _is_slope(self.tracks[k])]
-            deepest = min(ends, key=lambda end: self._numeric(end.components[1]))
+            deepest = min(ends, key=lambda end: numeric(end.components[1], self.small))
             return track.foot, self._down_to(track.foot, self._past(i), deepest)
-        rises = self._numeric(track.way.components[1]) > 0
+        rises = numeric(track.way.components[1], self.small) > 0
         top, low = (far, track.start) if rises else (track.start, far)
         return top, low if carrier is None else self._down_to(top, low, self.system.particles[carrier].at)
 
     def _down_to(self, top: Location, low: Location, base: Location) -> Location:
         """Return the point at the height of `base` on the line through `top` and `low`; `low` if `base` is too high."""
         fall, whole = top.components[1] - base.components[1], top.components[1] - low.components[1]
-        if self._numeric(fall) < 1e-9:
+        if numeric(fall, self.small) < 1e-9:
             return low
         share: Expr = tidied(fall / whole)
         fallen: Location = share * (low - top)
         return top + fallen
-
-    def _numeric(self, value: Expr) -> float:
-        """Return the value for small coordinates, and 0.6 for all other symbols: an acute angle, or a length."""
-        small = {q: Rational(1, 5) for q in self.system.coordinates}
-        found = value.xreplace({**dict.fromkeys(value.free_symbols, Rational(3, 5)), **small})
-        return float(found.evalf())
 
     def _past(self, i: int) -> Location:
         """Return a point on the line a little beyond the block."""

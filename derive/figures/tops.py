@@ -11,12 +11,13 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Rational, Symbol, pi, sqrt
 from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis, LengthMark, Line, PointMark, Turn
-from derive.figures.bodies import in_units, is_line, widest_of
+from derive.figures.bodies import widest_of
 from derive.figures.marks import Mark, Position
 from derive.figures.positions import column_of
 from derive.figures.recognition import moving_in
+from derive.figures.space import numeric
 from derive.figures.surroundings import AngleBetween, UprightAngle
-from derive.mechanics.bodies.body import RoundBody
+from derive.mechanics.bodies.boundary import Round
 from derive.mechanics.bodies.placed import after
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
@@ -73,7 +74,7 @@ def follows_nodes(placed: Any) -> bool:
     if moments is not None:
         return is_zero(moments[0] - moments[1])
     parts = getattr(placed.body, "parts", None)
-    return all(_is_on_axis(part) for part in parts) if parts else isinstance(placed.body, RoundBody)
+    return all(_is_on_axis(part) for part in parts) if parts else _is_round(placed.body)
 
 
 def following_axes(placed: Any) -> list[ImmutableDenseMatrix]:
@@ -120,7 +121,7 @@ def sizes_of_top(placed: Any) -> Iterable[Mark]:
         for length in _lengths(body, low):
             if length != 0 and not any(is_zero(length - known) for known in told):
                 told.append(length)
-    told.sort(key=in_units)
+    told.sort(key=numeric)
     for k, length in enumerate(told):
         yield LengthMark(start, start + length * along, -across, beyond=CLEAR + APART * k, label=length)
     centre = placed.body.middle.position[2] - held
@@ -128,10 +129,14 @@ def sizes_of_top(placed: Any) -> Iterable[Mark]:
         yield PointMark(start + centre * along, label=scalar(CENTRE))
 
 
-def _parts(placed: Any) -> list[tuple[RoundBody, Expr]]:
+def _is_round(body: Any) -> bool:
+    return isinstance(getattr(body, "boundary", None), Round)
+
+
+def _parts(placed: Any) -> list[tuple[Any, Expr]]:
     """Return the round parts of a body, each with the distance of its z = 0 from the fixed point along the axis."""
     held = placed.point.position[2]
-    if isinstance(placed.body, RoundBody):
+    if _is_round(placed.body):
         return [(placed.body, -held)]
     parts = getattr(placed.body, "parts", ())
     return [(part.body, part.seen(_on_axis(0))[2] - held) for part in parts if _is_on_axis(part) and part.sign > 0]
@@ -139,7 +144,7 @@ def _parts(placed: Any) -> list[tuple[RoundBody, Expr]]:
 
 def _is_on_axis(part: Any) -> bool:
     """Whether a part is round about the axis of the whole body, and its z axis has the same direction."""
-    if not isinstance(part.body, RoundBody):
+    if not _is_round(part.body):
         return False
     low, high = part.seen(_on_axis(0)), part.seen(_on_axis(1))
     return all(is_zero(entry) for entry in (low[0], low[1], high[0], high[1], high[2] - low[2] - 1))
@@ -149,17 +154,17 @@ def _on_axis(z: int) -> ImmutableDenseMatrix:
     return ImmutableDenseMatrix([0, 0, z])
 
 
-def _radius(body: RoundBody, foot: Position, along: Position, aside: Position) -> Sequence[Mark]:
-    if is_line(body):
+def _radius(body: Any, foot: Position, along: Position, aside: Position) -> Sequence[Mark]:
+    if body.boundary.is_line:
         return ()
-    height, radius = widest_of(body)
+    height, radius = widest_of(body.boundary)
     if not any(is_zero(radius - measure) for measure in body.measures.values()):
         return ()
     middle = foot + height * along
     return (Line(middle, middle + radius * aside, "hidden", label=radius),)
 
 
-def _lengths(body: RoundBody, low: Expr) -> list[Expr]:
-    """Return the distances from the fixed point to both ends of a part; one distance for a flat part."""
-    lower, upper = body.ends
+def _lengths(body: Any, low: Expr) -> list[Expr]:
+    """Return the distances from the fixed point to both ends of a part; only one distance for a flat part."""
+    lower, upper = body.boundary.ends
     return [tidied(as_expr(low) + end) for end in dict.fromkeys((lower, upper))]

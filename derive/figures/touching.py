@@ -26,11 +26,11 @@ from derive.figures.recognition import (
     kept_length,
     links_about_fixed,
     moving_in,
-    numeric,
     same,
     track_of,
 )
 from derive.figures.rollers import FAR, arm_of, roller_of, way_marks
+from derive.figures.space import numeric
 from derive.figures.surfaces import Circle
 from derive.figures.surroundings import FixedEnd, FloorMark, GroundMark
 from derive.figures.turning import angle_marks, bound_place, downwards
@@ -98,14 +98,15 @@ class Touching:
         """Return the wall from the floor, or from the lowest mass, to a little above the point that touches it."""
         height = lean.place.components[1]
         others = [at for _, at in self.system.masses]
-        low = floors[0] if floors else min((at.components[1] for at in others), key=self._numeric)
-        beside = sum(self._numeric(at.components[0] - lean.at) for at in others)
+        low = (
+            floors[0]
+            if floors
+            else min((at.components[1] for at in others), key=lambda height: numeric(height, self.values))
+        )
+        beside = sum(numeric(at.components[0] - lean.at, self.values) for at in others)
         solid = ImmutableDenseMatrix([-1 if beside > 0 else 1, 0])
         top = low + PAST * (height - low)
         return GroundMark(ImmutableDenseMatrix([lean.at, low]), ImmutableDenseMatrix([lean.at, top]), solid)
-
-    def _numeric(self, value: Expr) -> float:
-        return numeric(value.subs(self.values))
 
     # --- strings on round bodies ---
 

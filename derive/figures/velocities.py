@@ -12,7 +12,8 @@ from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, LengthMark, PointMark
 from derive.figures.marks import Mark
 from derive.figures.positions import column_of
-from derive.figures.recognition import is_fixed, moving_in, numeric, same
+from derive.figures.recognition import is_fixed, moving_in, same
+from derive.figures.space import numeric
 from derive.figures.surroundings import AngleBetween, DistanceMark
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System

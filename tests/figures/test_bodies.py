@@ -17,11 +17,11 @@ from derive.algebra.expressions import Factors, column
 from derive.errors import Rejected
 from derive.figures import centre_mark, drawing, outline, sketch
 from derive.figures.annotations import Axis, LengthMark, Line
-from derive.figures.bodies import edge_of, is_in_plane, seen_outline, semi_axes_of
+from derive.figures.bodies import is_in_plane, seen_outline
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Surface
 from derive.figures.pieces import Patch
-from derive.figures.surfaces import Bore, Cavity, Circle, Hole, Polyhedron, Revolved, SliceMark, ThinRod
+from derive.figures.surfaces import Bore, Cavity, Circle, EllipsoidMark, Hole, Polyhedron, Revolved, SliceMark, ThinRod
 from derive.mechanics import (
     Annulus,
     Ball,
@@ -362,9 +362,10 @@ def test_a_round_hole_in_a_flat_body_is_seen_through() -> None:
 def test_where_a_flat_body_meets_itself_is_no_edge() -> None:
     r, u = symbols("r u", positive=True)
     around = (r * sympy.cos(u), r * sympy.sin(u), 0)
-    corners = edge_of(Sheet(around, {r: (0, R), u: (0, 2 * pi)}, mass=M))
-    assert corners and all(sympy.simplify(x**2 + y**2 - R**2) == 0 for x, y, _ in corners)
-    assert edge_of(Sheet(around, {r: (R / 2, R), u: (0, 2 * pi)}, mass=M)) == []
+    (rim,) = outline(Sheet(around, {r: (0, R), u: (0, 2 * pi)}, mass=M), named=False)
+    assert isinstance(rim, Polyhedron) and len(rim.corners) > 20
+    assert all(sympy.simplify(x**2 + y**2 - R**2) == 0 for x, y, _ in rim.corners)
+    assert seen_outline(Sheet(around, {r: (R / 2, R), u: (0, 2 * pi)}, mass=M)) == []
 
 
 def test_a_flat_body_is_drawn_by_its_edge_and_a_straight_wire_by_its_ends() -> None:
@@ -455,7 +456,7 @@ def test_a_ball_that_is_stretched_by_its_map_is_an_ellipsoid() -> None:
     limits = {r: (0, 1), u: (0, pi), v: (0, 2 * pi)}
     sphere = (r * sympy.sin(u) * sympy.cos(v), r * sympy.sin(u) * sympy.sin(v), r * sympy.cos(u))
     egg = Solid((a * sphere[0], 2 * a * sphere[1], h * sphere[2]), limits, mass=M)
-    assert semi_axes_of(egg) == (a, 2 * a, h)
-    assert semi_axes_of(Solid((a * sphere[0], a * sphere[1] * r, a * sphere[2]), limits, mass=M)) is None
-    assert semi_axes_of(CONE) is None
+    (mark,) = outline(egg, named=False)
+    assert isinstance(mark, EllipsoidMark) and mark.semi_axes == (a, 2 * a, h)
+    assert seen_outline(Solid((a * sphere[0], a * sphere[1] * r, a * sphere[2]), limits, mass=M)) == []
     assert [str(mark.label) for mark in outline(Torus(R, R / 4, M)) if isinstance(mark, Line)] == ["R", "R/4"]

@@ -143,7 +143,9 @@ def test_two_that_move_alike_are_on_no_string() -> None:
 def test_a_spring_has_an_energy_of_the_second_degree() -> None:
     d = letter("d")
     assert is_spring(spring(k, ORIGIN, point(l, 0), a))
-    assert not is_spring(central(-k / d, d, ORIGIN, point(l, 0)))
+    assert is_spring(central(k * d**2 / 2, d, ORIGIN, point(l, 0)))
+    for energy in (-k / d, k * d, -k * d**2):
+        assert not is_spring(central(energy, d, ORIGIN, point(l, 0)))
 
 
 def test_what_contains_the_time_moves() -> None:

@@ -9,7 +9,7 @@ from sympy import Integer, Rational, cos, sin, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import rate
-from derive.mechanics import Particle, RigidBody, System, Z, euler_angles, point, space
+from derive.mechanics import Particle, RigidBody, System, Z, charge, euler_angles, point, space
 from derive.mechanics import X as ACROSS
 from derive.mechanics.model.dalembert import Load, MassPoint, Matter
 from derive.steps.record import coordinate_named, recorded
@@ -73,6 +73,18 @@ def test_momentum_is_the_derivative_of_the_energy_by_the_rate() -> None:
     for along in (x, q):
         assert equal(body.momentum_along(along), body.kinetic_energy().diff(rate(along)))
         assert equal(body.turning_along(along), body.kinetic_energy().diff(along))
+
+
+def test_what_turns_in_a_magnetic_field_gives_with_the_deflection_the_slope_of_the_energy_in_the_field() -> None:
+    with recorded():
+        for known in (THETA, X):
+            coordinate_named(known.symbol, known.kind)
+        place = point(x * cos(q), x * sin(q))
+        matter = System(Particle(m, place), charge(A, place, B=b)).matter
+    for along in (x, q):
+        in_field = matter.turning_along(along) - matter.kinetic_energy().diff(along)
+        assert equal(in_field + matter.deflection_along(along), matter.energy_in_fields().diff(along))
+    assert not equal(matter.deflection_along(x), 0)
 
 
 def test_inertia_is_the_rate_of_momentum_less_what_the_turning_gives() -> None:

@@ -12,15 +12,16 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Symbol, sqrt
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import AXES, Ratio, column, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies import claims
+from derive.mechanics.bodies.boundary import Boundary, Hollowed, Round, of_map
 from derive.mechanics.bodies.components import centre_component, is_its_own_image, is_round_solid
-from derive.mechanics.bodies.equimomental import OfParticles, summed
+from derive.mechanics.bodies.equimomental import OfParticles, Particles, summed, without
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.landmarks import is_where_named
 from derive.mechanics.bodies.mapping import Map, cell, cylindrical, from_point
@@ -43,7 +44,7 @@ ZERO = Integer(0)
 ORIGIN = column(0, 0, 0)
 
 # where the mass is -> symbol and kind of the density
-_DENSITIES = {
+DENSITIES = {
     "volume": ("rho", "density"),
     "area": ("sigma", "surface density"),
     "length": ("lambda", "line density"),
@@ -100,6 +101,10 @@ class Body(Placeable, OfParticles):
     def map(self) -> Map:
         """The position along its body axes, and the limits of its variables, outermost first."""
         raise AttributeError(f"{type(self).__name__} must say where its points are")
+
+    @property
+    def boundary(self) -> Boundary | None:
+        return of_map(*self.map())
 
     @property
     def profile(self) -> Expr:
@@ -191,7 +196,7 @@ class Body(Placeable, OfParticles):
 
     @property
     def density_letter(self) -> str:
-        return _DENSITIES[self.filling][0]
+        return DENSITIES[self.filling][0]
 
     @property
     def size(self) -> Expr:
@@ -256,10 +261,8 @@ class RoundBody(Body):
         return cylindrical(self.letters, z, 0 if self.filling == "length" else (0, self.radius_at))
 
     @property
-    def is_straight(self) -> bool:
-        """Whether its radius is a linear function of z."""
-        z = Symbol("z_along", real=True)
-        return bool(self.radius_at(z).diff(z, 2) == 0)
+    def boundary(self) -> Round:
+        return Round(self.ends, self.radius_at, self.filling == "length")
 
 
 @dataclass(frozen=True)
@@ -283,16 +286,45 @@ class OfHeight(Body):
         return ZERO, self.height
 
 
-@dataclass(frozen=True)
-class Hollow(Body):
-    """A body defined by an outer radius and the radius of its cavity.
+class Spherical(OfRadius, RoundBody):
+    """A body whose places farthest from its axis are on a sphere about the origin."""
 
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return -self.radius, self.radius
+
+    def radius_at(self, z: Expr) -> Expr:
+        return sqrt(self.radius**2 - z**2)
+
+
+class Cylindrical(OfHeight, RoundBody):
+    """A body whose places farthest from its axis are at one distance from it."""
+
+    def radius_at(self, z: Expr) -> Expr:
+        return self.radius
+
+
+class Conical(OfHeight, RoundBody):
+    """A body whose places farthest from its axis are on a cone with its apex at the origin.
+
+    radius   of its base
+    """
+
+    def radius_at(self, z: Expr) -> Expr:
+        return self.radius * z / self.height
+
+
+class Hollow(Body):
+    """A body that is the rest of a larger one after a smaller one of the same sort is removed from its middle.
+
+    inner, outer   the radii of the two
     Errors: the inner radius is not smaller than the outer one, as far as the sizes show.
     """
 
     inner: Expr
     outer: Expr
-    mass: Expr
+    power: ClassVar[int]  # the masses of the two are proportional to this power of their radii
+    is_round: ClassVar[bool] = True
 
     def check_sizes(self) -> None:
         super().check_sizes()
@@ -300,7 +332,26 @@ class Hollow(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        return {"inner_radius": self.inner, "outer_radius": self.outer}
+        own = {"inner": "inner_radius", "outer": "outer_radius"}
+        return {own.get(id, id): size for id, size in super().measures.items()}
+
+    def filled(self, radius: Expr, mass: Expr) -> RoundBody:
+        """The body of this sort without a hole."""
+        raise AttributeError(f"{type(self).__name__} must say what it is without its hole")
+
+    def whole_and_removed(self) -> tuple[RoundBody, RoundBody]:
+        between = self.outer**self.power - self.inner**self.power
+        whole, removed = (self.filled(r, self.mass * r**self.power / between) for r in (self.outer, self.inner))
+        return whole, removed
+
+    @property
+    def boundary(self) -> Hollowed:
+        return Hollowed(*(each.boundary for each in self.whole_and_removed()))
+
+    def particles(self) -> Particles:
+        """The particles of the whole, minus those of the removed part."""
+        whole, removed = self.whole_and_removed()
+        return without(whole.particles(), removed.particles())
 
 
 def require_order(body: str, inner: Expr, outer: Expr) -> None:
@@ -369,7 +420,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     extent = body.extent
-    usual, kind = _DENSITIES[body.filling]
+    usual, kind = DENSITIES[body.filling]
     letter = usual if body.called else free_letter(usual)
     region = body.region(body.point(body.reference)).with_section_put_in()
     return establish(

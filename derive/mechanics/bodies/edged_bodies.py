@@ -16,6 +16,7 @@ from derive.algebra.expressions import Factors, column
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.body import ORIGIN, ZERO, Body
+from derive.mechanics.bodies.boundary import Faces
 from derive.mechanics.bodies.equimomental import HALF, Particles, drawn_out
 from derive.mechanics.bodies.mapping import Map, cartesian
 from derive.mechanics.bodies.regions import Point, coordinates
@@ -42,6 +43,10 @@ class EdgedBody(Body):
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
         """The lengths that a drawing shows, each with the edges of that length."""
         return ()
+
+    @property
+    def boundary(self) -> Faces:
+        return Faces(self.corners, self.faces, self.edges)
 
     def points(self) -> Mapping[str, Point]:
         return {name: Point(name, place) for name, place in zip(self.corners_called, self.corners, strict=False)}

@@ -29,8 +29,8 @@ from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies import claims
+from derive.mechanics.bodies.body import DENSITIES, Body, density
 from derive.mechanics.bodies.body import ORIGIN as ZERO
-from derive.mechanics.bodies.body import Body, density
 from derive.mechanics.bodies.equimomental import Particles, counted_from, from_moments
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.mapping import cell, checked_limits, from_point, inside, tangents_of
@@ -55,8 +55,8 @@ __all__ = [
 ]
 
 ORIGIN = Point("origin", ZERO)
-SIZES = {1: ("length", "l"), 2: ("area", "A"), 3: ("volume", "V")}
-FILLED = {1: "line density", 2: "surface density", 3: "density"}
+VARIABLES = {"length": 1, "area": 2, "volume": 3}  # where the mass is -> the number of variables
+LETTERS = {"length": "l", "area": "A", "volume": "V"}  # of the size
 
 
 def variables(*names: str) -> tuple[Symbol, ...]:
@@ -70,7 +70,6 @@ class GeneralBody(Body):
     reference: ClassVar[str] = "origin"
     is_lopsided: ClassVar[bool] = True  # assumed, since symmetry is not decided
     is_of_particles: ClassVar[bool] = False
-    count: ClassVar[int] = 3
 
     def __init__(
         self,
@@ -79,7 +78,7 @@ class GeneralBody(Body):
         mass: Expr | None = None,
         density: Expr | None = None,
     ):
-        _check_map(type(self).__name__, self.count, position, limits, mass, density)
+        _check_map(type(self).__name__, VARIABLES[self.filling], position, limits, mass, density)
         given = Integer(1) if density is None else as_expr(density)
         self._position, self._limits = checked_limits((*position, 0, 0)[:3], limits, set())
         fresh = {u: scalar(u.name) for u in limits}
@@ -186,7 +185,6 @@ class Wire(GeneralBody):
 
     id: ClassVar[str] = "wire"
     filling: ClassVar[str] = "length"
-    count: ClassVar[int] = 1
 
 
 class Sheet(GeneralBody):
@@ -200,7 +198,6 @@ class Sheet(GeneralBody):
 
     id: ClassVar[str] = "sheet"
     filling: ClassVar[str] = "area"
-    count: ClassVar[int] = 2
 
 
 class Solid(GeneralBody):
@@ -214,7 +211,6 @@ class Solid(GeneralBody):
 
     id: ClassVar[str] = "solid"
     filling: ClassVar[str] = "volume"
-    count: ClassVar[int] = 3
 
 
 def _check_map(name: str, count: int, position: Any, limits: Any, mass: Any, density: Any) -> None:
@@ -324,7 +320,7 @@ def size_by_integration(body: GeneralBody) -> Quantity:
     Source: Apostol, *Calculus*, volume 2, sections 11.3 and 12.5.
     """
     region = body.region(ORIGIN)
-    kind, letter = SIZES[body.count]
+    kind, letter = body.filling, LETTERS[body.filling]
     exact(body, region.element, kind)
     return establish(
         SIZE_BY_INTEGRATION,
@@ -398,7 +394,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
         lambda mass: Factors(mass, Ratio(p, region.integral(Integer(1)))),
         {"mass": body.mass},
         key=key,
-        kind=FILLED[body.count],
+        kind=DENSITIES[body.filling][1],
         parents=_cells(body),
         routes={"mass_given_back": lambda rho: agrees(body.mass, [rho], *body.map())},
         lines=Lines(put_in=None),

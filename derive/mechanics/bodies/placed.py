@@ -18,6 +18,7 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.expressions import TIME, as_expr, column, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, with_article
+from derive.mechanics.bodies.boundary import Boundary
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.kinematics.places import Axes, Location, turn_about
 from derive.steps.record import coordinates_in
@@ -101,6 +102,11 @@ class Placeable:
 
     id: ClassVar[str] = "body"  # its sort, in files and in phrases: "thick_shell"
     name: ClassVar[str] = "a body"  # in messages, from its id
+
+    @property
+    def boundary(self) -> Boundary | None:
+        """Its boundary, for a drawing; none if it has parts, or if only its moments are known."""
+        return None
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()

@@ -7,11 +7,23 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin, sqrt
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin
 
 from derive.algebra.expressions import Factors, Terms, column, explicit
 from derive.mechanics.bodies import claims
-from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody, require_order
+from derive.mechanics.bodies.body import (
+    ORIGIN,
+    ZERO,
+    Body,
+    Conical,
+    Cylindrical,
+    Hollow,
+    OfHeight,
+    RoundBody,
+    Spherical,
+    require_order,
+)
+from derive.mechanics.bodies.boundary import Ellipsoidal, Extruded, Toroidal
 from derive.mechanics.bodies.equimomental import (
     HALF,
     Particles,
@@ -21,7 +33,6 @@ from derive.mechanics.bodies.equimomental import (
     ring_of_particles,
     sliced,
     stretched,
-    without,
 )
 from derive.mechanics.bodies.facts import Integrated
 from derive.mechanics.bodies.integration import worked_integral
@@ -91,7 +102,7 @@ class RoundSolid(RoundBody):
         return {}
 
 
-class Cone(OfHeight, RoundSolid):
+class Cone(Conical, RoundSolid):
     """A uniform circular cone, from its apex at the origin to its base at z = height.
 
     radius   of the base, length
@@ -106,9 +117,6 @@ class Cone(OfHeight, RoundSolid):
     @property
     def measures(self) -> Mapping[str, Any]:
         return {"base_radius": self.radius, "height": self.height}
-
-    def radius_at(self, z: Expr) -> Expr:
-        return self.radius * z / self.height
 
     def points(self) -> Mapping[str, Point]:
         return {**super().points(), "base": Point("base", column(0, 0, self.height), UPWARDS)}
@@ -134,7 +142,7 @@ class Cone(OfHeight, RoundSolid):
         return r * self.height, self.radius * z
 
 
-class Cylinder(OfHeight, RoundSolid):
+class Cylinder(Cylindrical, RoundSolid):
     """A uniform circular cylinder, from its base at the origin to z = height.
 
     radius   length
@@ -145,9 +153,6 @@ class Cylinder(OfHeight, RoundSolid):
 
     id, reference = "cylinder", "base"
 
-    def radius_at(self, z: Expr) -> Expr:
-        return self.radius
-
     @property
     def extent(self) -> Expr:
         return Factors(pi, self.radius**2, self.height)
@@ -157,7 +162,7 @@ class Cylinder(OfHeight, RoundSolid):
         return drawn_out(disc_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 
-class Ball(OfRadius, RoundSolid):
+class Ball(Spherical, RoundSolid):
     """A uniform ball about the origin.
 
     radius   length
@@ -166,13 +171,6 @@ class Ball(OfRadius, RoundSolid):
 
     id = "ball"
     part = Rational(4, 3)  # of the cube of the radius, times pi
-
-    @property
-    def ends(self) -> tuple[Expr, Expr]:
-        return -self.radius, self.radius
-
-    def radius_at(self, z: Expr) -> Expr:
-        return sqrt(self.radius**2 - z**2)
 
     @property
     def extent(self) -> Expr:
@@ -212,7 +210,7 @@ class Hemisphere(Ball):
 
 
 @dataclass(frozen=True)
-class Tube(Body):
+class Tube(Hollow):
     """A uniform hollow cylinder about the z axis, from its base at the origin to z = height.
 
     inner, outer   radii, lengths
@@ -225,15 +223,7 @@ class Tube(Body):
     outer: Expr
     height: Expr
     mass: Expr
-    id, reference, is_round = "tube", "base", True
-
-    def check_sizes(self) -> None:
-        super().check_sizes()
-        require_order(self.name, self.inner, self.outer)
-
-    @property
-    def measures(self) -> Mapping[str, Any]:
-        return {"inner_radius": self.inner, "outer_radius": self.outer, "height": self.height}
+    id, reference, power = "tube", "base", 2
 
     @property
     def extent(self) -> Expr:
@@ -242,18 +232,11 @@ class Tube(Body):
     def map(self) -> Map:
         return cylindrical(self.letters, (0, self.height), (self.inner, self.outer))
 
-    def whole_and_removed(self) -> tuple[Cylinder, Cylinder]:
-        """A cylinder and the removed cylinder, their masses proportional to the squares of their radii."""
-        across = self.outer**2 - self.inner**2
-        whole, removed = (Cylinder(r, self.height, self.mass * r**2 / across) for r in (self.outer, self.inner))
-        return whole, removed
-
-    def particles(self) -> Particles:
-        """The particles of the whole, minus those of the removed part."""
-        whole, removed = self.whole_and_removed()
-        return without(whole.particles(), removed.particles())
+    def filled(self, radius: Expr, mass: Expr) -> Cylinder:
+        return Cylinder(radius, self.height, mass)
 
 
+@dataclass(frozen=True)
 class ThickShell(Hollow):
     """A uniform ball about the origin with a hollow ball in its middle.
 
@@ -261,7 +244,10 @@ class ThickShell(Hollow):
     mass           mass
     """
 
-    id, is_round = "thick_shell", True
+    inner: Expr
+    outer: Expr
+    mass: Expr
+    id, power = "thick_shell", 3
 
     @property
     def extent(self) -> Expr:
@@ -270,16 +256,8 @@ class ThickShell(Hollow):
     def map(self) -> Map:
         return spherical(self.letters, (self.inner, self.outer))
 
-    def whole_and_removed(self) -> tuple[Ball, Ball]:
-        """A ball and the removed ball, their masses proportional to the cubes of their radii."""
-        between = self.outer**3 - self.inner**3
-        whole, removed = (Ball(r, self.mass * r**3 / between) for r in (self.outer, self.inner))
-        return whole, removed
-
-    def particles(self) -> Particles:
-        """The particles of the whole, minus those of the removed part."""
-        whole, removed = self.whole_and_removed()
-        return without(whole.particles(), removed.particles())
+    def filled(self, radius: Expr, mass: Expr) -> Ball:
+        return Ball(radius, mass)
 
 
 class HalfCylinder(OfHeight):
@@ -300,6 +278,10 @@ class HalfCylinder(OfHeight):
 
     def map(self) -> Map:
         return cylindrical(self.letters, (0, self.height), (0, self.radius), (0, pi))
+
+    @property
+    def boundary(self) -> Extruded:
+        return Extruded(HalfDisc(self.radius, self.mass).boundary)
 
     def particles(self) -> Particles:
         """Half-discs spread evenly along z."""
@@ -325,6 +307,10 @@ class Ellipsoid(Body):
     def map(self) -> Map:
         """A ball of radius 1, scaled along each axis."""
         return spherical(self.letters, (0, 1), by=self.semi_axes)
+
+    @property
+    def boundary(self) -> Ellipsoidal:
+        return Ellipsoidal(self.semi_axes)
 
     def particles(self) -> Particles:
         """The particles of a ball of radius 1, scaled as the ball is."""
@@ -360,6 +346,10 @@ class Torus(Body):
         across = self.radius + s * cos(u)
         limits = ((s, ZERO, self.section), (u, ZERO, 2 * pi), (phi, ZERO, 2 * pi))
         return column(across * cos(phi), across * sin(phi), s * sin(u)), limits
+
+    @property
+    def boundary(self) -> Toroidal:
+        return Toroidal(self.radius, self.section)
 
     def particles(self) -> Particles:
         """Rings through the five particles of the cross-section; the mass of each is proportional to its radius."""
@@ -444,7 +434,9 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
         lambda _: value,
         {"along": z},
         routes={"edge": lambda r: body.edge_condition(point.along_body(z), r)},
-        outcome=lambda radius: "straight" if body.is_straight else "ball" if _is_of_a_ball(radius, z) else "curved",
+        outcome=lambda radius: (
+            "straight" if body.boundary.is_straight else "ball" if _is_of_a_ball(radius, z) else "curved"
+        ),
         kind="length",
         lines=Lines(put_in=None),
         scope=Scope(coordinates={z: "length"}, about=Subject(body=body, point=point)),

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sympy import Expr, Integer, Rational, cos, pi, sin, sqrt
 
 from derive.algebra.expressions import Factors, Terms, column, explicit
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody
+from derive.mechanics.bodies.body import (
+    ORIGIN,
+    ZERO,
+    Body,
+    Conical,
+    Cylindrical,
+    Hollow,
+    OfRadius,
+    RoundBody,
+    Spherical,
+)
+from derive.mechanics.bodies.boundary import Rim
 from derive.mechanics.bodies.equimomental import (
     HALF,
     Particles,
@@ -19,7 +30,6 @@ from derive.mechanics.bodies.equimomental import (
     on_diameters,
     ring_of_particles,
     sliced,
-    without,
 )
 from derive.mechanics.bodies.mapping import Map, cylindrical, spherical
 from derive.mechanics.bodies.regions import Point
@@ -162,6 +172,7 @@ class Disc(_Flat):
         return disc_of_particles(self.mass, self.radius, ZERO)
 
 
+@dataclass(frozen=True)
 class Annulus(Hollow):
     """A thin uniform disc with a round hole, perpendicular to the z axis, its centre at the origin.
 
@@ -170,7 +181,10 @@ class Annulus(Hollow):
     Points: centre, rim (of the outer circle).
     """
 
-    id, filling, is_round = "annulus", "area", True
+    inner: Expr
+    outer: Expr
+    mass: Expr
+    id, filling, power = "annulus", "area", 2
 
     @property
     def extent(self) -> Expr:
@@ -182,16 +196,8 @@ class Annulus(Hollow):
     def map(self) -> Map:
         return cylindrical(self.letters, ZERO, (self.inner, self.outer))
 
-    def whole_and_removed(self) -> tuple[Disc, Disc]:
-        """A disc and the removed disc, their masses proportional to the squares of their radii."""
-        across = self.outer**2 - self.inner**2
-        whole, removed = (Disc(r, self.mass * r**2 / across) for r in (self.outer, self.inner))
-        return whole, removed
-
-    def particles(self) -> Particles:
-        """The particles of the whole, minus those of the removed part."""
-        whole, removed = self.whole_and_removed()
-        return without(whole.particles(), removed.particles())
+    def filled(self, radius: Expr, mass: Expr) -> Disc:
+        return Disc(radius, mass)
 
 
 class HalfDisc(OfRadius):
@@ -212,6 +218,13 @@ class HalfDisc(OfRadius):
     def map(self) -> Map:
         return cylindrical(self.letters, ZERO, (0, self.radius), (0, pi))
 
+    @property
+    def boundary(self) -> Rim:
+        """Its edge; half of the diameter shows its radius."""
+        edge = super().boundary
+        assert isinstance(edge, Rim)
+        return replace(edge, radius=(column(-self.radius, 0, 0), ORIGIN, self.radius))
+
     def particles(self) -> Particles:
         """By Pappus: revolved about its diameter it is a ball, 4/3 pi R^3 = 2 pi y_C (pi R^2/2). Its second moments
         about the diameter and across it are those of a whole disc of the same mass."""
@@ -223,7 +236,7 @@ class HalfDisc(OfRadius):
 # --- curved surfaces -------------------------------------------------------------------------------------------------
 
 
-class SphericalShell(OfRadius, RoundBody):
+class SphericalShell(Spherical):
     """A thin uniform shell of a sphere about the origin.
 
     radius   length
@@ -231,13 +244,6 @@ class SphericalShell(OfRadius, RoundBody):
     """
 
     id, filling = "spherical_shell", "area"
-
-    @property
-    def ends(self) -> tuple[Expr, Expr]:
-        return -self.radius, self.radius
-
-    def radius_at(self, z: Expr) -> Expr:
-        return sqrt(self.radius**2 - z**2)
 
     @property
     def extent(self) -> Expr:
@@ -278,7 +284,7 @@ class HemisphericalShell(SphericalShell):
         return sliced(self.mass, self.ends, self.radius_at, lambda z: Integer(1), ring_of_particles)
 
 
-class CylindricalShell(OfHeight, RoundBody):
+class CylindricalShell(Cylindrical):
     """A thin uniform shell of a cylinder without ends, about the z axis, from the origin to z = height.
 
     radius   length
@@ -290,9 +296,6 @@ class CylindricalShell(OfHeight, RoundBody):
     id, filling = "cylindrical_shell", "area"
     reference = "circle_centre"
 
-    def radius_at(self, z: Expr) -> Expr:
-        return self.radius
-
     @property
     def extent(self) -> Expr:
         return Factors(2, pi, self.radius, self.height)
@@ -302,7 +305,7 @@ class CylindricalShell(OfHeight, RoundBody):
         return drawn_out(ring_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 
-class ConicalShell(OfHeight, RoundBody):
+class ConicalShell(Conical):
     """The thin uniform side of a circular cone without its base, from its apex at the origin to z = height.
 
     radius   of its rim, length
@@ -312,9 +315,6 @@ class ConicalShell(OfHeight, RoundBody):
     """
 
     id, filling, reference = "conical_shell", "area", "tip"
-
-    def radius_at(self, z: Expr) -> Expr:
-        return self.radius * z / self.height
 
     @property
     def extent(self) -> Expr:

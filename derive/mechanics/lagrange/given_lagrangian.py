@@ -58,9 +58,7 @@ class WithoutBodies:
     @cached_property
     def described(self) -> Described:
         """Return the input of the numerical witness: the function, and the forces along its coordinates."""
-        return Described(
-            described((*self.given_forces, *self.dampers), (), (), {}, None, self.coordinates, self.function)
-        )
+        return Described(described((*self.given_forces, *self.dampers), (), {}, self.coordinates, self.function))
 
 
 GIVEN_LAGRANGIAN = Rule(

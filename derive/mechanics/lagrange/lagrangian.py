@@ -75,7 +75,7 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
 
     matter = (kinetic.fact(Matter) or Matter()) + (potential.fact(Matter) or Matter())
     magnetic = None
-    if system.fields:
+    if system.matter.fields:
         magnetic = magnetic_term_of(system, f"{base}_B{own}", f"magnetic_term{own}")
         matter += magnetic.needed(Matter)
     beside = {"magnetic": magnetic} if magnetic is not None else {}

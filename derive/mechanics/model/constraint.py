@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,8 +11,11 @@ from sympy import Add, Expr, Integer, Symbol, diff
 from derive.algebra.expressions import Relation, TimeRate, as_expr, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.model.dalembert import Reaction
+from derive.mechanics.model.part import Part
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, is_zero
+from derive.witness import description as plain
 
 __all__ = ["constraint"]
 
@@ -19,7 +23,7 @@ ZERO = Integer(0)
 
 
 @dataclass(frozen=True)
-class Constraint:
+class Constraint(Part):
     """f = 0, kept by a force with the work lambda df; or a_1 q_1_dot + a_2 q_2_dot + ... + b = 0, kept by a force with
     the work lambda (a_1 dq_1 + a_2 dq_2 + ...).
 
@@ -56,6 +60,16 @@ class Constraint:
 
     def acceleration(self, moving: list[Symbol]) -> Expr:
         return explicit(TimeRate(self.velocity(moving), *moving))
+
+    @property
+    def acts_by(self) -> tuple[Expr, ...]:
+        return (self.residual,)
+
+    def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Reaction]:
+        return [Reaction(self.force, tuple((q, self.along(q)) for q in moving))]
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        return {"conditions": [plain.Condition(self.residual, self.in_rates, self.force)]}
 
     @property
     def kind_of_force(self) -> str | None:

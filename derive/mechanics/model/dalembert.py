@@ -171,7 +171,11 @@ class Matter(Fact):
         return sum((m * _dot(a, _along(r, q)) for m, r, a in self._moving(2)), Integer(0))
 
     def turning_along(self, q: Symbol) -> Expr:
-        """The sum of m v . d(dr/dq)/dt, the derivative of T by q; and the time derivative of the sum of q A . dr/dq"""
+        """The sum of m v . d(dr/dq)/dt, which is the derivative of T by q, plus the time derivative of the sum of
+        q A . dr/dq over charges in magnetic fields.
+
+        This second term and `deflection_along` together are the derivative of the sum of q v . A by q.
+        """
         found: Expr = self._rates((self.field_momentum_along(q),), 1)[0] if self.fields else Integer(0)
         for m, r, v in self._moving(1):
             found += m * _dot(v, self._rates(_along(r, q), 1))

@@ -6,10 +6,10 @@ A couple on an angle, and a drag on a coordinate, act only along that coordinate
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar, Self
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
@@ -19,8 +19,10 @@ from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.dalembert import Load, MagneticForce
 from derive.mechanics.model.material import GROUND, MaterialPoint, material_point
+from derive.mechanics.model.part import Part, moved, number_of
 from derive.steps.record import coordinates_in, require_constant
 from derive.steps.step import is_zero
+from derive.witness import description as plain
 
 __all__ = ["charge", "couple", "damping", "force", "potential"]
 
@@ -28,8 +30,44 @@ Vector = tuple[Expr, ...]
 ZERO = Integer(0)
 
 
+class _AtPlace(Part):
+    """A part that acts at a place, or along a coordinate.
+
+    at   the components of the place, or the coordinate alone
+    of   the body or particle that it acts on, if stated, or "massless"
+    """
+
+    at: Vector
+    of: Any
+    verb: ClassVar[str]  # the verb that makes it
+    what: ClassVar[str]  # its name in messages
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        own: Any = self
+        found: Self = replace(own, at=tuple(c.subs(known) for c in self.at), of=moved(self.of, known))
+        return found
+
+    @cached_property
+    def point(self) -> MaterialPoint:
+        """The material point that it acts on."""
+        return material_point(self.verb, self.of, Location(self.at))
+
+    @property
+    def place(self) -> Vector:
+        """The place of action: on a body that place of it; on a particle the place of the particle."""
+        return self.at if self.point.held else self.point.place
+
+    @property
+    def acts_by(self) -> Vector:
+        return self.at
+
+    @property
+    def loose_ends(self) -> Sequence[tuple[str, Vector]]:
+        return [(self.what, self.at)] if self.of is None and len(self.at) > 1 else []
+
+
 @dataclass(frozen=True)
-class GivenForce:
+class GivenForce(_AtPlace):
     """A force at a place, N; or along a coordinate the Q of its work Q dq: for an angle a torque, N m.
 
     of   the body or particle that it acts on, if stated, or "massless"
@@ -40,11 +78,10 @@ class GivenForce:
     at: Vector
     of: Any = None
     by: Any = None
+    verb = what = "force"
 
-    @cached_property
-    def point(self) -> MaterialPoint:
-        """The material point that it acts on."""
-        return material_point("force", self.of, Location(self.at))
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), by=moved(self.by, known))
 
     def load(self, moving: Sequence[Symbol]) -> Load:
         return Load(self.components, self.point.place, self.point.held)
@@ -56,19 +93,26 @@ class GivenForce:
             return None
         return GivenForce(tuple(-c for c in self.components), self.at, self.by, self.of)
 
+    @property
+    def pair(self) -> tuple[GivenForce, ...]:
+        """The force and its reaction, if there is one."""
+        return (self,) if self.opposite is None else (self, self.opposite)
+
+    def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
+        return [each.load(moving) for each in self.pair]
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        return {"forces": [plain.Force(f.components, f.place, number_of(f.of, bodies)) for f in self.pair]}
+
 
 @dataclass(frozen=True)
-class Damper:
+class Damper(_AtPlace):
     """A drag -c v against the velocity of a place, or the rate of a coordinate; `of` as for forces."""
 
     constant: Expr
     at: Vector
     of: Any = None
-
-    @cached_property
-    def point(self) -> MaterialPoint:
-        """The material point that it acts on."""
-        return material_point("damping", self.of, Location(self.at))
+    verb, what = "damping", "drag"
 
     def velocity(self, moving: Sequence[Symbol]) -> Vector:
         return tuple(explicit(TimeRate(c, *moving)).xreplace(self.point.values) for c in self.point.place)
@@ -77,14 +121,30 @@ class Damper:
         drag = tuple(-self.constant * v for v in self.velocity(moving))
         return Load(drag, self.point.place, self.point.held)
 
+    def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
+        return [self.load(moving)]
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        return {"drags": [plain.Drag(self.constant, self.place, number_of(self.of, bodies))]}
+
 
 @dataclass(frozen=True)
-class StoredEnergy:
+class StoredEnergy(Part):
     """A potential energy of the coordinates and time, J."""
 
     energy: Expr
 
-    def loads(self, moving: Sequence[Symbol]) -> list[Load]:
+    def moved(self, known: Mapping[Symbol, Expr]) -> StoredEnergy:
+        return StoredEnergy(self.energy.subs(known))
+
+    @property
+    def acts_by(self) -> Vector:
+        return (self.energy,)
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        return {"energies": [self.energy]}
+
+    def stored_loads(self, moving: Sequence[Symbol]) -> list[Load]:
         """The force -dU/dq along each coordinate; with time, the energy decreases at the rate -dU/dt."""
         slopes = [(q, -diff(self.energy, q)) for q in (*moving, TIME)]
         return [Load((slope,), (q,)) for q, slope in slopes if slope != 0]
@@ -97,31 +157,46 @@ class InUniformField(StoredEnergy):
     force: Vector
     at: Vector
 
-    def loads(self, moving: Sequence[Symbol]) -> list[Load]:
+    def stored_loads(self, moving: Sequence[Symbol]) -> list[Load]:
         """The force; and as the field changes, the energy decreases at the rate (dF/dt) . r."""
         changes = Add(*(diff(f, TIME) * c for f, c in zip(self.force, self.at, strict=True)))
         return [Load(self.force, self.at), *([Load((changes,), (TIME,))] if changes != 0 else [])]
 
 
 @dataclass(frozen=True)
-class Charge:
-    """A charge in given fields, uniform or not: the force q(E + v x B)."""
+class Charge(Part):
+    """A charge in uniform fields: the force q(E + v x B)."""
 
     charge: Expr
     at: Location
     electric: Vector
     magnetic: Vector
 
+    def moved(self, known: Mapping[Symbol, Expr]) -> Charge:
+        return replace(self, at=self.at.with_values(known))
+
     @property
-    def stored(self) -> StoredEnergy:
+    def places(self) -> Sequence[Location]:
+        return [self.at]
+
+    @property
+    def stored(self) -> StoredEnergy | None:
         """The potential energy in a uniform electric field, U = -q E . r."""
+        if is_nothing(self.electric):
+            return None
         place = self.at.components
         energy = -self.charge * Add(*(e * c for e, c in zip(self.electric, place, strict=True)))
         return InUniformField(energy, tuple(self.charge * e for e in self.electric), place)
 
+    def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
+        return self.stored.stored_loads(moving) if self.stored is not None else []
+
     @property
-    def deflected(self) -> MagneticForce:
-        return MagneticForce(self.charge, self.at.components, self.magnetic)
+    def fields(self) -> Sequence[MagneticForce]:
+        return [] if is_nothing(self.magnetic) else [MagneticForce(self.charge, self.at.components, self.magnetic)]
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        return {"charges": [plain.Charge(self.charge, self.at.components, self.electric, self.magnetic)]}
 
 
 def _vector(verb: str, role: str, given: Any, count: int) -> Vector:

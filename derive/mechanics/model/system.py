@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, diff, factor, sqrt
 
@@ -19,12 +19,13 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.bodies.possible import require_positive
-from derive.mechanics.kinematics.places import Location
+from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.acted_on import check_what_is_acted_on
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.dalembert import Load, MassPoint, Matter, Reaction
+from derive.mechanics.model.dalembert import Load, MassPoint, Matter
 from derive.mechanics.model.described import Described, described
-from derive.mechanics.model.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
+from derive.mechanics.model.forces import Charge, Damper, GivenForce, StoredEnergy
+from derive.mechanics.model.part import Part
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.signs import taken_positive
 from derive.steps.step import Fact, Quantity, is_zero
@@ -32,12 +33,14 @@ from derive.witness import description as plain
 
 __all__ = ["Particle", "System", "central", "spring", "weight"]
 
+Sort = TypeVar("Sort", bound=Part)
+
 HALF, ZERO = Rational(1, 2), Integer(0)
 DISTANCE = Dummy("r", positive=True)
 
 
 @dataclass(frozen=True)
-class Particle:
+class Particle(Part):
     """A particle of constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1.
 
     name   its kind for a drawing: a "bob" hangs on a rod, a "bead" is on a wire
@@ -54,16 +57,94 @@ class Particle:
         require_constant("Particle", "mass", self.mass)
         require_positive("`Particle`", "mass", self.mass)
 
+    def moved(self, known: Mapping[Symbol, Expr]) -> Particle:
+        return replace(self, at=self.at.with_values(known))
+
+    @property
+    def places(self) -> Sequence[Location]:
+        return [self.at]
+
+    @property
+    def masses(self) -> Sequence[tuple[Expr, Location]]:
+        return [(self.mass, self.at)]
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        return {"particles": [plain.Particle(self.mass, self.at.components)]}
+
 
 @dataclass(frozen=True)
-class Weight:
+class MovingBody(Part):
+    """A placed body as a part of a system."""
+
+    placed: PlacedBody
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> MovingBody:
+        return MovingBody(self.placed.moved(known))
+
+    @property
+    def places(self) -> Sequence[Location]:
+        return [self.placed.centre]
+
+    @property
+    def depends_on(self) -> tuple[Expr, ...]:
+        return (*super().depends_on, *self.placed.depends_on)
+
+    @property
+    def masses(self) -> Sequence[tuple[Expr, Location]]:
+        return [(self.placed.body.mass, self.placed.centre)]
+
+    @property
+    def mass_points(self) -> Sequence[MassPoint]:
+        """The mass at the centre of mass, and second moments on unit vectors that rotate with the body.
+
+        The moments come from the body's particles, so no inertia tensor is used.
+        """
+        placed = self.placed
+        spread = central_second_moments(placed.body)
+        points = [MassPoint(placed.body.mass, placed.centre.components)]
+        axes = placed.in_plane if placed.is_plane else (0, 1, 2)
+        arms = {i: column(*(int(i == k) for k in range(3))) for i in axes}
+        for i in axes:
+            alone = spread[i, i] - sum((spread[i, j] for j in axes if j != i), ZERO)
+            points.append(MassPoint(alone, placed.seen_in_space(arms[i]).components))
+            pairs = [j for j in axes if j > i and spread[i, j] != 0]
+            points += [MassPoint(spread[i, j], placed.seen_in_space(arms[i] + arms[j]).components) for j in pairs]
+        return [point for point in points if point.mass != 0]
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        """By its known point, the displacement of its centre of mass from there, and its second moments."""
+        placed = self.placed
+        axes = placed.in_plane if placed.is_plane else (0, 1, 2)
+        arm = explicit(ImmutableDenseMatrix(placed.body.middle.position - placed.point.position))
+        turns = placed.turned.turns if isinstance(placed.turned, Axes) else ((2, placed.turned),)
+        spread = central_second_moments(placed.body)
+        found = plain.Body(
+            mass=placed.body.mass,
+            place=placed.at.components,
+            arm=tuple(arm[i] for i in axes),
+            spread=tuple(tuple(spread[i, j] for j in range(3)) for i in range(3)),
+            turns=tuple(turns),
+            axes=tuple(axes),
+        )
+        return {"bodies": [found]}
+
+
+@dataclass(frozen=True)
+class Weight(Part):
     """The weight of every particle, downwards along the last axis, with the gravitational acceleration g in m/s^2."""
 
     gravity: Expr
 
+    def on(self, mass: Expr, at: Location) -> Load:
+        *across, _ = at.components
+        return Load((*(ZERO for _ in across), -mass * self.gravity), at.components)
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        return {"gravity": [self.gravity]}
+
 
 @dataclass(frozen=True)
-class Central:
+class Central(Part):
     """A potential energy U(r) of the distance between two places, J, and the force along the line between them, N.
 
     branch   u or -u for the distance |u| of two places on one line, if the system chooses one of them
@@ -104,7 +185,23 @@ class Central:
             return Abs(self.along)
         return sqrt(factor(tidied(Add(*(c**2 for c in (self.end - self.start).components)))))
 
-    def pulls(self) -> tuple[Load, Load]:
+    def moved(self, known: Mapping[Symbol, Expr]) -> Central:
+        return replace(self, start=self.start.with_values(known), end=self.end.with_values(known))
+
+    @property
+    def places(self) -> Sequence[Location]:
+        return [self.start, self.end]
+
+    @property
+    def loose_ends(self) -> Sequence[tuple[str, tuple[Expr, ...]]]:
+        what = "spring" if self.is_spring else "central force"
+        return [] if self.massless else [(what, end.components) for end in self.places]
+
+    def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
+        pair = plain.Pair(self.start.components, self.end.components, self.distance, explicit(self.energy))
+        return {"pairs": [pair]}
+
+    def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
         """The forces at its two ends, towards each other if the energy increases with the distance."""
         way = (self.end - self.start).components
         size = self.pull.xreplace({self.distance: self.length})
@@ -141,10 +238,7 @@ def central(energy: Expr, distance: Symbol, start: Location, end: Location, mass
     return Central(start, end, distance, energy, diff(energy, distance), massless)
 
 
-PartOfSystem: TypeAlias = (
-    Particle | PlacedBody | Weight | Central | StoredEnergy | Charge | GivenForce | Damper | Constraint | Quantity
-)
-_PARTS = (Particle, PlacedBody, Weight, Central, StoredEnergy, Charge, GivenForce, Damper, Constraint, Quantity)
+PartOfSystem: TypeAlias = Part | PlacedBody | Quantity
 
 
 @dataclass(frozen=True)
@@ -171,7 +265,7 @@ class System:
     """
 
     def __init__(self, *parts: PartOfSystem, name: str = ""):
-        unknown = [part for part in parts if not isinstance(part, _PARTS)]
+        unknown = [part for part in parts if not isinstance(part, PartOfSystem)]
         if unknown:
             made_of = "particles, placed bodies, a weight, springs and other forces, and constraints"
             message = f"`System` needs {made_of}, not a {type(unknown[0]).__name__}"
@@ -185,23 +279,53 @@ class System:
         known = dict(_known_by(condition) for condition in self.conditions)
         self.known: Mapping[Symbol, Expr] = known
         self.eliminated = tuple(known)
-        self.put_in = tuple(c for c in self.conditions if _is_put_into(c, parts))
-        self._described = parts
-        parts = tuple(_with_known(part, known) for part in parts) if known else parts
-        self.particles = tuple(part for part in parts if isinstance(part, Particle))
-        self.bodies = tuple(part for part in parts if isinstance(part, PlacedBody))
-        self.weights = tuple(part for part in parts if isinstance(part, Weight))
-        self.between: tuple[Central, ...] = tuple(part for part in parts if isinstance(part, Central))
-        self.charges = tuple(part for part in parts if isinstance(part, Charge))
-        charged = tuple(c.stored for c in self.charges if not is_nothing(c.electric))
-        self.stored = (*(part for part in parts if isinstance(part, StoredEnergy)), *charged)
-        self.fields = tuple(c.deflected for c in self.charges if not is_nothing(c.magnetic))
-        given = [part for part in parts if isinstance(part, GivenForce)]
-        self.given_forces: tuple[GivenForce, ...] = (*given, *(each.opposite for each in given if each.opposite))
-        self.dampers = tuple(part for part in parts if isinstance(part, Damper))
-        self.constraints = tuple(part for part in parts if isinstance(part, Constraint))
+        self._described = tuple(_as_part(part) for part in parts if not isinstance(part, Quantity))
+        self.put_in = tuple(c for c in self.conditions if _is_put_into(c, self._described))
+        self.parts = tuple(part.moved(known) for part in self._described) if known else self._described
         self._check()
-        self.between = _with_branches(self)
+        self.parts = _with_branches(self)
+
+    def _of(self, sort: type[Sort]) -> tuple[Sort, ...]:
+        return tuple(part for part in self.parts if isinstance(part, sort))
+
+    @property
+    def particles(self) -> tuple[Particle, ...]:
+        return self._of(Particle)
+
+    @property
+    def bodies(self) -> tuple[PlacedBody, ...]:
+        return tuple(part.placed for part in self._of(MovingBody))
+
+    @property
+    def weights(self) -> tuple[Weight, ...]:
+        return self._of(Weight)
+
+    @property
+    def between(self) -> tuple[Central, ...]:
+        return self._of(Central)
+
+    @property
+    def charges(self) -> tuple[Charge, ...]:
+        return self._of(Charge)
+
+    @property
+    def stored(self) -> tuple[StoredEnergy, ...]:
+        """The potential energies of the coordinates, and after them those of charges in electric fields."""
+        return *self._of(StoredEnergy), *(each.stored for each in self.charges if each.stored is not None)
+
+    @property
+    def given_forces(self) -> tuple[GivenForce, ...]:
+        """The given forces, and after them the reactions."""
+        given = self._of(GivenForce)
+        return *given, *(each.opposite for each in given if each.opposite is not None)
+
+    @property
+    def dampers(self) -> tuple[Damper, ...]:
+        return self._of(Damper)
+
+    @property
+    def constraints(self) -> tuple[Constraint, ...]:
+        return self._of(Constraint)
 
     def _check(self) -> None:
         if not self.particles and not self.bodies:
@@ -243,31 +367,21 @@ class System:
 
     def _check_what_acts(self) -> None:
         """Require forces and constraints to depend only on coordinates of this system."""
-        acting = [ImmutableDenseMatrix([e.energy]) for e in self.stored]
-        acting += [ImmutableDenseMatrix(each.at) for each in self._others]
-        acting += [ImmutableDenseMatrix([each.residual]) for each in self.constraints]
-        for values in acting:
-            for q in coordinates_in(values):
+        for part in self.parts:
+            for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:
                     message = f"a force or constraint of this `System` depends on {q.name}, which no place depends on"
                     raise Rejected(Complaint("wrong-argument", message))
 
     @property
     def places(self) -> list[Location]:
-        """The places of its particles and bodies, and the ends of springs and central forces."""
-        at = [particle.at for particle in self.particles] + [placed.centre for placed in self.bodies]
-        at += [each.at for each in self.charges]
-        return at + [end for s in self.between for end in (s.start, s.end)]
+        """The places of its particles, bodies and charges, and the ends of springs and central forces."""
+        return [place for part in self.parts for place in part.places]
 
     @property
     def masses(self) -> list[tuple[Expr, Location]]:
         """The masses of its particles and bodies, with the places of their centres of mass."""
-        own = [(particle.mass, particle.at) for particle in self.particles]
-        return own + [(placed.body.mass, placed.centre) for placed in self.bodies]
-
-    @property
-    def _others(self) -> tuple[GivenForce | Damper, ...]:
-        return *self.given_forces, *self.dampers
+        return [each for part in self.parts for each in part.masses]
 
     @property
     def gravity(self) -> Expr:
@@ -276,56 +390,38 @@ class System:
     @cached_property
     def coordinates(self) -> Mapping[Symbol, str]:
         """The coordinates of its places and of the rotation of its bodies, with their kinds."""
-        entries = [c for place in self.places for c in place.components]
-        return coordinates_in(ImmutableDenseMatrix([*entries, *(e for b in self.bodies for e in b.depends_on)]))
+        return coordinates_in(ImmutableDenseMatrix([c for part in self.parts for c in part.depends_on]))
 
     @property
     def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
         """Parts that do not state what they act on: each with its name and its place."""
-        found: list[tuple[Any, str, tuple[Expr, ...]]] = []
-        for each in (part for part in self._described if isinstance(part, GivenForce | Damper)):
-            if each.of is None and len(each.at) > 1:
-                found.append((each, "force" if isinstance(each, GivenForce) else "drag", each.at))
-        for pair in (part for part in self._described if isinstance(part, Central)):
-            if not pair.massless:
-                what = "spring" if pair.is_spring else "central force"
-                found += [(pair, what, end.components) for end in (pair.start, pair.end)]
-        return found
+        return [(part, what, place) for part in self._described for what, place in part.loose_ends]
 
     @property
     def described_bodies(self) -> list[PlacedBody]:
         """Its bodies as described, in the order of the witness."""
-        return [part for part in self._described if isinstance(part, PlacedBody)]
+        return [part.placed for part in self._described if isinstance(part, MovingBody)]
 
     @cached_property
     def described(self) -> Described:
         """The input of the witness: its parts before conditions eliminate coordinates."""
-        gravity = self.weights[0].gravity if self.weights else None
         moving = {**self.coordinates, **coordinates_in(ImmutableDenseMatrix([*self.known, ZERO]))}
-        particles = [plain.Particle(p.mass, p.at.components) for p in self._described if isinstance(p, Particle)]
-        pairs = [
-            plain.Pair(p.start.components, p.end.components, p.distance, explicit(p.energy))
-            for p in self._described
-            if isinstance(p, Central)
-        ]
-        return Described(described(self._described, tuple(particles), tuple(pairs), self.known, gravity, moving))
+        return Described(described(self._described, self.described_bodies, self.known, moving))
 
     @cached_property
     def matter(self) -> Matter:
         """Its mass points, and the forces on them."""
         moving = list(self.coordinates)
-        points = [MassPoint(particle.mass, particle.at.components) for particle in self.particles]
-        points += [point for placed in self.bodies for point in mass_points(placed)]
-        loads = [self._weight_of(mass, at) for mass, at in self.masses] if self.weights else []
-        loads += [load for each in self.between for load in each.pulls()]
-        loads += [load for each in self.stored for load in each.loads(moving)]
-        others: list[Load | Reaction] = [each.load(moving) for each in self._others]
-        others += [Reaction(c.force, tuple((q, c.along(q)) for q in moving)) for c in self.constraints]
-        return Matter(tuple(points), tuple(loads), tuple(moving), tuple(others), self.fields)
+        points = [point for part in self.parts for point in part.mass_points]
+        loads = [each.on(mass, at) for each in self.weights for mass, at in self.masses]
+        loads += [load for part in self.parts for load in part.stored_loads(moving)]
+        others = [load for part in self.parts for load in part.other_loads(moving)]
+        fields = [field for part in self.parts for field in part.fields]
+        return Matter(tuple(points), tuple(loads), tuple(moving), tuple(others), tuple(fields))
 
-    def _weight_of(self, mass: Expr, at: Location) -> Load:
-        *across, _ = at.components
-        return Load((*(ZERO for _ in across), -mass * self.weights[0].gravity), at.components)
+
+def _as_part(part: Part | PlacedBody) -> Part:
+    return MovingBody(part) if isinstance(part, PlacedBody) else part
 
 
 def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
@@ -353,55 +449,14 @@ def _check_kept(condition: Quantity) -> None:
         raise Unverified(Complaint("unverified", f"`{condition.key}` is not satisfied by {q} = {function}"))
 
 
-def _is_put_into(condition: Quantity, parts: Sequence[PartOfSystem]) -> bool:
+def _is_put_into(condition: Quantity, parts: Sequence[Part]) -> bool:
     """Whether a part depends on the coordinate that a condition expresses by others."""
     known = dict([_known_by(condition)])
-    return any(_with_known(part, known) != part for part in parts if not isinstance(part, Quantity))
+    return any(part.moved(known) != part for part in parts)
 
 
-def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:
-    """A part of a system with formulas substituted for some coordinates."""
-    if isinstance(part, PlacedBody):
-        return part.moved(known)
-    if isinstance(part, Particle):
-        return replace(part, at=_moved(part.at, known))
-    if isinstance(part, Central):
-        return replace(part, start=_moved(part.start, known), end=_moved(part.end, known))
-    if isinstance(part, Charge):
-        return replace(part, at=_moved(part.at, known))
-    if isinstance(part, StoredEnergy):
-        return StoredEnergy(part.energy.subs(known))
-    if isinstance(part, GivenForce):
-        at = tuple(c.subs(known) for c in part.at)
-        return replace(part, at=at, of=_with_known(part.of, known), by=_with_known(part.by, known))
-    if isinstance(part, Damper):
-        return replace(part, at=tuple(c.subs(known) for c in part.at), of=_with_known(part.of, known))
-    return part
-
-
-def _moved(place: Location, known: Mapping[Symbol, Expr]) -> Location:
-    return place.with_values(known)
-
-
-def mass_points(placed: PlacedBody) -> list[MassPoint]:
-    """The mass of a body at its centre of mass, and second moments on unit vectors that rotate with the body.
-
-    The moments come from its particles, so no inertia tensor is used.
-    """
-    spread = central_second_moments(placed.body)
-    points = [MassPoint(placed.body.mass, placed.centre.components)]
-    axes = placed.in_plane if placed.is_plane else (0, 1, 2)
-    arms = {i: column(*(int(i == k) for k in range(3))) for i in axes}
-    for i in axes:
-        alone = spread[i, i] - sum((spread[i, j] for j in axes if j != i), ZERO)
-        points.append(MassPoint(alone, placed.seen_in_space(arms[i]).components))
-        pairs = [j for j in axes if j > i and spread[i, j] != 0]
-        points += [MassPoint(spread[i, j], placed.seen_in_space(arms[i] + arms[j]).components) for j in pairs]
-    return [point for point in points if point.mass != 0]
-
-
-def _with_branches(system: System) -> tuple[Central, ...]:
-    """Springs and other potentials of a distance, each with its branch of |x - d| near equilibrium, if there is one.
+def _with_branches(system: System) -> tuple[Part, ...]:
+    """The parts of a system, each potential of a distance with its branch of |x - d| near equilibrium, if it has one.
 
     A distance along a line is |u|, so it is u or -u, depending on the side. A branch is chosen only if the place with
     all coordinates zero is special: there the spring has its natural length, or all forces with a potential energy
@@ -411,10 +466,12 @@ def _with_branches(system: System) -> tuple[Central, ...]:
     """
     sided = tuple(_near_rest(each) for each in system.between)
     balanced = all(each is not None for each in sided) and _is_balanced(system, [each for each in sided if each])
-    return tuple(
-        near if near is not None and (balanced or _has_natural_length(near)) else each
+    chosen = {
+        each: near
         for each, near in zip(system.between, sided, strict=True)
-    )
+        if near is not None and (balanced or _has_natural_length(near))
+    }
+    return tuple(chosen.get(part, part) if isinstance(part, Central) else part for part in system.parts)
 
 
 def _near_rest(each: Central) -> Central | None:

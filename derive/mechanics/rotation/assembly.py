@@ -136,6 +136,11 @@ class Composite(Body):
         """Empty: only its parts have measures."""
         return {}
 
+    @property
+    def boundary(self) -> None:
+        """None: only its parts have one."""
+        return None
+
     def points(self) -> Mapping[str, Point]:
         return {"origin": ORIGIN, **self._places}
 

@@ -17,7 +17,7 @@ from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, Place, Rejected, did_you_mean, rejected
 from derive.mechanics import Composite, PointMass, Sheet, Solid, Triangle, Wedge, Wire, minus
-from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.body import DENSITIES, Body
 from derive.mechanics.bodies.parts import PlacedPart
 
 SEVERAL = "a list of lengths"
@@ -32,7 +32,7 @@ CALLED_IN_YAML = {"corners_at": "corners", "face": "corners"}
 TRIANGLES: tuple[tuple[str, ...], ...] = (("corners",), ("base", "height", "foot"), ("side",))
 OPTIONAL = frozenset({"foot"})
 ANGLES = frozenset({"half_angle"})
-MAPS = {1: (Wire, "line density"), 2: (Sheet, "surface density"), 3: (Solid, "density")}
+MAPS = {1: Wire, 2: Sheet, 3: Solid}  # by the number of variables
 OTHER_NAMES = {
     "block": "cuboid",
     "box": "cuboid",
@@ -307,7 +307,8 @@ class Bodies:
         if written.mass is None and written.density is None:
             rejected("missing-key", "a body needs `mass` or `density`", written.places[""])
         known, limits = self._limits(written.limits)
-        shape, kind = MAPS[len(limits)]
+        shape = MAPS[len(limits)]
+        _, kind = DENSITIES[shape.filling]
         mass = self.letters.value(written.mass, "mass", "mass") if written.mass else None
         position = Bodies(known).place(written.position, "`position`")
         density = None

@@ -10,11 +10,10 @@ from sympy import Expr, Rational, cos
 from derive.algebra.expressions import column, vector
 from derive.algebra.tidy import tidied
 from derive.figures import arc, arrow, axis_of_rotation, drawing, outline, principal_outline, vectors_in
-from derive.figures.bodies import is_in_plane, seen_outline
+from derive.figures.bodies import is_in_plane, seen_outline, widest_of
 from derive.figures.marks import PLANE, SPACE, Mark
-from derive.mechanics.bodies.body import Body, Hollow, RoundBody
-from derive.mechanics.bodies.edged_bodies import EdgedBody
-from derive.mechanics.bodies.solids import Torus, Tube
+from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.boundary import Faces, Hollowed, Round, Toroidal
 from derive.steps.step import is_zero
 
 
@@ -27,12 +26,13 @@ def drawn(body: Body) -> None:
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
     """Return the drawn size of a part that is thinner or narrower than the rest, in terms of the rest."""
-    if isinstance(body, Torus):
-        small, large = body.section, body.radius / 4
-    elif isinstance(body, Hollow | Tube):
-        small, large = body.inner, body.outer * Rational(3, 5)
-    else:
-        return {}
+    match body.boundary:
+        case Toroidal(radius, section):
+            small, large = section, radius / 4
+        case Hollowed(whole, removed):
+            small, large = widest_of(removed)[1], widest_of(whole)[1] * Rational(3, 5)
+        case _:
+            return {}
     return {small: large} if small.is_Symbol and not large.has(small) else {}
 
 
@@ -56,7 +56,7 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
     momentum is an answer, that vector is drawn too.
     """
     body, described = answers.body, answers.described
-    if not isinstance(body, RoundBody | EdgedBody):
+    if not isinstance(body.boundary, Round | Faces):
         return
     at = body.point(answers.about).name
     shown = outline(body, at)

@@ -1,0 +1,184 @@
+"""The boundary of a body, as geometry: places along its body axes. A drawing projects it.
+
+A body returns one of these records; a body of parts, or one of which only the moments are known, returns none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import chain
+from typing import TypeAlias
+
+from sympy import Add, Expr, Rational, Symbol, pi
+from sympy.matrices import ImmutableMatrix
+
+from derive.mechanics.bodies.regions import Bounds
+from derive.steps.step import is_zero
+
+Curve: TypeAlias = tuple[ImmutableMatrix, Symbol, Expr, Expr]  # places, their variable, its first and its last value
+
+
+@dataclass(frozen=True)
+class Round:
+    """All places within a distance from the z axis that depends on z, between two heights.
+
+    is_curve   whether the mass is on a curve: on the axis itself, or on one circle
+    """
+
+    ends: tuple[Expr, Expr]
+    radius_at: Callable[[Expr], Expr]
+    is_curve: bool = False
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether the radius is a linear function of z."""
+        z = Symbol("z_along", real=True)
+        return bool(self.radius_at(z).diff(z, 2) == 0)
+
+    @property
+    def is_flat(self) -> bool:
+        return bool(self.ends[0] == self.ends[1])
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the radius is zero at both ends."""
+        return all(self.radius_at(end) == 0 for end in self.ends)
+
+    @property
+    def is_line(self) -> bool:
+        """Whether all places are on the axis."""
+        return self.is_straight and self.is_closed
+
+
+@dataclass(frozen=True)
+class Faces:
+    """Flat faces, or a single one.
+
+    corners   places
+    faces     the corners of each face in order, from either side; empty for a single face
+    edges     the lengths that a drawing shows, each with the edges of that length
+    """
+
+    corners: tuple[ImmutableMatrix, ...]
+    faces: tuple[tuple[int, ...], ...] = ()
+    edges: tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...] = ()
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A straight line between two places."""
+
+    start: ImmutableMatrix
+    end: ImmutableMatrix
+
+
+@dataclass(frozen=True)
+class Rim:
+    """A closed line round a flat body in the plane of x and y.
+
+    curves   one after the other
+    radius   a straight part of the line whose length is a size of the body: its two ends, and its length
+    """
+
+    curves: tuple[Curve, ...]
+    radius: tuple[ImmutableMatrix, ImmutableMatrix, Expr] | None = None
+
+    def places(self, steps: int) -> list[ImmutableMatrix]:
+        """Places along the line, with this number of steps along each curve; a curve may be a single place."""
+        found = chain.from_iterable(_along(curve, steps) for curve in self.curves)
+        return list(dict.fromkeys(found))
+
+
+@dataclass(frozen=True)
+class Extruded:
+    """A flat figure in the plane of x and y, extended along z."""
+
+    section: Boundary
+
+
+@dataclass(frozen=True)
+class Ellipsoidal:
+    """An ellipsoid about the origin with its axes along the body axes."""
+
+    semi_axes: tuple[Expr, Expr, Expr]
+
+
+@dataclass(frozen=True)
+class Toroidal:
+    """A ring of round cross-section about the z axis.
+
+    radius    from the axis to the middle of the cross-section
+    section   radius of the cross-section
+    """
+
+    radius: Expr
+    section: Expr
+
+
+@dataclass(frozen=True)
+class Hollowed:
+    """A round body without a smaller round body about the same axis."""
+
+    whole: Round
+    removed: Round
+
+
+Boundary: TypeAlias = Round | Faces | Segment | Rim | Extruded | Ellipsoidal | Toroidal | Hollowed
+
+
+def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
+    """The boundary of a position map: a straight line, the closed line round a flat body, or a stretched ball.
+
+    None for any other map, also for a flat body with a hole.
+    """
+    if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
+        u, *ends = limits[0]
+        start, end = (place.xreplace({u: at}) for at in ends)
+        return Segment(start, end)
+    if len(limits) == 2 and [x == 0 for x in place] == [False, False, True]:
+        return _rim(place, limits)
+    return _stretched_ball(place, limits)
+
+
+def _rim(place: ImmutableMatrix, limits: Bounds) -> Rim | None:
+    """The curves on which one of two variables has a limit; both have constant limits."""
+    if any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
+        return None
+    (u, *u_ends), (v, *v_ends) = limits
+    sides = (
+        (u, u_ends[0], v, v_ends),
+        (v, v_ends[1], u, u_ends),
+        (u, u_ends[1], v, v_ends[::-1]),
+        (v, v_ends[0], u, u_ends[::-1]),
+    )
+    curves = [(place.xreplace({held: end}), letter, first, last) for held, end, letter, (first, last) in sides]
+    # Two limits with the same curve form a seam, not an edge; the rest is one closed line, or an edge and a hole.
+    seamless = [curves[k::2] for k in (0, 1) if curves[1 - k] == _reversed(curves[3 - k])]
+    lines = [[each] for each in seamless[0] if _is_long(each)] if seamless else [curves]
+    return Rim(tuple(lines[0])) if len(lines) == 1 else None
+
+
+def _along(curve: Curve, steps: int) -> list[ImmutableMatrix]:
+    place, letter, first, last = curve
+    return [place.xreplace({letter: first + (last - first) * Rational(k, steps)}) for k in range(steps + 1)]
+
+
+def _reversed(curve: Curve) -> Curve:
+    place, letter, first, last = curve
+    return place, letter, last, first
+
+
+def _is_long(curve: Curve) -> bool:
+    """Whether a curve is more than a single place."""
+    return len(set(_along(curve, 3))) > 1
+
+
+def _stretched_ball(place: ImmutableMatrix, limits: Bounds) -> Ellipsoidal | None:
+    """The semi-axes of a ball of radius 1 in spherical coordinates, scaled along each axis."""
+    if [tuple(ends) for _, *ends in limits] != [(0, 1), (0, pi), (0, 2 * pi)]:
+        return None
+    r, *angles = (letter for letter, *_ in limits)
+    (a, x), (b, y), (c, z) = ((entry / r).as_independent(r, *angles, as_Add=False) for entry in place)
+    is_ball = is_zero(Add(*(each**2 for each in (x, y, z))) - 1) and all(size.is_positive for size in (a, b, c))
+    return Ellipsoidal((a, b, c)) if is_ball else None
