@@ -111,7 +111,7 @@ MISTAKES = [
     (SYSTEM, "{mass: m, at", "{mass: l, at", "`mass` must be a mass"),
     (SYSTEM, "gravity: g", "gravity: l", "`gravity` must be an acceleration"),
     (SYSTEM, "at: {theta: 0}", "at: {thet: 0}", "did you mean `theta`?"),
-    (SYSTEM, "at: {theta: 0}", "at: rest_9", "`rest_9` is not an equilibrium"),
+    (SYSTEM, "at: {theta: 0}", "at: rest_9", "`rest_9` is not one of `equilibria`"),
     (SYSTEM, "for: k, to: 0}", "for: q, to: 0}", "`q` is not declared"),
     (SYSTEM, "letter: k, to: 0, why", "letter: q, to: 0, why", "`q` is not declared"),
     (SYSTEM, "length <<l>>", "length <<ll>>", "nothing on this page is called `ll`"),

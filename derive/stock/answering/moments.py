@@ -29,10 +29,8 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
     return Moment(at, rates) if rates else None
 
 
-def struck(blow: Blow | None) -> Moment | None:
+def struck(blow: Blow) -> Moment:
     """Return what acts in a blow, and where."""
-    if blow is None:
-        return None
     pushes = [act for act in blow.acts if isinstance(act, Impulse) and len(act.at) > 1]  # not the angular ones
     meeting = [place for act in blow.acts if isinstance(act, Collision) for place in (act.start, act.end) if place]
     rates = {q: blow.before[rate(q)] for q in blow.moving}
