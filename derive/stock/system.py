@@ -72,19 +72,19 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         if self.described.given is None:
             with told_at(self.described.place):
                 start = started(self.described.results, self.system)
-                blow = struck(self.impact.blow) if self.impact is not None else None
-                sketch(SYSTEM, self.system, named=self.described.named, start=start, blow=blow)
+                impact = struck(self.of_impact.impact) if self.of_impact is not None else None
+                sketch(SYSTEM, self.system, named=self.described.named, start=start, impact=impact)
         answers = super().solve(asked)
         self._check_letters()
         return answers
 
     def asks(self) -> dict[str, Any]:
         """Return every name that a part may ask for, also about an impact."""
-        return super().asks() | (self.impact.asks() if self.impact is not None else {})
+        return super().asks() | (self.of_impact.asks() if self.of_impact is not None else {})
 
     @cached_property
-    def impact(self) -> ImpactAnswers | None:
-        return ImpactAnswers(self.described.blow, self) if self.described.blow is not None else None
+    def of_impact(self) -> ImpactAnswers | None:
+        return ImpactAnswers(self.described.impact, self) if self.described.impact is not None else None
 
     # -- its parts ------------------------------------------------------------------------------------------------
 

@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import Any, Protocol
 
 from derive.mechanics import (
-    Blow,
     Coordinate,
+    Impact,
     System,
     energy_after,
     meeting_condition,
@@ -18,8 +18,8 @@ from derive.mechanics import (
 )
 from derive.steps.step import Quantity
 from derive.stock.answering.answers import Answers, answer, answer_for_each
-from derive.stock.keys.blows import DescribedBlow
 from derive.stock.keys.deferred import told_at_part
+from derive.stock.keys.impacts import DescribedImpact
 
 
 class OfSystem(Protocol):
@@ -35,24 +35,24 @@ class OfSystem(Protocol):
     def parts_by_name(self) -> Mapping[str, Any]: ...
 
 
-class ImpactAnswers(Answers[DescribedBlow]):
+class ImpactAnswers(Answers[DescribedImpact]):
     """The quantities of an impact on a system."""
 
-    def __init__(self, described: DescribedBlow, of: OfSystem):
+    def __init__(self, described: DescribedImpact, of: OfSystem):
         super().__init__(described)
         self.of = of
 
     @cached_property
-    def blow(self) -> Blow:
+    def impact(self) -> Impact:
         acts = [act.made(self.of.parts_by_name) for act in self.described.acts]
         at = {self.of.coordinates[name]: value for name, value in self.described.at}
         before = {self.of.coordinates[name]: value for name, value in self.described.before}
         with told_at_part(self.described.acts, acts, self.described.place):
-            return Blow(self.of.system, *acts, at=at, before=before)
+            return Impact(self.of.system, *acts, at=at, before=before)
 
     @property
     def moving(self) -> list[str]:
-        return [name for name, q in self.of.coordinates.items() if q.symbol in self.blow.moving]
+        return [name for name, q in self.of.coordinates.items() if q.symbol in self.impact.moving]
 
     @answer
     def jumps(self) -> tuple[Quantity, ...]:
@@ -60,7 +60,7 @@ class ImpactAnswers(Answers[DescribedBlow]):
 
     @answer
     def meetings(self) -> tuple[Quantity, ...]:
-        return tuple(meeting_condition(self.blow, i) for i in range(len(self.blow.meetings)))
+        return tuple(meeting_condition(self.impact, i) for i in range(len(self.impact.meetings)))
 
     @answer
     def rates_after(self) -> tuple[Quantity, ...]:
@@ -68,25 +68,25 @@ class ImpactAnswers(Answers[DescribedBlow]):
 
     @answer
     def kinetic_energy_after(self) -> Quantity:
-        return energy_after(self.blow, self.of.kinetic_energy, self.after)
+        return energy_after(self.impact, self.of.kinetic_energy, self.after)
 
     @answer
     def work_of_impulses(self) -> Quantity:
-        return work_of_impulses(self.blow, self.kinetic_energy_after, self.after)
+        return work_of_impulses(self.impact, self.kinetic_energy_after, self.after)
 
     @cached_property
     def after(self) -> tuple[Quantity, ...]:
         """Return all rates just after the impact, and the impulses."""
-        return rates_after(self.blow, self.jumps, self.meetings)
+        return rates_after(self.impact, self.jumps, self.meetings)
 
     @answer_for_each("jump_{}", lambda self: self.moving)
     def jump(self, name: str) -> Quantity:
-        return momentum_jump(self.blow, self.of.kinetic_energy, self.of.coordinates[name])
+        return momentum_jump(self.impact, self.of.kinetic_energy, self.of.coordinates[name])
 
     @answer_for_each("{}_dot_after", lambda self: self.moving)
     def rate_after(self, name: str) -> Quantity:
         return dict(zip(self.moving, self.after, strict=False))[name]
 
-    @answer_for_each("{}", lambda self: [meeting.letter.name for meeting in self.blow.meetings])
+    @answer_for_each("{}", lambda self: [meeting.letter.name for meeting in self.impact.meetings])
     def impulse(self, letter: str) -> Quantity:
         return next(q for q in self.after if q.key == letter)

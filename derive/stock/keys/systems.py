@@ -24,9 +24,9 @@ from derive.mechanics import potential
 from derive.mechanics.kinematics.coordinates import kind_of_rate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import kind_of_momentum
-from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
 from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.formulas import FoundLetter
+from derive.stock.keys.impacts import IMPACT, DescribedImpact, ImpactKeys
 from derive.stock.keys.lagrangians import read_lagrangian
 from derive.stock.keys.parts import (
     CENTRAL,
@@ -100,7 +100,7 @@ class SystemKeys(Record):
     damping: Sequence[DampingKeys] = key("drag opposite and proportional to a velocity", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
     constraints: Sequence[ConstraintKeys] = key("conditions kept by constraint forces", CONSTRAINTS)
-    blow: BlowKeys | None = key("impulses and collisions at one instant", BLOW)
+    impact: ImpactKeys | None = key("impulses and collisions at one instant", IMPACT, formerly="blow")
     conserved: Mapping[Word, Tree] = key(
         "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
         "`psi: C*s`",
@@ -125,7 +125,7 @@ class DescribedSystem(Described):
     particles, bodies, rolling, acting   its parts, in the order of the file; `acting` is everything else
     conserved     symbols of constant momenta by coordinates; `kept` are constant momenta with given values
     at, at_rest   the state about which motions are small, by values or by the name of an equilibrium
-    blow          what happens at one instant
+    impact        what happens at one instant
     brought       symbols of constraint forces and constant momenta, with their places
     named         the places that have names
     given         a Lagrangian that replaces all bodies, and its kind
@@ -141,7 +141,7 @@ class DescribedSystem(Described):
     kept: tuple[tuple[str, Expr], ...] = ()
     at: tuple[tuple[str, Expr], ...] = ()
     at_rest: Word | None = None
-    blow: DescribedBlow | None = None
+    impact: DescribedImpact | None = None
     brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
     place: Place | None = field(default=None, repr=False, compare=False)
     named: tuple[Location, ...] = ()
@@ -168,8 +168,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     kept = attempted(faults, _kept, written.conserved, letters, known) or ()
     forces = _multipliers([*parts["acting"], *parts["rolling"]])
     own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
-    blow = attempted(faults, written.blow.read, letters, forces, places, known) if written.blow else None
-    own |= blow.letters if blow else {}
+    impact = attempted(faults, written.impact.read, letters, forces, places, known) if written.impact else None
+    own |= impact.letters if impact else {}
     own |= attempted(faults, _steady_rates, written, letters, known) or {}
     momenta = _momenta(written.coordinates, letters, given[1] if given is not None else "energy")
     with_own = known.also({**momenta, **symbols, **own})
@@ -180,7 +180,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     return DescribedSystem(
         assumed=assumed,
         letters=own,
-        without=_without(written, [*own], [*blow.letters] if blow else []),
+        without=_without(written, [*own], [*impact.letters] if impact else []),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
         coordinates=tuple(
@@ -197,7 +197,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
         at_rest=rest,
         results=results,
-        blow=blow,
+        impact=impact,
         brought={str(name): name.place for name in brought},
         place=written.places[""],
         named=tuple(named.values()),
@@ -227,7 +227,7 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
 
 
 def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
-    """Return the answers that do not depend on `at`, `conserved` and `blow`."""
+    """Return the answers that do not depend on `at`, `conserved` and `impact`."""
     of_each = ("motion", "momentum", "acceleration")
     one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
     general = one | {*found, *INDIFFERENT_TO_STATES}
@@ -236,7 +236,7 @@ def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str])
     found_for = {
         "at": {*of_state, *OF_CYCLIC},
         "conserved": general,
-        "blow": {*of_state, *OF_CYCLIC, *of_rest} - {*impulses},
+        "impact": {*of_state, *OF_CYCLIC, *of_rest} - {*impulses},
     }
     return tuple(
         (Word.at(key, written.places[key]), names) for key, names in found_for.items() if key in written.values_at

@@ -20,7 +20,7 @@ from tests.stock.described import PENDULUM, loaded
     [
         ("frequency", "the frequencies of small oscillations"),
         ("motion_theta", "the equation of motion of theta"),
-        ("theta_dot_after", "the rate of theta just after the blow"),
+        ("theta_dot_after", "the rate of theta just after the impact"),
         ("angular_momentum_z", "the z component of the angular momentum"),
         ("angular_momentum_size", "the magnitude of the angular momentum"),
         ("wobble_period_x", "the period of a disturbed rotation about the x axis"),
