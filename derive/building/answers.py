@@ -46,8 +46,7 @@ def answers_of(root: Path, problem_id: str) -> Rows:
 
 def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
     if isinstance(problem.script, StockScript):
-        every: dict[str, tuple[Quantity, ...] | DeriveError] = problem.script.stock.every(problem.described)
-        return every
+        return problem.script.stock.answers(problem.described).every()
     returned = returned_quantities(run(problem.script, {given.name: given.value for given in problem.givens}))
     return {quantity.key: (quantity,) for quantity in returned}
 

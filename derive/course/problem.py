@@ -227,7 +227,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     """Return what the script's `solve()` returns for the givens; everything else that it leaves is on the record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
-            return problem.script.stock.solve(problem.described, problem.asked)
+            return problem.script.stock.answers(problem.described).solve(problem.asked)
         return run(problem.script, {given.name: given.value for given in problem.givens})
 
 

@@ -37,16 +37,22 @@ class Reader(Generic[T]):
 
 @dataclass(frozen=True)
 class Key:
-    """One key: its meaning, the contents that it allows, and whether it is required."""
+    """One key: its meaning, the contents that it allows, whether it is required, and the name that it had before."""
 
     meaning: str
     reader: Reader[Any]
     required: bool = False
+    formerly: str = ""
 
 
-def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "") -> Any:
-    """Declare a field of a record that is a key of a file; `called` is its name there, if Python does not allow it."""
-    return field(default_factory=reader.absent, metadata={"called": called, "key": Key(meaning, reader, required)})
+def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "", formerly: str = "") -> Any:
+    """Declare a field of a record that is a key of a file.
+
+    called     its name there, if Python does not allow it
+    formerly   the name that it had before: an error for that name says which one to write
+    """
+    own = Key(meaning, reader, required, formerly)
+    return field(default_factory=reader.absent, metadata={"called": called, "key": own})
 
 
 @dataclass(frozen=True)
@@ -81,12 +87,14 @@ def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
 def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) -> None:
     """Report unknown and missing keys of a mapping; a mistyped key is one error, not two."""
     missing = [name for name, wanted in keys.items() if wanted.required and node.get(name) is None]
+    renamed = {known.formerly: name for name, known in keys.items()}
     for name, _ in node.pairs:
         if name.text not in keys:
-            close = nearest(name.text, [known for known in keys if node.get(known) is None])
+            close = renamed.get(name.text) or nearest(name.text, [known for known in keys if node.get(known) is None])
             if close in missing:
                 missing.remove(close)
             help_line = f"did you mean `{close}`?" if close else "the keys are " + ", ".join(f"`{k}`" for k in keys)
+            help_line = f"write `{close}`" if name.text in renamed else help_line
             faults.error("unknown-key", f"{what} has no key `{abridged(name.text)}`", name.place, help=help_line)
     for wanted in missing:
         faults.error("missing-key", f"{what} needs `{wanted}`: {keys[wanted].meaning}", node.place)

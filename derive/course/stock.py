@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from sympy import Expr
 
@@ -40,7 +40,7 @@ class Described:
     chosen    those that stand for its numbers, which are `measured`
     told      values other than letters that prose may mention by their keys
     several   names of bodies, each of which precedes the names of the answers of that body
-    made      results computed from answers, by their names, with the names of the answers that each uses
+    results   quantities computed from answers; each has its name, and the names of the answers that it uses
     without   keys on which some answers do not depend, with the names of these answers
     assumed   relations between letters that are assumed to hold
     """
@@ -50,25 +50,38 @@ class Described:
     measured: tuple[Measured, ...] = ()
     told: tuple[Given, ...] = ()
     several: tuple[str, ...] = ()
-    made: Mapping[Word, tuple[Word, ...]] = field(default_factory=dict, repr=False, compare=False)
+    results: tuple[Any, ...] = ()
     without: tuple[tuple[Word, Collection[str]], ...] = field(default=(), repr=False, compare=False)
     assumed: tuple[Assumed, ...] = ()
+
+    @property
+    def made(self) -> dict[Word, tuple[Word, ...]]:
+        """Return the names of the answers that each result uses, by the name of the result."""
+        return {result.name: result.uses for result in self.results}
+
+
+class Answering(Protocol):
+    """The answers of a description."""
+
+    def solve(self, asked: Sequence[Word]) -> Mapping[str, object]:
+        """Return the answers by the names that parts ask for; one name may mean several steps."""
+
+    def every(self) -> dict[str, Any]:
+        """Return every name that parts may ask for, each with its steps or with why it cannot be derived."""
 
 
 @dataclass(frozen=True)
 class Stock:
     """A script of the engine.
 
-    keys    the keys allowed under `given:`
-    read    their meaning in the declared letters, after an error for each value that has no meaning
-    solve   its answers by the names that parts ask for; one name may mean several steps
-    every   every name that parts may ask for, each with its steps or with why it cannot be derived
+    keys      the keys allowed under `given:`
+    read      their meaning in the declared letters, after an error for each value that has no meaning
+    answers   the answers of a description
     """
 
     keys: type[Record]
     read: Callable[[Any, Mapping[str, Declared], Faults], Described]
-    solve: Callable[[Any, Sequence[Word]], Mapping[str, object]]
-    every: Callable[[Any], dict[str, Any]]
+    answers: Callable[[Any], Answering]
 
 
 @dataclass(frozen=True)

@@ -44,7 +44,7 @@ from derive.figures.surroundings import FieldMark, FixedEnd, FloorMark, GravityM
 from derive.figures.tops import stance_values
 from derive.figures.touching import Touching
 from derive.figures.turning import angle_marks, downwards, turning_marks
-from derive.figures.velocities import Moment, blow_marks, is_of_the_moment, launch_marks, moment_drawn
+from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, launch_marks, moment_drawn
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import Central, Particle, System
 
@@ -67,7 +67,7 @@ def sketch(
     named: Sequence[Location] = (),
     weights: bool = False,
     start: Moment | None = None,
-    blow: Moment | None = None,
+    impact: Moment | None = None,
 ) -> Drawing | None:
     """Return a drawing of a system from its positions and forces, which is recorded for the problem.
 
@@ -80,9 +80,9 @@ def sketch(
     named     positions of further parts, such as a pivot
     weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity
     start     the initial state of a motion
-    blow      the state at an impact; if it is given, the impact is drawn
+    impact    the state at an impact; if it is given, the impact is drawn
     """
-    scene = _Scene(system, named, weights, start, blow)
+    scene = _Scene(system, named, weights, start, impact)
     if not more and not scene.is_whole:
         return None
     return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})})
@@ -97,10 +97,10 @@ class _Scene:
         named: Sequence[Location] = (),
         weights: bool = False,
         start: Moment | None = None,
-        blow: Moment | None = None,
+        impact: Moment | None = None,
     ):
         self.system, self.named, self.weights = system, tuple(named), weights
-        self.start, self.blow = start, blow
+        self.start, self.impact = start, impact
         self.rows = len(system.places[0].components)
         indices = range(len(system.particles))
         self.links = {i: link for i in indices if (link := link_to(system, i, self.named)) is not None}
@@ -135,8 +135,8 @@ class _Scene:
             if (radius := kept_length(self.system, link.length)) is not None:
                 found[link.length] = radius
         found.update(self.touching.values)
-        if self.blow is not None:
-            found.update(moment_drawn(self.system, self.blow))
+        if self.impact is not None:
+            found.update(moment_drawn(self.system, self.impact))
         hanging = {string: HANGING * link.length for link, _, string in self.strings.values()}
         return {**found, **self._carried_round(), **hanging}
 
@@ -214,9 +214,9 @@ class _Scene:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
         if not any(isinstance(mark, AxisOfRotation) for mark in found):
             found += self._axis_of_table()
-        if self.blow is not None:  # positions are fixed during an impact, so no displacement is shown
-            found = [mark for mark in found if not is_of_the_moment(mark, self.blow)]
-            found += blow_marks(self.system, self.blow)
+        if self.impact is not None:  # positions are fixed during an impact, so no displacement is shown
+            found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
+            found += impact_marks(self.system, self.impact)
         return list(dict.fromkeys(found))
 
     def _all(self) -> Iterable[Mark]:

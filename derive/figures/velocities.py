@@ -60,7 +60,7 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
             yield AngleBetween(column_of(start), way, column_of(velocity) / size, True, label=angle)
 
 
-def blow_marks(system: System, moment: Moment) -> Iterable[Mark]:
+def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
     """Yield the velocities just before an impact, given impulses, and the distances of points of impact."""
     places = [particle.at for particle in system.particles] + [placed.centre for placed in system.bodies]
     for place in places:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any
@@ -16,7 +16,7 @@ from derive.course.given import Given
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
-from derive.errors import DeriveError, Faults, Place, rejected
+from derive.errors import Faults, Place, rejected
 from derive.mechanics import (
     RigidBody,
     angle_between,
@@ -46,11 +46,11 @@ from derive.mechanics import (
 )
 from derive.mechanics.bodies.body import Body, axis_vector
 from derive.steps.step import Quantity
-from derive.stock.answering.by_name import ByName
+from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn_free, drawn_turning
-from derive.stock.keys.results import RESULTS, Result, read_result
+from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
 CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their symbols
@@ -103,7 +103,6 @@ class DescribedRotation(Described):
     rates: tuple[Expr, ...] = ()
     start: tuple[Expr, ...] = ()
     torque: tuple[Expr, ...] = ()
-    results: tuple[Result, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
 
 
@@ -151,11 +150,8 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
     found["moments"] = found.get("moments") or None
     components = {name: Declared(name, letter, "angular speed") for name, letter in MOVING}
     with_components = known.also({**components, **symbols})
-    found["results"] = tuple(
-        r for name, keys in written.results.items() if (r := read_result(keys, name, with_components, faults))
-    )
+    found["results"] = read_results(written.results, with_components, faults)
     return DescribedRotation(
-        made={result.name: result.uses for result in found["results"]},
         without=_without(written),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
@@ -171,7 +167,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
     """Return the answers that do not depend on the `rate` of a disturbed rotation, or not on the `torque`."""
-    asks = {*Answers(DescribedRotation()).asks()}
+    asks = {*RotationAnswers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
     found = {
@@ -203,18 +199,31 @@ def _point(written: RotationKeys, body: DescribedBody | None) -> str:
     return name
 
 
-class Answers:
-    """Answers of a rotation, each derived when it is first needed."""
+class RotationAnswers(StockAnswers[DescribedRotation]):
+    """The quantities of a rotation."""
 
-    def __init__(self, described: DescribedRotation):
-        self.described = described
-        self.about = described.about
+    what = "a rotation"
+
+    def solve(self, asked: Sequence[Word]) -> dict[str, object]:
+        """Return the answers by the names that parts ask for, and draw the body."""
+        found = super().solve(asked)
+        described = self.described
+        if described.body is not None:
+            drawn_turning(self, "angle_between" in asked)
+        elif described.about in ("centre", CENTRE_OF_MASS):
+            turns = {"changing", "angular_momentum"} <= vars(self).keys()  # whether the answers have needed them
+            drawn_free(self, turns and not (described.rate or described.start or described.torque))
+        return found
+
+    @property
+    def about(self) -> str:
+        return self.described.about
 
     @cached_property
     def body(self) -> Body | None:
         return self.described.body.body() if self.described.body else None
 
-    @cached_property
+    @answer
     def inertia_tensor(self) -> Quantity:
         if self.body is not None:
             return inertia_tensor(self.body, self.about)
@@ -227,7 +236,7 @@ class Answers:
         """Return whether the angular velocity is given, constant or at one instant."""
         return bool(self.described.along or self.described.rates or self.described.start)
 
-    @cached_property
+    @answer
     def spin(self) -> Quantity:
         """Return the constant angular velocity, or the one at one instant."""
         if self.described.start:
@@ -252,40 +261,29 @@ class Answers:
         """Return an angular velocity that changes in any way."""
         return changing_angular_velocity(self.about)
 
-    @cached_property
+    @answer
     def angular_momentum(self) -> Quantity:
         return angular_momentum(self.inertia_tensor, self.spin if self.is_given else self.changing)
 
-    @cached_property
+    @answer
+    def angular_momentum_size(self) -> Quantity:
+        return magnitude(self.angular_momentum, key="angular_momentum_size")
+
+    @answer
     def kinetic_energy(self) -> Quantity:
         return kinetic_energy(self.inertia_tensor, self.spin if self.is_given else self.changing)
 
-    @cached_property
+    @answer
+    def angle_between(self) -> Quantity:
+        return angle_between(self.spin, self.angular_momentum)
+
+    @answer
     def torque(self) -> Quantity:
         return torque(self.spin, self.angular_momentum)
 
-    # -- a free symmetric body ------------------------------------------------------------------------------------
-
-    @cached_property
-    def axis_of_symmetry(self) -> Quantity:
-        return axis_of_symmetry(self.inertia_tensor)
-
-    def between(self, name: str) -> tuple[Quantity, Quantity]:
-        """Return the two vectors of the angle of that name."""
-        axis, omega, L = self.axis_of_symmetry, self.spin, self.angular_momentum
-        return {"body_cone": (axis, omega), "space_cone": (L, omega), "tilt": (axis, L)}[name]
-
-    def cone(self, name: str) -> Quantity:
-        return angle_between(*self.between(name), symbol=CONES[name], key=name)
-
-    def cone_tangent(self, name: str) -> Quantity:
-        return tangent_between(*self.between(name), angle=CONES[name], key=f"{name}_tangent")
-
-    def precession_rate(self) -> Quantity:
-        if not self.described.start:
-            message = "free precession needs a body on which no torque acts"
-            rejected("missing-key", message, self.described.place, "give its angular velocity at one instant, `start`")
-        return precession_rate(self.inertia_tensor, self.angular_momentum)
+    @answer
+    def torque_size(self) -> Quantity:
+        return magnitude(self.torque, key="torque_size")
 
     # -- a rotation that changes ----------------------------------------------------------------------------------
 
@@ -295,9 +293,11 @@ class Answers:
             return self.angular_momentum
         return angular_momentum(self.inertia_tensor, self.changing, "L_t", "momentum_at_all_times")
 
-    @cached_property
-    def equations(self) -> tuple[Quantity, Quantity, Quantity]:
-        self._along_principal_axes()
+    @answer
+    def euler_equations(self) -> tuple[Quantity, Quantity, Quantity]:
+        if not self.inertia_tensor.value.is_diagonal():
+            message = "Euler's equations need principal axes, but the axes of this body are not principal"
+            rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
         if self.described.along or self.described.rates:
             message = "Euler's equations need a body that rotates in any way, but its rotation is given"
             rejected("is-steady", message, None, "leave out `along` and `rates`")
@@ -305,127 +305,90 @@ class Answers:
         acting = self.described.torque
         return euler_equations(rate, acting) if acting else euler_equations(rate)
 
+    @answer_for_each("euler_{}", lambda self: AXES)
     def euler_equation(self, axis: str) -> Quantity:
-        return self.equations[AXES.index(axis)]
+        return self.euler_equations[AXES.index(axis)]
 
-    def _along_principal_axes(self) -> None:
-        if not self.inertia_tensor.value.is_diagonal():
-            message = "Euler's equations need principal axes, but the axes of this body are not principal"
-            rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
-
-    @cached_property
+    @answer
     def energy_rate(self) -> Quantity:
         if not self.described.start:
-            return rate_under(self.kinetic_energy, self.equations)
-        return rate_under(
-            kinetic_energy(self.inertia_tensor, self.changing, "T_t", "energy_at_all_times"), self.equations
-        )
+            return rate_under(self.kinetic_energy, self.euler_equations)
+        energy = kinetic_energy(self.inertia_tensor, self.changing, "T_t", "energy_at_all_times")
+        return rate_under(energy, self.euler_equations)
 
-    @cached_property
+    @answer
     def squared_momentum_rate(self) -> Quantity:
-        return rate_under(squared_magnitude(self.changing_momentum, key="squared_momentum"), self.equations)
+        return rate_under(squared_magnitude(self.changing_momentum, key="squared_momentum"), self.euler_equations)
 
-    @cached_property
-    def rate_in_body(self) -> Quantity:
-        return rate_in_body(self.changing_momentum, self.changing, self.equations)
+    @answer
+    def momentum_rate_in_body(self) -> Quantity:
+        return rate_in_body(self.changing_momentum, self.changing, self.euler_equations)
 
-    def rate_in_space(self) -> Quantity:
-        return rate_in_space(self.changing_momentum, self.changing, self.rate_in_body, key="momentum_rate_in_space")
+    @answer
+    def momentum_rate_in_space(self) -> Quantity:
+        in_body = self.momentum_rate_in_body
+        return rate_in_space(self.changing_momentum, self.changing, in_body, key="momentum_rate_in_space")
 
-    def linear(self, axis: str) -> tuple[Quantity, Quantity]:
-        rate = self.described.rate
-        if rate is None:
+    @answer_for_each("stability_{}", lambda self: AXES)
+    def stability(self, axis: str) -> Quantity:
+        if self.described.rate is None:
             message = "a steady rotation that is disturbed needs its `rate`"
             rejected("missing-key", message, self.described.place, "write `rate: omega`")
-        found = self._linear.get(axis)
-        if found is None:
-            found = self._linear[axis] = linearised_rotation(self.equations, axis, rate, key=f"disturbed_{axis}")
-        return found
+        linear = linearised_rotation(self.euler_equations, axis, self.described.rate, key=f"disturbed_{axis}")
+        return perturbation_rate_squared(linear, f"Omega_{axis}", f"stability_{axis}")
 
-    @cached_property
-    def _linear(self) -> dict[str, tuple[Quantity, Quantity]]:
-        return {}
-
-    @cached_property
-    def _squared(self) -> dict[str, Quantity]:
-        return {}
-
-    @cached_property
-    def _wobbles(self) -> dict[str, Quantity]:
-        return {}
-
-    def stability(self, axis: str) -> Quantity:
-        if axis not in self._squared:
-            self._squared[axis] = perturbation_rate_squared(self.linear(axis), f"Omega_{axis}", f"stability_{axis}")
-        return self._squared[axis]
-
+    @answer_for_each("wobble_{}", lambda self: AXES)
     def wobble(self, axis: str) -> Quantity:
-        if axis not in self._wobbles:
-            grows = self.stability(axis).step.outcome == "unstable"
-            self._wobbles[axis] = perturbation_rate(
-                self.stability(axis), f"kappa_{axis}" if grows else None, key=f"wobble_{axis}"
-            )
-        return self._wobbles[axis]
+        grows = self.stability(axis).step.outcome == "unstable"
+        return perturbation_rate(self.stability(axis), f"kappa_{axis}" if grows else None, key=f"wobble_{axis}")
 
+    @answer_for_each("wobble_period_{}", lambda self: AXES)
     def wobble_period(self, axis: str) -> Quantity:
         return period(self.wobble(axis), f"tau_{axis}", key=f"wobble_period_{axis}")
 
-    def component(self, vector: str, axis: str) -> Quantity:
-        return vector_component(getattr(self, vector), axis, key=f"{vector}_{axis}")
+    # -- components -------------------------------------------------------------------------------------------------
 
-    def asks(self) -> dict[str, Callable[[], object]]:
-        """Return every name that a part may ask for."""
-        of_axes: dict[str, Callable[[], object]] = {}
-        for axis in AXES:
-            of_axes[f"stability_{axis}"] = partial(self.stability, axis)
-            of_axes[f"wobble_{axis}"] = partial(self.wobble, axis)
-            of_axes[f"wobble_period_{axis}"] = partial(self.wobble_period, axis)
-            for vector in ("spin", "angular_momentum", "torque"):
-                of_axes[f"{vector}_{axis}"] = partial(self.component, vector, axis)
-        return {
-            "inertia_tensor": lambda: self.inertia_tensor,
-            "spin": lambda: self.spin,
-            "angular_momentum": lambda: self.angular_momentum,
-            "angular_momentum_size": lambda: magnitude(self.angular_momentum, key="angular_momentum_size"),
-            "kinetic_energy": lambda: self.kinetic_energy,
-            "angle_between": lambda: angle_between(self.spin, self.angular_momentum),
-            "torque": lambda: self.torque,
-            "torque_size": lambda: magnitude(self.torque, key="torque_size"),
-            "euler_equations": lambda: self.equations,
-            **{f"euler_{axis}": partial(self.euler_equation, axis) for axis in AXES},
-            "energy_rate": lambda: self.energy_rate,
-            "squared_momentum_rate": lambda: self.squared_momentum_rate,
-            "momentum_rate_in_body": lambda: self.rate_in_body,
-            "momentum_rate_in_space": self.rate_in_space,
-            **of_axes,
-            "body_cone_rate": lambda: body_cone_rate(self.equations),
-            "axis_of_symmetry": lambda: self.axis_of_symmetry,
-            **{name: partial(self.cone, name) for name in CONES},
-            **{f"{name}_tangent": partial(self.cone_tangent, name) for name in CONES},
-            "precession_rate": self.precession_rate,
-        }
+    @answer_for_each("spin_{}", lambda self: AXES)
+    def spin_component(self, axis: str) -> Quantity:
+        return vector_component(self.spin, axis, key=f"spin_{axis}")
 
+    @answer_for_each("angular_momentum_{}", lambda self: AXES)
+    def momentum_component(self, axis: str) -> Quantity:
+        return vector_component(self.angular_momentum, axis, key=f"angular_momentum_{axis}")
 
-def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, object]:
-    """Return the answers by the names that parts ask for."""
-    answers = Answers(described)
-    found = _by_name(described, answers).answers(asked)
-    if described.body is not None:
-        drawn_turning(answers, "angle_between" in asked)
-    elif described.about in ("centre", CENTRE_OF_MASS):
-        turns = {"changing", "angular_momentum"} <= vars(answers).keys()  # whether the answers have needed them
-        drawn_free(answers, turns and not (described.rate or described.start or described.torque))
-    return found
+    @answer_for_each("torque_{}", lambda self: AXES)
+    def torque_component(self, axis: str) -> Quantity:
+        return vector_component(self.torque, axis, key=f"torque_{axis}")
+
+    # -- a free symmetric body ------------------------------------------------------------------------------------
+
+    @answer
+    def body_cone_rate(self) -> Quantity:
+        return body_cone_rate(self.euler_equations)
+
+    @answer
+    def axis_of_symmetry(self) -> Quantity:
+        return axis_of_symmetry(self.inertia_tensor)
+
+    @answer_for_each("{}", lambda self: CONES)
+    def cone(self, name: str) -> Quantity:
+        return angle_between(*self._sides(name), symbol=CONES[name], key=name)
+
+    @answer_for_each("{}_tangent", lambda self: CONES)
+    def cone_tangent(self, name: str) -> Quantity:
+        return tangent_between(*self._sides(name), angle=CONES[name], key=f"{name}_tangent")
+
+    def _sides(self, name: str) -> tuple[Quantity, Quantity]:
+        """Return the two vectors of the angle of that name."""
+        axis, omega, L = self.axis_of_symmetry, self.spin, self.angular_momentum
+        return {"body_cone": (axis, omega), "space_cone": (L, omega), "tilt": (axis, L)}[name]
+
+    @answer
+    def precession_rate(self) -> Quantity:
+        if not self.described.start:
+            message = "free precession needs a body on which no torque acts"
+            rejected("missing-key", message, self.described.place, "give its angular velocity at one instant, `start`")
+        return precession_rate(self.inertia_tensor, self.angular_momentum)
 
 
-def _by_name(described: DescribedRotation, answers: Answers) -> ByName:
-    again = lambda: _by_name(described, Answers(described))  # noqa: E731
-    return ByName(answers.asks(), "a rotation", described.results, again=again)
-
-
-def every(described: DescribedRotation) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-    """Return every answer that parts may ask for, or why it cannot be derived."""
-    return _by_name(described, Answers(described)).every()
-
-
-STOCK = Stock(RotationKeys, read, solve, every)
+STOCK = Stock(RotationKeys, read, RotationAnswers)

@@ -1,394 +1,403 @@
-"""Any mechanical system: coordinates, places, bodies and what acts on them; its parts ask for what follows."""
+"""Any mechanical system: its energies, its equations of motion, its equilibria, and what happens in an impact."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import partial
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
 from itertools import chain
 from typing import Any
 
-from sympy import Expr, Symbol
+from sympy import Expr, Integer
 
-from derive.algebra.expressions import scalar
-from derive.algebra.ranges import Range
-from derive.course.assumed import Assumed, read_assumed
-from derive.course.expression import Declared
-from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of, one_or_more
-from derive.course.stock import Described, InLetters, Stock, attempted, each, told_at
-from derive.course.written import SortOfLetter
-from derive.course.yaml_tree import Scalar, Tree, Word
-from derive.course.yaml_tree import Sequence as Listed
-from derive.errors import DeriveError, Faults, Place, did_you_mean, rejected
+from derive.algebra.expressions import Relation, explicit
+from derive.course.stock import Stock, told_at
+from derive.course.yaml_tree import Word
+from derive.errors import Complaint, Rejected, rejected
 from derive.figures import sketch
-from derive.mechanics import potential
-from derive.mechanics.kinematics.coordinates import kind_of_rate
-from derive.mechanics.kinematics.places import Location
-from derive.mechanics.lagrange.momenta import kind_of_momentum
-from derive.steps.step import Quantity
+from derive.mechanics import (
+    Coordinate,
+    System,
+    accelerations,
+    angular_velocity,
+    conjugate_momentum,
+    conserved,
+    coordinate,
+    effective_potential,
+    energy_function,
+    energy_function_rate,
+    equation_of_motion,
+    equilibria,
+    given_lagrangian,
+    hamilton_equations,
+    hamiltonian,
+    kinetic_energy_of,
+    lagrangian,
+    linear_stability,
+    linearised,
+    multipliers,
+    normal_modes,
+    period,
+    potential_energy_of,
+    put_in,
+    routhian,
+    stability,
+    weight,
+)
+from derive.mechanics.model.acted_on import check_ground
+from derive.steps.derivation import returned_quantities
+from derive.steps.record import assume, current_run
+from derive.steps.step import Quantity, is_zero
+from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
+from derive.stock.answering.held_rest import rest_with_forces
 from derive.stock.answering.moments import started, struck
-from derive.stock.answering.of_systems import Answers, constant
-from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
-from derive.stock.keys.deferred import Deferred
-from derive.stock.keys.formulas import FoundLetter
-from derive.stock.keys.lagrangians import read_lagrangian
-from derive.stock.keys.parts import (
-    CENTRAL,
-    CHARGES,
-    CONSTRAINTS,
-    DAMPING,
-    FORCES,
-    PARTICLES,
-    SPRINGS,
-    CentralKeys,
-    ChargeKeys,
-    ConstraintKeys,
-    DampingKeys,
-    ForceKeys,
-    ParticleKeys,
-    SpringKeys,
-)
-from derive.stock.keys.placed import BODIES, ROLLING, MovingBodyKeys, RollingKeys
-from derive.stock.keys.places import (
-    COORDINATES,
-    PLACES,
-    TURNS,
-    Places,
-    WrittenPlace,
-    coordinate_letters,
-    is_letter,
-)
-from derive.stock.keys.results import RESULTS, Result, names, read_result, written_in
+from derive.stock.answering.of_impacts import ImpactAnswers
+from derive.stock.keys.deferred import told_at_part
+from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
+from derive.witness.facts import Rest
 
-STATE = mapping_of(SCALAR)
-RELATIONS = as_written(one_or_more(SCALAR.schema), "a relation such as `l < r_0`, or a list of them")
-POSITIVE_CONSTANT = "positive"  # before the symbol of a constant, as in `positive length`
-INDIFFERENT_TO_STATES = (
-    "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
-    "energy_function_rate", "hamiltonian", "hamilton_equations", "no_slip", "angular_velocity", "accelerations",
-    "multipliers",
-)  # fmt: skip
-OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
 SYSTEM = "system"  # the name of its drawing
 
 
-@dataclass(frozen=True)
-class SystemKeys(Record):
-    """The keys of a system."""
+class SystemAnswers(StockAnswers[DescribedSystem]):
+    """The quantities of a system."""
 
-    coordinates: Mapping[Word, SortOfLetter] = key(
-        "what varies: `theta: angle`, `x: length`, `r: positive length`, `beta: angle in (0, pi/2)`",
-        COORDINATES,
-        required=True,
-    )
-    axes: Mapping[Word, tuple[Mapping[Word, Tree], ...]] = key(
-        "rotating axes, by the rotations that lead to them from the axes of space: `hoop: [{z: omega*t}]`", TURNS
-    )
-    points: Mapping[Word, WrittenPlace] = key(
-        "places by name: `A: [l*sin(theta), -l*cos(theta)]`, `B: {from: A, by: [x, y]}`; the last component is upwards",
-        PLACES,
-        called="places",
-    )
-    particles: Mapping[Word, ParticleKeys] = key("particles by name", PARTICLES)
-    bodies: Mapping[Word, MovingBodyKeys] = key("rigid bodies by name", BODIES)
-    rolling: Sequence[RollingKeys] = key("bodies that roll without slipping", ROLLING)
-    gravity: Tree | None = key("the acceleration of free fall, downwards; without gravity nothing has weight", SCALAR)
-    springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
-    central: Sequence[CentralKeys] = key("potential energies that depend on the distance between two places", CENTRAL)
-    lagrangian: Tree | None = key(
-        "the Lagrangian itself, given as a formula of coordinates, their rates and `t`, in place of all bodies: "
-        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may be added",
-        SCALAR,
-    )
-    potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
-    forces: Sequence[ForceKeys] = key("given forces and torques", FORCES)
-    damping: Sequence[DampingKeys] = key("drag opposite and proportional to a velocity", DAMPING)
-    charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
-    constraints: Sequence[ConstraintKeys] = key("conditions kept by constraint forces", CONSTRAINTS)
-    blow: BlowKeys | None = key("impulses and collisions at one instant", BLOW)
-    conserved: Mapping[Word, Tree] = key(
-        "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
-        "`psi: C*s`",
-        mapping_of(SCALAR),
-    )
-    assume: Tree | None = key(
-        "relations between constant symbols that are true: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
-    )
-    at: Tree | None = key(
-        "the state about which equations are linearised and stability is decided: `{theta: 0}`, or an equilibrium by "
-        "its name, `rest_3`; by default all equilibria",
-        as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
-    )
-    results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
+    def __init__(self, described: DescribedSystem):
+        super().__init__(described)
+        self.coordinates = {
+            name: coordinate(name, kind, positive=positive) for name, kind, positive in described.coordinates
+        }
+
+    def solve(self, asked: Sequence[Word]) -> dict[str, object]:
+        """Return the answers by the names that parts ask for, and draw the system."""
+        if self.described.given is None:
+            with told_at(self.described.place):
+                start = started(self.described.results, self.system)
+                impact = struck(self.of_impact.impact) if self.of_impact is not None else None
+                sketch(SYSTEM, self.system, named=self.described.named, start=start, impact=impact)
+        answers = super().solve(asked)
+        self._check_letters()
+        return answers
+
+    def asks(self) -> dict[str, Any]:
+        """Return every name that a part may ask for, also about an impact."""
+        return super().asks() | (self.of_impact.asks() if self.of_impact is not None else {})
+
+    @cached_property
+    def of_impact(self) -> ImpactAnswers | None:
+        return ImpactAnswers(self.described.impact, self) if self.described.impact is not None else None
+
+    # -- its parts ------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def system(self) -> System:
+        described = self.described
+        if described.given is not None:
+            message = "this needs bodies and forces, but the Lagrangian is given in place of them"
+            raise Rejected(Complaint("given-lagrangian", message))
+        acting = [part.made(self.parts_by_name) for part in described.acting]
+        weights = [weight(described.gravity)] if described.gravity is not None else []
+        with told_at_part(described.acting, acting, described.place):
+            system = System(*self.bodies.values(), *self.particles.values(), *acting, *weights, *self.rolling)
+        for rolling in described.rolling:
+            with told_at(rolling.place):
+                check_ground(system, rolling.named["ground"])
+        return system
+
+    @cached_property
+    def particles(self) -> dict[str, Any]:
+        """Return the particles by name."""
+        return {name: particle.made({}) for name, particle in self.described.particles.items()}
+
+    @cached_property
+    def bodies(self) -> dict[str, Any]:
+        """Return the bodies with a position, by name."""
+        return {name: body.made({}) for name, body in self.described.bodies.items()}
+
+    @property
+    def parts_by_name(self) -> dict[str, Any]:
+        """Return the particles and bodies on which forces may act by name."""
+        return {**self.particles, **self.bodies}
+
+    @cached_property
+    def rolling(self) -> tuple[Any, ...]:
+        """Return the conditions of rolling without slipping."""
+        return tuple(chain(*(one.made(self.bodies) for one in self.described.rolling)))
+
+    # -- energies and equations of motion --------------------------------------------------------------------------
+
+    @answer
+    def kinetic_energy(self) -> Quantity:
+        return kinetic_energy_of(self.system)
+
+    @answer
+    def potential_energy(self) -> Quantity:
+        return potential_energy_of(self.system)
+
+    @answer
+    def lagrangian(self) -> Quantity:
+        if self.described.given is None:
+            return lagrangian(self.system)
+        function, kind = self.described.given
+        with told_at(self.described.place):
+            return given_lagrangian(function, *(part.made({}) for part in self.described.acting), kind=kind)
+
+    @answer
+    def equations_of_motion(self) -> tuple[Quantity, ...]:
+        return tuple(self.motion(name) for name in self.independent)
+
+    @answer
+    def momenta(self) -> tuple[Quantity, ...]:
+        return tuple(self.momentum(name) for name in self.coordinates)
+
+    @answer
+    def conserved(self) -> tuple[Quantity, ...]:
+        return _some(self.cyclic.values(), "no coordinate of this system is cyclic")
+
+    @answer
+    def energy_function(self) -> Quantity:
+        return energy_function(self.lagrangian)
+
+    @answer
+    def energy_function_rate(self) -> Quantity:
+        return energy_function_rate(self.energy_function)
+
+    @answer
+    def hamiltonian(self) -> Quantity:
+        return hamiltonian(self.lagrangian)
+
+    @answer
+    def hamilton_equations(self) -> tuple[Quantity, ...]:
+        return hamilton_equations(self.hamiltonian)
+
+    @answer
+    def routhian(self) -> Quantity:
+        return routhian(self.lagrangian, *self.cyclic.values())
+
+    @answer
+    def effective_potential(self) -> Quantity:
+        if not self.kept:
+            return effective_potential(self.lagrangian, *self.cyclic.values())
+        by_letters = effective_potential(self.lagrangian, *self.cyclic.values(), key="potential_by_momenta")
+        return put_in(by_letters, *self.kept.values(), key="effective_potential")
+
+    # -- equilibria and small motions ------------------------------------------------------------------------------
+
+    @answer
+    def equilibria(self) -> tuple[Quantity, ...]:
+        """Return equilibria; where forces keep constraints, the positions and forces that the equations determine."""
+        if self.described.given is not None or not self.system.constraints:
+            return self.stationary
+        letters = {each.force for each in self.system.constraints}
+        if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
+            message = "sliding friction does not act at rest: static friction can have any value up to its greatest"
+            help_line = (
+                "ask for the equilibria without friction; with static friction there is a range of them around each"
+            )
+            raise Rejected(Complaint("friction-at-rest", message, help=help_line))
+        forces = [each.force for each in self.system.constraints]
+        return rest_with_forces(self.equations_of_motion, self.independent, forces)
+
+    @answer
+    def stability(self) -> tuple[Quantity, ...]:
+        if self.state is not None:
+            return self._stability_at(self.state)
+        return tuple(found for at in self.stationary for found in self._stability_at(at))
+
+    @answer
+    def linearised(self) -> tuple[Quantity, ...]:
+        return self._linearised_at(self.state)
+
+    @answer
+    def normal_modes(self) -> tuple[Quantity, ...]:
+        return normal_modes(self.linearised)
+
+    @answer
+    def frequency(self) -> tuple[Quantity, ...]:
+        return tuple(q for q in self.normal_modes if q.key.partition("_")[0] == "frequency")
+
+    @answer
+    def period(self) -> Quantity:
+        if len(self.normal_modes) != 1:
+            raise Rejected(Complaint("wrong-argument", "`period` is about one frequency, but there are several"))
+        if self.normal_modes[0].value == 0:
+            message = "nothing drives the system back to this state, so it does not oscillate about it"
+            raise Rejected(Complaint("no-oscillation", message, help="is each body held where it should be?"))
+        return period(self.normal_modes[0])
+
+    # -- rolling, rotation, forces of constraint --------------------------------------------------------------------
+
+    @answer
+    def no_slip(self) -> tuple[Quantity, ...]:
+        kept = "forces keep the conditions of rolling here, so `no_slip` eliminates nothing"
+        solved = [each for each in self.rolling if isinstance(each, Quantity)]
+        return _some(solved, kept if self.rolling else "nothing rolls in this system")
+
+    @answer
+    def angular_velocity(self) -> tuple[Quantity, ...]:
+        in_space = [angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane]
+        message = "no body of this system rotates in space: in a plane its angular velocity is the rate of an angle"
+        return _some(in_space, message)
+
+    @answer
+    def accelerations(self) -> Any:
+        return accelerations(*self.equations_of_motion)
+
+    @answer
+    def multipliers(self) -> Any:
+        return multipliers(*self.equations_of_motion)
+
+    # -- one answer for each coordinate or force --------------------------------------------------------------------
+
+    @answer_for_each("motion_{}", lambda self: self.coordinates)
+    def motion(self, name: str) -> Quantity:
+        return equation_of_motion(self.lagrangian, self.coordinates[name], key=f"motion_{name}")
+
+    @answer_for_each("momentum_{}", lambda self: self.coordinates)
+    def momentum(self, name: str) -> Quantity:
+        return conjugate_momentum(self.lagrangian, self.coordinates[name])
+
+    @answer_for_each("conserved_{}", lambda self: self.coordinates)
+    def one_conserved(self, name: str) -> Quantity:
+        if name not in self.cyclic:
+            conserved(self.lagrangian, self.coordinates[name])  # raises the error if its momentum is not constant
+        return self.cyclic[name]
+
+    @answer_for_each("constant_{}", lambda self: dict(self.described.kept))
+    def one_kept(self, name: str) -> Quantity:
+        return self.kept[name]
+
+    @answer_for_each("acceleration_{}", lambda self: self.coordinates)
+    def acceleration(self, name: str) -> Quantity:
+        return self.by_name.one("accelerations", f"acceleration_{name}")
+
+    @answer_for_each("{}", lambda self: self.forces_of_constraint)
+    def force_of_constraint(self, letter: str) -> Quantity:
+        return self.by_name.one("multipliers", letter)
+
+    # -- what answers are derived from -------------------------------------------------------------------------------
+
+    @property
+    def forces_of_constraint(self) -> list[str]:
+        return [c.force.name for c in self.system.constraints] if self.described.given is None else []
+
+    @cached_property
+    def cyclic(self) -> dict[str, Quantity]:
+        """Return the constant momenta, by the names of their coordinates."""
+        L = explicit(self.lagrangian.value)
+        letters = dict(self.described.conserved)
+        found = {}
+        for name, q in self.coordinates.items():
+            if L.has(q.rate) and not L.has(q.symbol) or name in letters:
+                own = None if name in self.kept else letters.get(name) or constant(f"p_{name}")
+                try:
+                    found[name] = conserved(self.lagrangian, q, value=own)
+                except Rejected as refused:
+                    if name in letters or any(each.code != "not-cyclic" for each in refused.complaints):
+                        raise  # otherwise a force acts along it, so its momentum is not constant
+        return found
+
+    @cached_property
+    def kept(self) -> dict[str, Quantity]:
+        """Return the constant momenta whose values are given."""
+        return {
+            name: conserved(self.lagrangian, self.coordinates[name], value=value, key=f"constant_{name}")
+            for name, value in self.described.kept
+        }
+
+    @property
+    def reduced(self) -> Quantity:
+        """Return the Lagrangian, or the Routhian if momenta are constant, coordinates remain and no cyclic one is
+        given.
+        """
+        is_left = self.cyclic and len(self.cyclic) < len(self.coordinates)
+        return self.routhian if is_left and not self._has_place_of_cyclic else self.lagrangian
+
+    @property
+    def _has_place_of_cyclic(self) -> bool:
+        return any(name in self.cyclic for name, _ in self.described.at)
+
+    @cached_property
+    def independent(self) -> dict[str, Coordinate]:
+        """Return the coordinates that remain after rolling expresses some by the others."""
+        moving = self.lagrangian.coordinates
+        return {name: q for name, q in self.coordinates.items() if q.symbol in moving}
+
+    @cached_property
+    def potential_at_rest(self) -> Quantity:
+        """Return the effective potential if something rotates or a momentum is constant, else the potential energy."""
+        if self.described.given is not None:
+            return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
+        still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
+        is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
+        is_pushed = is_driven or bool(self.system.given_forces)
+        if self.system.constraints:  # a constraint force may act along a cyclic coordinate
+            return self.lagrangian if is_pushed else self.potential_energy
+        for momentum in self.cyclic.values():
+            assume(Relation(momentum.symbol, ">" if momentum.symbol.is_positive else "!=", Integer(0)))
+        if self.cyclic and len(self.cyclic) < len(self.coordinates) or is_driven and len(self.coordinates) == 1:
+            return self.effective_potential
+        return self.lagrangian if is_pushed else self.potential_energy
+
+    @cached_property
+    def stationary(self) -> tuple[Quantity, ...]:
+        """Return the states at which that potential energy, or the Lagrangian, is stationary."""
+        return equilibria(self.potential_at_rest)
+
+    def _stability_at(self, at: Quantity | Mapping[Any, Expr]) -> tuple[Quantity, ...]:
+        """Decide stability by the potential energy, or by small motions if gyroscopic forces may stabilise it."""
+        try:
+            return (stability(self.potential_at_rest, at),)
+        except Rejected as refused:
+            if any(each.code != "not-decided" for each in refused.complaints):
+                raise
+        if not isinstance(at, Quantity):
+            return tuple(returned_quantities(linear_stability(self._linearised_at(at))))
+        rest = at.needed(Rest)
+        is_plain = self.state is None and rest.exists is None and all(is_zero(value) for value in rest.values.values())
+        small = self.linearised if is_plain else self._linearised_at(at, at.key.replace("rest", "linearised"))
+        return tuple(returned_quantities(linear_stability(small, key=at.key.replace("rest", "stability"))))
+
+    @property
+    def state(self) -> dict[Any, Expr] | Quantity | None:
+        """Return the state about which the motion is small, if one is given."""
+        if self.described.at_rest is not None:
+            return self.by_name.one("equilibria", self.described.at_rest, self.described.at_rest.place)
+        found = {self.coordinates[name]: value for name, value in self.described.at}
+        return found or None
+
+    def _linearised_at(self, at: Quantity | Mapping[Any, Expr] | None, key: str = "linearised") -> tuple[Quantity, ...]:
+        motions = self.equations_of_motion
+        if self.reduced is not self.lagrangian:
+            left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
+            motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
+            at = at or self.stationary[0]
+        elif at is None and self._is_pushed and len(self.stationary) == 1:
+            at = self.stationary[0]
+        found = linearised(motions, at=at, key=key)
+        return found if isinstance(found, tuple) else (found,)
+
+    @property
+    def _is_pushed(self) -> bool:
+        return self.described.given is not None or bool(self.system.given_forces)
+
+    def _check_letters(self) -> None:
+        """Check that a symbol of the description and steps with the same symbol are of one kind."""
+        run = current_run.get()
+        established = run.established if run is not None else []
+        for name, place in self.described.brought.items():
+            kinds = {q.step.kind: q.key for q in established if getattr(q.symbol, "name", "") == name}
+            if len(kinds) > 1:
+                keys = " and ".join(f"`{key}`" for key in kinds.values())
+                message = f"`{name}` denotes two quantities, {keys}"
+                rejected("letter-clash", message, place, "use another symbol on this line")
 
 
-@dataclass(frozen=True)
-class DescribedSystem(Described):
-    """A system in symbols.
-
-    coordinates   the name of each, its kind, and whether it is positive
-    particles, bodies, rolling, acting   its parts, in the order of the file; `acting` is everything else
-    conserved     symbols of constant momenta by coordinates; `kept` are constant momenta with given values
-    at, at_rest   the state about which motions are small, by values or by the name of an equilibrium
-    brought       symbols of constraint forces and constant momenta, with their places
-    named         the places that have names
-    given         a Lagrangian that replaces all bodies, and its kind
-    """
-
-    coordinates: tuple[tuple[str, str, bool], ...] = ()
-    particles: Mapping[str, Deferred[Any]] = field(default_factory=dict)
-    bodies: Mapping[str, Deferred[Any]] = field(default_factory=dict)
-    rolling: tuple[Deferred[tuple[Any, ...]], ...] = ()
-    acting: tuple[Deferred[Any], ...] = ()
-    gravity: Expr | None = None
-    conserved: tuple[tuple[str, Symbol], ...] = ()
-    kept: tuple[tuple[str, Expr], ...] = ()
-    at: tuple[tuple[str, Expr], ...] = ()
-    at_rest: Word | None = None
-    results: tuple[Result, ...] = ()
-    blow: DescribedBlow | None = None
-    brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
-    place: Place | None = field(default=None, repr=False, compare=False)
-    named: tuple[Location, ...] = ()
-    given: tuple[Expr, str | None] | None = None
+def _some(found: Iterable[Quantity], otherwise: str) -> tuple[Quantity, ...]:
+    """Return them, or say why there are none."""
+    some = tuple(found)
+    if not some:
+        raise Rejected(Complaint("wrong-argument", otherwise))
+    return some
 
 
-def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
-    """Return the description in the declared symbols and the coordinates.
-
-    The order of the readings is that in which numbers get their letters.
-    """
-    letters = coordinate_letters(written.coordinates, symbols, faults)
-    known = InLetters({**symbols, **letters})
-    places = Places(written.points, written.axes, known, {name: one.at for name, one in written.particles.items()})
-    named = attempted(faults, places.all_named) or {}
-    parts = _parts(written, places, known, faults)
-    given = attempted(faults, read_lagrangian, written, known)
-    gravity = attempted(faults, _value, known.value, written.gravity, "gravity", "acceleration")
-    energy = attempted(faults, _value, known.of_kind, written.potential, "potential", "energy")
-    if energy is not None:
-        parts["acting"] += (Deferred(potential, (energy,), place=written.values_at["potential"]),)
-    brought = letters_at(written)
-    attempted(faults, _check_different, brought)
-    kept = attempted(faults, _kept, written.conserved, letters, known) or ()
-    forces = _multipliers([*parts["acting"], *parts["rolling"]])
-    own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
-    blow = attempted(faults, written.blow.read, letters, forces, places, known) if written.blow else None
-    own |= blow.letters if blow else {}
-    own |= attempted(faults, _steady_rates, written, letters, known) or {}
-    momenta = _momenta(written.coordinates, letters, given[1] if given is not None else "energy")
-    with_own = known.also({**momenta, **symbols, **own})
-    results = tuple(r for name, keys in written.results.items() if (r := read_result(keys, name, with_own, faults)))
-    constants = {name: letter for name, letter in {**symbols, **own}.items() if name not in {*letters, *forces}}
-    assumed = attempted(faults, _assumed, written.assume, constants, letters) or ()
-    rest = written.at.word if isinstance(written.at, Scalar) and not written.at.empty else None
-    return DescribedSystem(
-        assumed=assumed,
-        letters=own,
-        made={result.name: result.uses for result in results},
-        without=_without(written, [*own], [*blow.letters] if blow else []),
-        chosen=known.chosen,
-        measured=tuple(known.numbers.measured),
-        coordinates=tuple(
-            (str(n), letters[n].kind, bool(letters[n].symbol.is_positive)) for n in written.coordinates if n in letters
-        ),
-        **parts,
-        gravity=gravity,
-        conserved=tuple(
-            (str(q), own[name].symbol)
-            for q, word in _words(written.conserved).items()
-            if (name := _letter(word)[0]) in own
-        ),
-        kept=kept,
-        at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
-        at_rest=rest,
-        results=results,
-        blow=blow,
-        brought={str(name): name.place for name in brought},
-        place=written.places[""],
-        named=tuple(named.values()),
-        given=given,
-    )
-
-
-def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
-    """Return the bodies of the system and what acts on them, by the fields of its description."""
-
-    def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
-        return attempted(faults, each, [partial(one.part, *more) for one in keys]) or []
-
-    def by_name(keys: Mapping[Word, Any], *more: Any) -> dict[str, Any]:
-        found = attempted(faults, each, [partial(one.part, name, *more) for name, one in keys.items()]) or []
-        return {str(name): one for name, one in zip(keys, found, strict=False)}
-
-    particles = by_name(written.particles, places, known)
-    several: list[Sequence[Any]] = [written.springs, written.central, written.charges, written.constraints]
-    acting = [*chain(*(of_each(keys, places, known) for keys in several))]
-    bodies = by_name(written.bodies, len(written.bodies) == 1, places, known)
-    rolling = of_each(written.rolling, places, known, {str(name) for name in written.bodies})
-    names = {str(name) for name in (*written.bodies, *written.particles)}
-    with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
-    acting += of_each([*written.forces, *written.damping], places, with_friction, names)
-    return {"particles": particles, "bodies": bodies, "rolling": tuple(rolling), "acting": tuple(acting)}
-
-
-def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
-    """Return the answers that do not depend on `at`, `conserved` and `blow`."""
-    of_each = ("motion", "momentum", "acceleration")
-    one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
-    general = one | {*found, *INDIFFERENT_TO_STATES}
-    of_state = general | {f"{name}_{q}" for name in ("conserved", "constant") for q in written.coordinates}
-    of_rest = {"stability", "linearised", "normal_modes", "frequency", "period"}
-    found_for = {
-        "at": {*of_state, *OF_CYCLIC},
-        "conserved": general,
-        "blow": {*of_state, *OF_CYCLIC, *of_rest} - {*impulses},
-    }
-    return tuple(
-        (Word.at(key, written.places[key]), names) for key, names in found_for.items() if key in written.values_at
-    )
-
-
-def _value(reading: Callable[..., Expr], node: Tree | None, name: str, kind: str) -> Expr | None:
-    return reading(node, name, kind) if node is not None else None
-
-
-def _assumed(
-    written: Tree | None, constants: Mapping[str, Declared], coordinates: Mapping[str, Declared]
-) -> tuple[Assumed, ...]:
-    nodes = written.items if isinstance(written, Listed) else (written,)
-    entries = each([partial(read_assumed, node, constants, coordinates) for node in nodes if node is not None])
-    return tuple(chain(*entries))
-
-
-def _momenta(
-    written: Mapping[Word, str], coordinates: Mapping[str, Declared], lagrangian: str | None
-) -> dict[str, Declared]:
-    """Return the momenta of coordinates, for functions of both: `x*p_y - y*p_x`."""
-    kinds = {f"p_{q}": kind_of_momentum(coordinates[q].kind, lagrangian) for q in written if q in coordinates}
-    return {name: Declared(name, scalar(name), kind) for name, kind in kinds.items() if kind is not None}
-
-
-def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
-    """Return the symbols of the forces that keep constraints and rolling, for which results may be solved."""
-    names = [one.named["force"] for one in keeping if "force" in one.named]
-    return {name: FoundLetter(name, scalar(name), "force") for name in names}
-
-
-def letters_at(written: SystemKeys) -> list[Word]:
-    """Return the symbols that the description introduces in addition to its coordinates, with their places."""
-    forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
-    momenta = [Word.at(_letter(word)[0], word.place) for word in _words(written.conserved).values()]
-    return [*(force for force in forces if force), *(letter for letter in momenta if is_letter(letter))]
-
-
-def _words(written: Mapping[Word, Tree]) -> dict[Word, Word]:
-    return {q: node.word for q, node in written.items() if isinstance(node, Scalar)}
-
-
-def _check_different(brought: Sequence[Word]) -> None:
-    """Check that all these symbols are different."""
-    for i, word in enumerate(brought):
-        if word in brought[:i]:
-            message = f"`{word}` already denotes something else"
-            rejected("letter-clash", message, word.place, "use another symbol")
-
-
-def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: InLetters) -> dict[str, Declared]:
-    """Return the symbols for the rates of steady motions, in the order of the coordinates without a value there."""
-    found = {}
-    for result in written.results.values():
-        held = written_in(result)
-        if "steady" in held:
-            placed = {str(letter) for letter, _ in held["values"].items()} if "values" in held else set()
-            turning = [q for q in written.coordinates if q in letters and q not in placed]
-            for q, name in zip(turning, names(held.get("symbol")), strict=False):
-                known.unused(name, "leave it out of `symbols`, or give the rate another symbol")
-                found[str(name)] = Declared(str(name), scalar(name, positive=True), kind_of_rate(letters[q].kind))
-    return found
-
-
-def _constants(
-    written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters, faults: Faults
-) -> dict[str, Declared]:
-    """Return the symbols of constant momenta."""
-    found = {}
-    for q in (q for q in written if q not in letters):
-        faults.error(
-            "no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=did_you_mean(q, letters)
-        )
-    for q, word in _words(written).items():
-        name, is_positive = _letter(word)
-        if q not in letters or not is_letter(name):
-            continue  # an expression is the value of the momentum, see `_kept`
-        with faults:
-            known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another symbol")
-        kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
-        found[name] = Declared(name, constant(name, positive=is_positive), kind)
-    return found
-
-
-def _kept(
-    written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters
-) -> tuple[tuple[str, Expr], ...]:
-    """Return the values of constant momenta that are given by an expression, `psi: C*s`."""
-    found = []
-    for q, node in written.items():
-        if q not in letters or isinstance(node, Scalar) and is_letter(_letter(node.word)[0]):
-            continue
-        kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
-        found.append((str(q), known.of_kind(node, f"the momentum of {q}", kind)))
-    return tuple(found)
-
-
-def _letter(word: Word) -> tuple[str, bool]:
-    """Return the symbol of a constant, and whether it is declared positive."""
-    name = word.removeprefix(f"{POSITIVE_CONSTANT} ").strip()
-    return name, name != word
-
-
-def _values(written: Tree | None, faults: Faults) -> Mapping[Word, Tree]:
-    return STATE.read(written, "at", faults) or {} if written else {}
-
-
-def _state(
-    written: Mapping[Word, Tree], coordinates: Mapping[str, Declared], letters: InLetters, faults: Faults
-) -> tuple[tuple[str, Expr], ...]:
-    found = []
-    for q, node in written.items():
-        if q not in coordinates:
-            help_line = did_you_mean(q, coordinates)
-            faults.error("no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=help_line)
-            continue
-        with faults:
-            value = letters.of_kind(node, str(q), coordinates[q].kind)
-            _check_range(q, value, coordinates[q].lies)
-            found.append((str(q), value))
-    return tuple(found)
-
-
-def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
-    """Reject a state at an end of its range or beyond: small displacements need room on both sides."""
-    if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
-        message = f"`{q}` lies between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"
-        rejected("range", message, q.place, help=f"give `{q}` a wider range, or none")
-
-
-def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object]:
-    """Return the answers by the names that parts ask for, and draw the system."""
-    of = Answers(described)
-    if described.given is None:
-        with told_at(described.place):
-            start, blow = started(described.results, of.system), struck(of.blow)
-            sketch(SYSTEM, of.system, named=described.named, start=start, blow=blow)
-    answers = of.by_name.answers(asked)
-    of.check_letters()
-    return answers
-
-
-def every(described: DescribedSystem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-    """Return every answer that parts may ask for, or why it cannot be derived."""
-    return Answers(described).by_name.every()
-
-
-STOCK = Stock(SystemKeys, read, solve, every)
+STOCK = Stock(SystemKeys, read, SystemAnswers)

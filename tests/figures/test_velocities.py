@@ -1,4 +1,4 @@
-"""Given velocities, given impulses and what a blow meets, as arrows and lengths."""
+"""Given velocities, given impulses and what an impact meets, as arrows and lengths."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def shot() -> Drawing | None:
         hole = point(b * sin(theta), -b * cos(theta))
         system = System(Particle(m, point(x, -b)), rod)
         at = {x.symbol: ZERO, theta.symbol: ZERO}
-        return sketch("system", system, blow=Moment(at, {x.symbol: v}, (), (system.particles[0].at, hole)))
+        return sketch("system", system, impact=Moment(at, {x.symbol: v}, (), (system.particles[0].at, hole)))
 
 
 def test_a_bullet_comes_flying_from_before_the_rod_that_hangs() -> None:
@@ -76,8 +76,8 @@ def struck(components: tuple[Any, Any]) -> Drawing | None:
         x, phi = coordinate("x", "length"), coordinate("phi")
         system = System(Ball(R, M).placed(-phi, point(x, R)))
         at = point(x + (h - R) * sin(phi), R + (h - R) * cos(phi))
-        blow = Moment({phi.symbol: ZERO}, {}, ((point(*components), at),))
-        return sketch("system", system, blow=blow)
+        impact = Moment({phi.symbol: ZERO}, {}, ((point(*components), at),))
+        return sketch("system", system, impact=impact)
 
 
 def test_a_given_impulse_ends_where_it_acts() -> None:
@@ -97,5 +97,5 @@ def test_an_impulse_to_the_left_comes_from_the_right() -> None:
     assert line.spots[0][0] > line.spots[-1][0]
 
 
-def test_no_blow_is_drawn_without_what_acts() -> None:
+def test_no_impact_is_drawn_without_what_acts() -> None:
     assert struck((ZERO, ZERO)) is None

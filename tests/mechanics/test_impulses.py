@@ -1,4 +1,4 @@
-"""Blows: Kleppner and Kolenkow, sections 3.5 and 4.14; Goldstein, chapter 2; Landau, sections 17 and 35."""
+"""Impacts: Kleppner and Kolenkow, sections 3.5 and 4.14; Goldstein, chapter 2; Landau, sections 17 and 35."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from derive.algebra.ranges import Range, within
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Ball,
-    Blow,
     Coordinate,
+    Impact,
     Particle,
     Rod,
     System,
@@ -49,12 +49,12 @@ def a_run_of_its_own() -> Iterator[None]:
         yield
 
 
-def solved(blow: Blow, *coordinates: Coordinate) -> tuple[dict[str, Any], Quantity]:
+def solved(impact: Impact, *coordinates: Coordinate) -> tuple[dict[str, Any], Quantity]:
     """The rates and impulses by key, and the work of the impulses."""
-    T = kinetic_energy_of(blow.system)
-    jumps = [momentum_jump(blow, T, q) for q in coordinates]
-    found = rates_after(blow, jumps, [meeting_condition(blow, i) for i in range(len(blow.meetings))])
-    return {q.key: q.value for q in found}, work_of_impulses(blow, energy_after(blow, T, found), found)
+    T = kinetic_energy_of(impact.system)
+    jumps = [momentum_jump(impact, T, q) for q in coordinates]
+    found = rates_after(impact, jumps, [meeting_condition(impact, i) for i in range(len(impact.meetings))])
+    return {q.key: q.value for q in found}, work_of_impulses(impact, energy_after(impact, T, found), found)
 
 
 def hanging_rod() -> tuple[System, Coordinate, Coordinate]:
@@ -67,8 +67,8 @@ def test_a_bullet_gets_stuck_in_a_hanging_rod() -> None:
     """Kleppner, example 6.15 and problem 6.37 by hand: m v b = (M l^2/3 + m b^2) theta_dot."""
     system, x, theta = hanging_rod()
     hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
-    blow = Blow(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})
-    found, work = solved(blow, x, theta)
+    impact = Impact(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})
+    found, work = solved(impact, x, theta)
     moment = M * l**2 / 3 + m * b**2
     assert equal(found["theta_dot_after"], m * v * b / moment)
     assert equal(found["K_x"], m * v - m * b * found["theta_dot_after"])
@@ -81,8 +81,8 @@ def test_two_particles_on_a_line(part: Any) -> None:
     """Kleppner, section 4.14: the relative velocity turned round, (1 - e^2) mu v^2/2 of the energy lost."""
     x, y = coordinate("x", "length"), coordinate("y", "length")
     system = System(Particle(m, point(x + 0, 0)), Particle(M, point(y + 0, 0)))
-    blow = Blow(system, collision(point(x + 0, 0), point(y + 0, 0), (1, 0), part), before={x: v, y: -u})
-    found, work = solved(blow, x, y)
+    impact = Impact(system, collision(point(x + 0, 0), point(y + 0, 0), (1, 0), part), before={x: v, y: -u})
+    found, work = solved(impact, x, y)
     first, second = found["x_dot_after"], found["y_dot_after"]
     assert equal(m * first + M * second, m * v - M * u)
     assert equal(second - first, part * (v + u))
@@ -98,7 +98,7 @@ def test_equal_balls_part_at_right_angles() -> None:
     ends = point(q[0] + 0, q[1] + 0), point(q[2] + 0, q[3] + 0)
     system = System(*(Particle(m, end) for end in ends))
     hit = collision(*ends, (cos(alpha), sin(alpha)), 1)
-    found, work = solved(Blow(system, hit, at=dict.fromkeys(q, 0), before={q[0]: v}), *q)
+    found, work = solved(Impact(system, hit, at=dict.fromkeys(q, 0), before={q[0]: v}), *q)
     rates = [found[f"{name}_dot_after"] for name in names]
     assert equal(rates[0] * rates[2] + rates[1] * rates[3], 0)
     assert equal(rates[2], v * cos(alpha) ** 2)
@@ -112,8 +112,8 @@ def test_a_rod_falls_on_the_edge_of_a_table() -> None:
     centre = point(x + 0, y + 0)
     system = System(Rod(l, M).placed(theta, centre=centre))
     end = centre + point(-l / 2 * cos(theta.symbol), -l / 2 * sin(theta.symbol))
-    blow = Blow(system, collision(None, end, (0, 1), 1), at={theta: beta}, before={y: -v})
-    found, work = solved(blow, x, y, theta)
+    impact = Impact(system, collision(None, end, (0, 1), 1), at={theta: beta}, before={y: -v})
+    found, work = solved(impact, x, y, theta)
     assert equal(found["theta_dot_after"], -12 * v * cos(beta) / (l * (1 + 3 * cos(beta) ** 2)))
     assert equal(found["K"], 2 * M * v / (1 + 3 * cos(beta) ** 2))
     assert work.value == 0
@@ -124,7 +124,7 @@ def test_the_sweet_spot_of_a_cue_ball() -> None:
     x, phi, h = coordinate("x", "length"), coordinate("phi"), Symbol("h", positive=True)
     system = System(Ball(R, M).placed(-phi, centre=point(x + 0, R)))
     struck = point(x + (h - R) * sin(phi.symbol), R + (h - R) * cos(phi.symbol))
-    found, work = solved(Blow(system, impulse((J, 0), struck), at={phi: 0}), x, phi)
+    found, work = solved(Impact(system, impulse((J, 0), struck), at={phi: 0}), x, phi)
     assert equal(found["x_dot_after"].subs(h, 7 * R / 5), R * found["phi_dot_after"].subs(h, 7 * R / 5))
     assert equal(found["phi_dot_after"], Rational(5, 2) * J * (h - R) / (M * R**2))
     assert work.step.outcome == "gained"
@@ -138,10 +138,10 @@ def test_the_centre_of_percussion_of_a_rod() -> None:
     held = constraint(x - l / 2 * s, force="X"), constraint(y + l / 2 * c, force="Y")
     system = System(Rod(l, M).placed(theta - pi / 2, centre=centre), *held)
     struck = centre + point((b - l / 2) * s, -(b - l / 2) * c)
-    blow = Blow(system, impulse((J, 0), struck), at={x: 0, y: -l / 2, theta: 0})
+    impact = Impact(system, impulse((J, 0), struck), at={x: 0, y: -l / 2, theta: 0})
     T = kinetic_energy_of(system)
-    conditions = [meeting_condition(blow, i) for i in range(2)]
-    found = rates_after(blow, [momentum_jump(blow, T, q) for q in (x, y, theta)], conditions)
+    conditions = [meeting_condition(impact, i) for i in range(2)]
+    found = rates_after(impact, [momentum_jump(impact, T, q) for q in (x, y, theta)], conditions)
     force = next(q for q in found if q.key == "J_X")
     assert equal(force.value, J * (3 * b / (2 * l) - 1))
     assert [each.step.outcome for each in conditions] == ["kept", "kept"]
@@ -152,9 +152,9 @@ def test_the_centre_of_percussion_of_a_rod() -> None:
 def test_an_angular_impulse_turns_and_moves_nothing() -> None:
     x, theta = coordinate("x", "length"), coordinate("theta")
     system = System(Rod(l, M).placed(theta, centre=point(x + 0, 0)))
-    blow = Blow(system, angular_impulse(J, theta))
+    impact = Impact(system, angular_impulse(J, theta))
     T = kinetic_energy_of(system)
-    still, turned = momentum_jump(blow, T, x), momentum_jump(blow, T, theta)
+    still, turned = momentum_jump(impact, T, x), momentum_jump(impact, T, theta)
     assert (still.step.outcome, turned.step.outcome) == ("free", "struck")
     assert equal(turned.value, Relation(M * l**2 / 12 * theta.rate, "=", J))
 
@@ -163,28 +163,31 @@ def test_rates_that_are_there_before_are_taken_off() -> None:
     """A particle at the speed v is struck across: v stays."""
     x, y = coordinate("x", "length"), coordinate("y", "length")
     at = point(x + 0, y + 0)
-    found, _ = solved(Blow(System(Particle(m, at)), impulse((0, J), at), before={x: v}), x, y)
+    found, _ = solved(Impact(System(Particle(m, at)), impulse((0, J), at), before={x: v}), x, y)
     assert (found["x_dot_after"], found["y_dot_after"]) == (v, J / m)
 
 
-def test_questions_about_blows_that_do_not_fit() -> None:
+def test_questions_about_impacts_that_do_not_fit() -> None:
     system, x, theta = hanging_rod()
     bullet, hit = point(x + 0, -b), point(b * sin(theta.symbol), -b * cos(theta.symbol))
     wrong: list[tuple[Any, str]] = [
-        (lambda: Blow(system), "needs an impulse or a collision"),
-        (lambda: Blow(system, collision(bullet, hit), before={x: v}), "do not meet"),
-        (lambda: Blow(system, collision(bullet, bullet), at={x: 0}), "already have the same velocity"),
-        (lambda: Blow(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}), "do not approach"),
-        (lambda: Blow(system, collision(bullet, hit, (-1, 0), 1), at={x: 0, theta: 0}, before={x: v}), "move apart"),
-        (lambda: Blow(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: -v}), "move apart"),
-        (lambda: Blow(system, collision(bullet, hit, (0, 1), 1), at={x: 0, theta: 0}, before={x: v}), "nothing moves"),
-        (lambda: Blow(system, impulse((J, 0), hit), at={coordinate("z"): 0}), "nothing in this `Blow` moves"),
+        (lambda: Impact(system), "needs an impulse or a collision"),
+        (lambda: Impact(system, collision(bullet, hit), before={x: v}), "do not meet"),
+        (lambda: Impact(system, collision(bullet, bullet), at={x: 0}), "already have the same velocity"),
+        (lambda: Impact(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}), "do not approach"),
+        (lambda: Impact(system, collision(bullet, hit, (-1, 0), 1), at={x: 0, theta: 0}, before={x: v}), "move apart"),
+        (lambda: Impact(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: -v}), "move apart"),
+        (
+            lambda: Impact(system, collision(bullet, hit, (0, 1), 1), at={x: 0, theta: 0}, before={x: v}),
+            "nothing moves",
+        ),
+        (lambda: Impact(system, impulse((J, 0), hit), at={coordinate("z"): 0}), "nothing in this `Impact` moves"),
         (lambda: collision(bullet, hit, (), 1), "needs its normal"),
         (lambda: collision(bullet, hit, (1, 0), 2), "between 0 and 1"),
         (lambda: collision(bullet, hit, (0, 0)), "not all zero"),
         (lambda: angular_impulse(J, v), "does not move"),
         (lambda: impulse((J,), hit), "as many components as the place has"),
-        (lambda: Blow(system, impulse((J, 0), hit), before={theta: g * t}), "changes|constant"),
+        (lambda: Impact(system, impulse((J, 0), hit), before={theta: g * t}), "changes|constant"),
     ]
     for question, told in wrong:
         with pytest.raises(Rejected, match=told):
@@ -195,16 +198,16 @@ def test_rates_before_must_keep_the_constraints() -> None:
     x, y = coordinate("x", "length"), coordinate("y", "length")
     system = System(Particle(m, point(x + 0, y + 0)), constraint(y - x))
     with pytest.raises(Rejected, match="do not keep a constraint"):
-        Blow(system, impulse((J, 0), point(x + 0, y + 0)), before={x: v})
+        Impact(system, impulse((J, 0), point(x + 0, y + 0)), before={x: v})
 
 
 def test_too_few_conditions_determine_nothing() -> None:
     system, x, theta = hanging_rod()
     hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
-    blow = Blow(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})
+    impact = Impact(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})
     T = kinetic_energy_of(system)
     with pytest.raises(Rejected, match="need 3 equations, not 2"):
-        rates_after(blow, [momentum_jump(blow, T, q) for q in (x, theta)], [])
+        rates_after(impact, [momentum_jump(impact, T, q) for q in (x, theta)], [])
 
 
 def test_an_impulse_may_have_a_part_that_moves_nothing() -> None:
@@ -212,8 +215,8 @@ def test_an_impulse_may_have_a_part_that_moves_nothing() -> None:
     x, phi = coordinate("x", "length"), coordinate("phi")
     system = System(Ball(R, M).placed(-phi, centre=point(x + 0, R)))
     top = point(x + R * sin(phi.symbol), R + R * cos(phi.symbol))
-    blow = Blow(system, impulse((0, -J), top), at={phi: 0})
-    jumps = [momentum_jump(blow, kinetic_energy_of(system), q) for q in (x, phi)]
+    impact = Impact(system, impulse((0, -J), top), at={phi: 0})
+    jumps = [momentum_jump(impact, kinetic_energy_of(system), q) for q in (x, phi)]
     assert [jump.step.outcome for jump in jumps] == ["free", "free"]
 
 
@@ -221,43 +224,43 @@ def test_an_impulse_on_the_wrong_one_of_two_is_refused() -> None:
     """What acts on the end acts with the other sign on the start."""
     system, x, theta = hanging_rod()
     hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
-    blow = Blow(system, collision(point(x + 0, -b), hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: v})
-    (meeting,) = blow.meetings
-    blow.meetings = [replace(meeting, gap=-meeting.gap)]
+    impact = Impact(system, collision(point(x + 0, -b), hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: v})
+    (meeting,) = impact.meetings
+    impact.meetings = [replace(meeting, gap=-meeting.gap)]
     with pytest.raises(Unverified, match="jump_theta"):
-        momentum_jump(blow, kinetic_energy_of(system), theta)
+        momentum_jump(impact, kinetic_energy_of(system), theta)
 
 
-def test_wrong_laws_of_a_blow_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_wrong_laws_of_an_impact_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """A factor in the share of an impulse, a momentum before that is forgotten, a condition with a wrong sign."""
     system, x, theta = hanging_rod()
     hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
-    blow = Blow(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})
+    impact = Impact(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})
     T = kinetic_energy_of(system)
     with monkeypatch.context() as wrong:
-        wrong.setattr(blow, "shares", lambda q: [2 * share for share in Blow.shares(blow, q)])
+        wrong.setattr(impact, "shares", lambda q: [2 * share for share in Impact.shares(impact, q)])
         with pytest.raises(Unverified, match="jump_theta"):
-            momentum_jump(blow, T, theta)
+            momentum_jump(impact, T, theta)
     with monkeypatch.context() as wrong:
         wrong.setattr(impulses, "Terms", lambda *terms: terms[0])
         with pytest.raises(Unverified, match="jump_x"):
-            momentum_jump(blow, T, x)
+            momentum_jump(impact, T, x)
     free = collision(point(x + 0, -b), hit, (1, 0), 1)
-    elastic = Blow(system, free, at={x: 0, theta: 0}, before={x: v})
+    elastic = Impact(system, free, at={x: 0, theta: 0}, before={x: v})
     with monkeypatch.context() as wrong:
-        wrong.setattr(elastic, "earlier", lambda value: -Blow.earlier(elastic, value))
+        wrong.setattr(elastic, "earlier", lambda value: -Impact.earlier(elastic, value))
         with pytest.raises(Unverified, match="meeting_1"):
             meeting_condition(elastic, 0)
-    found = rates_after(blow, [momentum_jump(blow, T, q) for q in (x, theta)], [meeting_condition(blow, 0)])
+    found = rates_after(impact, [momentum_jump(impact, T, q) for q in (x, theta)], [meeting_condition(impact, 0)])
     monkeypatch.setattr(impulses, "Terms", lambda T, before: T + before / 2)
     with pytest.raises(Unverified, match="work_of_impulses"):
-        work_of_impulses(blow, energy_after(blow, T, found), found)
+        work_of_impulses(impact, energy_after(impact, T, found), found)
 
 
-def rebounding() -> tuple[Blow, Coordinate, Coordinate]:
+def rebounding() -> tuple[Impact, Coordinate, Coordinate]:
     x, y = coordinate("x", "length"), coordinate("y", "length")
     system = System(Particle(m, point(x + 0, 0)), Particle(M, point(y + 0, 0)))
-    return Blow(system, collision(point(x + 0, 0), point(y + 0, 0), (1, 0), e), before={x: v}), x, y
+    return Impact(system, collision(point(x + 0, 0), point(y + 0, 0), (1, 0), e), before={x: v}), x, y
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,7 @@ given:
   coordinates: {x: length, y: length, phi: angle, u: length}
   bodies: {rod: {shape: rod, length: l, mass: M, centre: [x, y], turned: phi}}
   particles: {p: {mass: m, at: [u, l/2]}}
-  blow:
+  impact:
     at: {x: 0, y: 0, phi: 0, u: 0}
     before: {u_dot: v}
     collisions: {from: [u, l/2], to: [x, y + l/2], of: [p, rod], along: [1, 0], restitution: 1, impulse: P}

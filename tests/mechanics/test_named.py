@@ -12,9 +12,9 @@ from sympy import Integer, Symbol, cos, exp, pi, symbols
 from derive.algebra.expressions import TIME, Relation, Slope, rate, scalar
 from derive.errors import Unverified
 from derive.mechanics import (
-    Blow,
     Composite,
     Disc,
+    Impact,
     Particle,
     Rod,
     System,
@@ -74,7 +74,7 @@ def test_the_axis_of_a_part_is_named_in_its_own_coordinates_and_in_those_of_the_
     assert "about an axis parallel to z through the origin" not in page
 
 
-# --- blows ---
+# --- impacts ---
 
 
 def test_an_impulse_that_is_read_with_the_wrong_sign_is_refused() -> None:
@@ -83,18 +83,18 @@ def test_an_impulse_that_is_read_with_the_wrong_sign_is_refused() -> None:
     system = System(Particle(m, point(q + 0, 0)))
     right = impulse((K, 0), point(q + 0, 0))
     T = kinetic_energy_of(system)
-    assert momentum_jump(Blow(system, right), T, q).value == Relation(m * q.rate, "=", K)
+    assert momentum_jump(Impact(system, right), T, q).value == Relation(m * q.rate, "=", K)
     with pytest.raises(Unverified, match="second route `particles` disagrees"):
-        momentum_jump(Blow(system, replace(right, components=(-K, Integer(0)))), T, q)
+        momentum_jump(Impact(system, replace(right, components=(-K, Integer(0)))), T, q)
 
 
-def test_rates_before_a_blow_that_are_read_with_the_wrong_sign_are_refused() -> None:
+def test_rates_before_an_impact_that_are_read_with_the_wrong_sign_are_refused() -> None:
     q = coordinate("x", "length")
     system = System(Particle(m, point(q + 0, 0)))
-    blow = Blow(system, impulse((K, 0), point(q + 0, 0)), before={q: w})
-    blow.before = {rate_of: -value for rate_of, value in blow.before.items()}
+    impact = Impact(system, impulse((K, 0), point(q + 0, 0)), before={q: w})
+    impact.before = {rate_of: -value for rate_of, value in impact.before.items()}
     with pytest.raises(Unverified, match="second route `particles` disagrees"):
-        momentum_jump(blow, kinetic_energy_of(system), q)
+        momentum_jump(impact, kinetic_energy_of(system), q)
 
 
 @pytest.mark.parametrize("wrong", ["-components", "no magnetic field"])

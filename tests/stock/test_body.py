@@ -10,7 +10,7 @@ from sympy import ImmutableDenseMatrix, Rational, cos, pi, sin, sqrt, symbols
 from derive.algebra.equality import equal
 from derive.building.solution import rendered
 from tests.stock.bodies import CONE, CONE_IS
-from tests.stock.described import course_with, edited, messages, solved
+from tests.stock.described import complaints, course_with, edited, messages, solved
 
 R, h, M, m = symbols("R h M m", positive=True)
 alpha = symbols("alpha", real=True)
@@ -142,7 +142,7 @@ def test_numbers_go_behind_letters(tmp_path: Path) -> None:
         (("about: apex", "about: apx"), "6: a cone has no point `apx`"),
         (("answer: inertia_tensor", "answer: inertia_tensr"), "10: a body has no answer called `inertia_tensr`"),
         (("answer: inertia_tensor", "answer: mass"), "10: the mass of a cone is given"),
-        (("answer: inertia_tensor", "answer: area"), "10: the area of a cone is not a step: it is known"),
+        (("answer: inertia_tensor", "answer: area"), "10: `area` is not an answer about a cone"),
         (("answer: inertia_tensor", "answer: moment_about"), "10: `moment_about` needs `direction`"),
         (("answer: inertia_tensor", "answer: turned_tensor"), "10: `turned_tensor` needs `turned`"),
         (
@@ -155,6 +155,37 @@ def test_numbers_go_behind_letters(tmp_path: Path) -> None:
 )
 def test_a_fault_is_told_at_its_place(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
     assert said in messages(tmp_path, edited(CONE, edit))
+
+
+DISC = "{shape: disc, radius: R, mass: M}"
+
+
+@pytest.mark.parametrize(
+    ("body", "asked", "said", "help_line"),
+    [
+        (
+            CONE_IS,
+            "area",
+            "`area` is not an answer about a cone",
+            "it fills a volume: ask for `density`",
+        ),
+        (
+            "{shape: disc, radius: R, mass: M}",
+            "area",
+            "the area of a disc is not a step: it is known",
+            "ask for `density`",
+        ),
+        ("{shape: particle, mass: M}", "length", "`length` is not an answer about a particle", "its mass is given"),
+        ("{shape: particle, mass: M}", "mass", "`mass` is not an answer about a particle", "its mass is given"),
+        ("{parts: {a: CONE}}", "volume", "`volume` is not an answer about this body", "ask for `mass`, the sum"),
+        ("{parts: {a: CONE}}", "density", "`density` is not an answer about this body", "ask for `mass`, the sum"),
+    ],
+)
+def test_a_size_that_a_body_does_not_have(body: str, asked: str, said: str, help_line: str, tmp_path: Path) -> None:
+    text = edited(CONE, ("  about: apex\n", ""), (CONE_IS, body.replace("CONE", CONE_IS)), ("inertia_tensor", asked))
+    (found,) = complaints(tmp_path, text)
+    assert found.message == said
+    assert found.help.startswith(help_line)
 
 
 def test_answers_that_do_not_apply_are_told_at_once(tmp_path: Path) -> None:

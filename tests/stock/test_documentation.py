@@ -10,7 +10,8 @@ import pytest
 
 from derive.steps.record import recorded
 from derive.stock import body, rotation
-from derive.stock.answering import of_systems
+from derive.stock.answering.answers import Answers
+from derive.stock.system import SystemAnswers
 from tests.courses import ROOT
 from tests.stock.described import PENDULUM, loaded
 
@@ -28,16 +29,21 @@ def without_axes(name: str) -> str:
     return re.sub(r"_(xx|xy|xz|yy|yz|zz)$", "_xy", re.sub(r"_[xyz]$", "_z", name))
 
 
-@pytest.mark.parametrize(("name", "module"), [("body", body), ("rotation", rotation)])
-def test_the_asks_of_bodies_and_rotations_are_documented(name: str, module: Any) -> None:
-    nothing: Any = rotation.DescribedRotation() if name == "rotation" else body.Asked(body.DescribedBody("", (), True))
-    asks = {without_axes(ask) for ask in module.Answers(nothing).asks()}
+@pytest.mark.parametrize(
+    ("name", "answers"),
+    [
+        ("body", body.BodyAnswers(body.Asked(body.DescribedBody("", (), True)))),
+        ("rotation", rotation.RotationAnswers(rotation.DescribedRotation())),
+    ],
+)
+def test_the_asks_of_bodies_and_rotations_are_documented(name: str, answers: Answers[Any]) -> None:
+    asks = {without_axes(ask) for ask in answers.asks()}
     assert asks <= section(name), asks - section(name)
 
 
 def test_the_asks_of_systems_are_documented(tmp_path: Path) -> None:
     described: Any = loaded(tmp_path, PENDULUM).described
     with recorded():
-        found = of_systems.Answers(described).asks()
+        found = SystemAnswers(described).asks()
     asks = {ask.replace("acceleration_theta", "acceleration_x").replace("d_theta", "d_phi") for ask in found}
     assert asks <= section("system"), asks - section("system")

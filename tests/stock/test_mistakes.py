@@ -71,7 +71,7 @@ parts:
     answer: torque
 """
 
-BLOW = "  at: {theta: 0}\n  blow: {impulses: {components: [0, 0], at: A}}\n"
+IMPACT = "  at: {theta: 0}\n  impact: {impulses: {components: [0, 0], at: A}}\n"
 
 ZERO = "    answer: [inertia_tensor, moment_about]\n    points: 0\n"
 
@@ -111,7 +111,7 @@ MISTAKES = [
     (SYSTEM, "{mass: m, at", "{mass: l, at", "`mass` must be a mass"),
     (SYSTEM, "gravity: g", "gravity: l", "`gravity` must be an acceleration"),
     (SYSTEM, "at: {theta: 0}", "at: {thet: 0}", "did you mean `theta`?"),
-    (SYSTEM, "at: {theta: 0}", "at: rest_9", "`rest_9` is not an equilibrium"),
+    (SYSTEM, "at: {theta: 0}", "at: rest_9", "`rest_9` is not one of `equilibria`"),
     (SYSTEM, "for: k, to: 0}", "for: q, to: 0}", "`q` is not declared"),
     (SYSTEM, "letter: k, to: 0, why", "letter: q, to: 0, why", "`q` is not declared"),
     (SYSTEM, "length <<l>>", "length <<ll>>", "nothing on this page is called `ll`"),
@@ -148,7 +148,7 @@ MISTAKES = [
     (SYSTEM, "{system: {at: statement}}", "{system: {at: statement, cases: [{l: 1 m}]}}", "`cases` has no effect"),
     (SYSTEM, "{system: {at: statement}}", "{system: {at: hidden, caption: A bob.}}", "`caption` has no effect on"),
     (SYSTEM, "{system: {at: statement}}", "{system: {at: hidden, width: 4 cm}}", "`width` has no effect on `system`"),
-    (SYSTEM, "  at: {theta: 0}\n", BLOW, "nothing that is asked for depends on `blow`"),
+    (SYSTEM, "  at: {theta: 0}\n", IMPACT, "nothing that is asked for depends on `impact`"),
     # values
     (SYSTEM, "{unit: rad/s,", "{unit: [rad/s, rad/s],", "`rad/s` is listed twice"),
     (SYSTEM, "{constant: k, from", "{constant: 0, from", "`constant` must be positive"),

@@ -40,7 +40,7 @@ def test_a_ball_bounces_off_a_slope_whatever_the_length_of_the_normal() -> None:
         assert found[K] == pytest.approx(8 / 5 * trial.numbers[m] * trial.numbers[v], rel=1e-10)
 
 
-def test_a_blow_at_the_end_of_a_rod_turns_it() -> None:
+def test_an_impact_at_the_end_of_a_rod_turns_it() -> None:
     """x_dot = K/M and phi_dot = -6 K/(M l) for a rod that stands upright, struck at its upper end."""
     third = (ZERO, M * l**2 / 12, ZERO)
     rod = Body(M, (x, y), (ZERO, ZERO), ((ZERO,) * 3, third, (ZERO,) * 3), ((2, phi),), (0, 1))

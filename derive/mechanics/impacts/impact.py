@@ -1,4 +1,4 @@
-"""A blow: the impulses on a system at one instant, its coordinates at that instant, and its rates before."""
+"""An impact: the impulses on a system at one instant, its coordinates at that instant, and its rates before."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import is_zero
 from derive.witness import description as plain
 
-__all__ = ["Blow", "angular_impulse", "collision", "impulse"]
+__all__ = ["Impact", "angular_impulse", "collision", "impulse"]
 
 ZERO, ONE = Integer(0), Integer(1)
 Vector = tuple[Expr, ...]
@@ -32,7 +32,7 @@ Vector = tuple[Expr, ...]
 @dataclass(frozen=True)
 class Impulse:
     """A given impulse at a place, N s; or on an angle, N m s. The law uses the components; a route reads the given ones
-    again, like the state of a blow. `of` is the body that it acts on, if this is stated."""
+    again, like the state of an impact. `of` is the body that it acts on, if this is stated."""
 
     components: Vector
     at: Vector
@@ -60,7 +60,7 @@ class Collision:
 
 
 def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
-    """A given impulse, the integral of a force over the short time of a blow, at a place, N s.
+    """A given impulse, the integral of a force over the short time of an impact, at a place, N s.
 
     of   the body or particle that it acts on at that place, if the place does not move with it
     """
@@ -71,7 +71,7 @@ def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
 
 
 def angular_impulse(amount: Any, on: Any) -> Impulse:
-    """A given angular impulse, the integral of a torque over the short time of a blow, on an angle, N m s."""
+    """A given angular impulse, the integral of a torque over the short time of an impact, on an angle, N m s."""
     if not coordinates_in(as_expr(on)):
         raise Rejected(Complaint("wrong-argument", f"`angular_impulse` needs a moving angle, but {on} does not move"))
     return Impulse((as_expr(amount),), (as_expr(on),), given=(amount,))
@@ -116,7 +116,7 @@ def collision(
 
 @dataclass(frozen=True)
 class Meeting:
-    """One condition on the rates just after a blow, and the impulse that causes it.
+    """One condition on the rates just after an impact, and the impulse that causes it.
     gap          the quantity whose rate the condition fixes; for a condition in rates this rate itself
     restitution  the ratio of this rate after and before, with the opposite sign
     what         "together", "elastic", "rebound" or "kept"
@@ -152,8 +152,8 @@ class Meeting:
         return Add(*(n * (v - u) for u, v, n in zip(*velocities, along, strict=True)))
 
 
-class Blow:
-    """A blow on a system at one instant.
+class Impact:
+    """An impact on a system at one instant.
     system   its particles and bodies; impulses keep the constraints that forces keep
     acts     given impulses, and collisions
     at       coordinate -> its value at that instant; other coordinates may have any value
@@ -172,11 +172,11 @@ class Blow:
         self.at = {self._coordinate(q): as_expr(value) for q, value in (at or {}).items()}
         given = {self._coordinate(q): as_expr(value) for q, value in (before or {}).items()}
         for value in (*self.at.values(), *given.values()):
-            require_constant("Blow", "state", value)
+            require_constant("Impact", "state", value)
         self.before = {rate(q): given.get(q, ZERO) for q in self.moving}
         self._given = (dict(at or {}), dict(before or {}))
         if not acts:
-            raise Rejected(Complaint("wrong-argument", "a `Blow` needs an impulse or a collision"))
+            raise Rejected(Complaint("wrong-argument", "an `Impact` needs an impulse or a collision"))
         known = system.known
         self.acts = acts
         self._check_material_points(acts)
@@ -194,7 +194,7 @@ class Blow:
         self.meetings += [self._kept(c) for c in system.constraints]
         letters = [m.letter for m in self.meetings]
         if len(set(letters)) < len(letters):
-            message = "two impulses of this blow have the same letter"
+            message = "two impulses of this impact have the same letter"
             raise Rejected(Complaint("letter-clash", message, help="give each a letter, `impulse: K_2`"))
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
@@ -251,12 +251,12 @@ class Blow:
     def _coordinate(self, q: Any) -> Symbol:
         symbol = q.symbol if isinstance(q, Coordinate) else q
         if symbol not in self.moving:
-            message = f"nothing in this `Blow` moves by {symbol}"
+            message = f"nothing in this `Impact` moves by {symbol}"
             raise Rejected(Complaint("wrong-argument", message))
         return symbol
 
     def there(self, value: Any) -> Expr:
-        """Return the value at the instant of the blow."""
+        """Return the value at the instant of the impact."""
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
@@ -267,11 +267,11 @@ class Blow:
         return value
 
     def earlier(self, value: Any) -> Expr:
-        """Return the value just before the blow."""
+        """Return the value just before the impact."""
         return self.there(value).xreplace(self.before)
 
     def read_again(self, value: Any, rates: bool = False) -> Expr:
-        """Return the value at the instant of the blow, with `rates` just before it, from the given state."""
+        """Return the value at the instant of the impact, with `rates` just before it, from the given state."""
         places, speeds = ({getattr(q, "symbol", q): at for q, at in given.items()} for given in self._given)
         found = explicit(value).subs(list(places.items()), simultaneous=True)
         if rates:
@@ -354,7 +354,7 @@ class Blow:
 
     def _kept(self, c: Constraint) -> Meeting:
         if not is_zero(self.earlier(c.velocity(self.moving))):
-            message = "the rates before this blow do not keep a constraint of the system"
+            message = "the rates before this impact do not keep a constraint of the system"
             raise Rejected(Complaint("wrong-argument", message))
         kind = "angular momentum" if c.kind_of_force == "torque" else "momentum"
         letter = unknown(f"J_{c.force.name}", kind)

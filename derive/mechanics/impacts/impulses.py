@@ -1,6 +1,6 @@
-"""Blows: forces so great and so short that positions stay fixed and only the velocities jump.
+"""Impacts: forces so great and so short that positions stay fixed and only the velocities jump.
 Lagrange's equations, integrated over the short time, give the jump of each momentum, p - p_before = sum of J . dr/dq:
-finite forces do not contribute. The rates in the results are those just after the blow.
+finite forces do not contribute. The rates in the results are those just after the impact.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.answers.solved_for import solved_for
 from derive.mechanics.answers.substitution import put_in
 from derive.mechanics.impacts import claims
-from derive.mechanics.impacts.impact import Blow
+from derive.mechanics.impacts.impact import Impact
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.model.dalembert import Matter
 from derive.solving.presentation import presented
@@ -45,58 +45,58 @@ MOMENTUM_JUMP = Rule(
 )
 
 
-def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
-    """Jump of a momentum in a blow, dT/dq_dot - its value before = sum of J . dr/dq.
+def momentum_jump(impact: Impact, kinetic: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """Jump of a momentum in an impact, dT/dq_dot - its value before = sum of J . dr/dq.
 
-    blow      the system, its state and the impulses
+    impact    the system, its state and the impulses
     kinetic   its kinetic energy T, J, as `kinetic_energy_of` yields it
     q         one of its coordinates
     Second route: the sum of m (v - v_before) . dr/dq over mass points, and the slope of the power J . v in q_dot.
     Outcomes: struck, free (no impulse acts along q).
-    Errors: q is not a coordinate of the blow.
+    Errors: q is not a coordinate of the impact.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz,
     *Mechanics*, section 7.
     """
     symbol = q.symbol
-    if symbol not in blow.moving:
-        raise Rejected(Complaint("wrong-argument", f"nothing in this `Blow` moves by {symbol.name}"))
+    if symbol not in impact.moving:
+        raise Rejected(Complaint("wrong-argument", f"nothing in this `Impact` moves by {symbol.name}"))
     matter = kinetic.needed(Matter)
     momentum = explicit(Partial(kinetic.value, q.rate))
-    before = tidied(blow.earlier(momentum))
-    shares = blow.shares(symbol)
+    before = tidied(impact.earlier(momentum))
+    shares = impact.shares(symbol)
 
     def law(T: Any) -> Relation:
-        after = blow.shown_there(Partial(T, q.rate), momentum)
+        after = impact.shown_there(Partial(T, q.rate), momentum)
         right = Terms(*shares) if len(shares) > 1 else shares[0] if shares else ZERO
         return Relation(Terms(after, -before) if before != 0 else after, "=", right)
 
     def by_particles(found: Relation) -> tuple[Expr, Expr]:
         along = matter.momentum_along(symbol)
-        changed = blow.read_again(along) - blow.read_again(along, rates=True)
-        return explicit(found.left) - explicit(found.right), changed - diff(blow.power(), q.rate)
+        changed = impact.read_again(along) - impact.read_again(along, rates=True)
+        return explicit(found.left) - explicit(found.right), changed - diff(impact.power(), q.rate)
 
     return establish(
         MOMENTUM_JUMP,
         None,
         law,
         {"kinetic": kinetic},
-        lines=Lines(put_in=None, arranged=lambda found: _jump(found, blow)),
+        lines=Lines(put_in=None, arranged=lambda found: _jump(found, impact)),
         routes={"particles": by_particles},
         outcome="struck" if shares else "free",
         phrase_data=PhraseData(
             named={"coordinate": symbol},
-            outcome_data={"slope": diff(blow.power(), q.rate), "at": tuple(blow.at.items())},
+            outcome_data={"slope": diff(impact.power(), q.rate), "at": tuple(impact.at.items())},
         ),
         key=key or f"jump_{symbol.name}",
-        facts=[OfCoordinate(q), blow.described],
-        scope=Scope(coordinates={m.letter: "momentum" for m in blow.meetings}, about=Subject(body=blow.system)),
+        facts=[OfCoordinate(q), impact.described],
+        scope=Scope(coordinates={m.letter: "momentum" for m in impact.meetings}, about=Subject(body=impact.system)),
     )
 
 
-def _jump(found: Relation, blow: Blow) -> Relation:
+def _jump(found: Relation, impact: Impact) -> Relation:
     left, right = explicit(found.left).expand(), explicit(found.right)
-    alone = Add(*(term for term in Add.make_args(left) if not term.has(*map(rate, blow.moving))))
-    moved = by_rates(left - alone, blow.moving)
+    alone = Add(*(term for term in Add.make_args(left) if not term.has(*map(rate, impact.moving))))
+    moved = by_rates(left - alone, impact.moving)
     return Relation(moved + by_terms(tidied(alone)) if alone != 0 else moved, "=", by_terms(tidied(right)))
 
 
@@ -114,27 +114,27 @@ MEETING_CONDITION = Rule(
 )
 
 
-def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quantity:
-    """Condition on the rates just after a blow, v = -e v_before, for the velocity v of one place relative to another.
-    blow     the system, its state and the collisions; e is the coefficient of restitution of the collision
+def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Quantity:
+    """Condition on the rates just after an impact, v = -e v_before, v the velocity of one place relative to another.
+    impact   the system, its state and the collisions; e is the coefficient of restitution of the collision
     number   the index of the condition, from 0; those of constraints come last
     Check: the places as functions of the time, each coordinate by its Taylor series.
     Outcomes: together (one velocity), elastic, rebound (with a part of the speed), kept (a constraint that remains).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.5 and 4.14.
     """
-    meeting = blow.meetings[number]
-    speed = meeting.speed(blow.moving)
-    before = tidied(blow.earlier(speed))
+    meeting = impact.meetings[number]
+    speed = meeting.speed(impact.moving)
+    before = tidied(impact.earlier(speed))
     part = meeting.restitution
 
     def law() -> Relation:
         right = ZERO if part == 0 or before == 0 else Factors(-part, before) if part != 1 else -before
-        return Relation(blow.shown_there(speed, explicit(speed)), "=", right)
+        return Relation(impact.shown_there(speed, explicit(speed)), "=", right)
 
     def by_time(found: Relation) -> tuple[Expr, Expr]:
-        speed = meeting.speed_by_time(blow.moving)
-        returned = meeting.given * blow.read_again(speed, rates=True)
-        return explicit(found.left) - explicit(found.right), blow.read_again(speed) + returned
+        speed = meeting.speed_by_time(impact.moving)
+        returned = meeting.given * impact.read_again(speed, rates=True)
+        return explicit(found.left) - explicit(found.right), impact.read_again(speed) + returned
 
     return establish(
         MEETING_CONDITION,
@@ -144,23 +144,23 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
         lines=Lines(
             put_in=None,
             arranged=lambda found: Relation(
-                by_rates(explicit(found.left), blow.moving), "=", tidied(explicit(found.right))
+                by_rates(explicit(found.left), impact.moving), "=", tidied(explicit(found.right))
             ),
         ),
         routes={"functions_of_time": by_time},
         outcome=meeting.what,
         phrase_data=PhraseData(
-            named={"impulse": meeting.letter}, outcome_data={"restitution": part, "power": blow.power()}
+            named={"impulse": meeting.letter}, outcome_data={"restitution": part, "power": impact.power()}
         ),
         key=key or f"meeting_{number + 1}",
-        scope=Scope(coordinates=blow.system.coordinates, about=Subject(body=blow.system)),
+        scope=Scope(coordinates=impact.system.coordinates, about=Subject(body=impact.system)),
     )
 
 
-def rates_after(blow: Blow, jumps: Sequence[Quantity], conditions: Sequence[Quantity]) -> tuple[Quantity, ...]:
-    """Rates just after a blow, and the impulses that are not given, from the jumps of the momenta.
+def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[Quantity]) -> tuple[Quantity, ...]:
+    """Rates just after an impact, and the impulses that are not given, from the jumps of the momenta.
 
-    blow         the system, its state and the impulses
+    impact       the system, its state and the impulses
     jumps        as `momentum_jump` yields them, one for each coordinate
     conditions   as `meeting_condition` yields them, one for each impulse that is not given
     Keys: q_dot_after, and the letter of each impulse.
@@ -168,22 +168,22 @@ def rates_after(blow: Blow, jumps: Sequence[Quantity], conditions: Sequence[Quan
     Errors: a jump or a condition is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2.
     """
-    count = len(blow.moving) + len(blow.meetings)
+    count = len(impact.moving) + len(impact.meetings)
     if len(jumps) + len(conditions) != count:
-        message = f"the unknowns of this blow need {count} equations, not {len(jumps) + len(conditions)}"
+        message = f"the unknowns of this impact need {count} equations, not {len(jumps) + len(conditions)}"
         raise Rejected(Complaint("wrong-argument", message, help="a jump for each coordinate, and each condition"))
     of = [jump.needed(OfCoordinate).coordinate for jump in jumps]
-    letters = [each.letter for each in blow.meetings]
+    letters = [each.letter for each in impact.meetings]
     keys = [*(f"{q.symbol.name}_dot_after" for q in of), *(letter.name for letter in letters)]
     return solved_for([*jumps, *conditions], *(q.rate for q in of), *letters, keys=keys)
 
 
 def energy_after(
-    blow: Blow, kinetic: Quantity, after: Sequence[Quantity], key: str = "kinetic_energy_after"
+    impact: Impact, kinetic: Quantity, after: Sequence[Quantity], key: str = "kinetic_energy_after"
 ) -> Quantity:
-    """Kinetic energy just after a blow: that of the system with its coordinates at that instant and the rates after it.
+    """Kinetic energy just after an impact, of the system with its coordinates at that instant and the rates after it.
 
-    blow      the system, its state and the impulses
+    impact    the system, its state and the impulses
     kinetic   its kinetic energy T, J
     after     the rates just after it, as `rates_after` yields them
     Check: as `put_in`.
@@ -191,7 +191,7 @@ def energy_after(
     """
     held = explicit(kinetic.value).free_symbols
     rates = [q for q in after if q.symbol in held]
-    places = {q: value for q, value in blow.at.items() if q in held and q != value}
+    places = {q: value for q, value in impact.at.items() if q in held and q != value}
     return put_in(kinetic, *rates, *([places] if places else []), key=key, symbol=f"{kinetic.symbol}_after")
 
 
@@ -204,11 +204,11 @@ WORK_OF_IMPULSES = Rule(
 
 
 def work_of_impulses(
-    blow: Blow, energy: Quantity, after: Sequence[Quantity], symbol: str = "W", key: str = "work_of_impulses"
+    impact: Impact, energy: Quantity, after: Sequence[Quantity], symbol: str = "W", key: str = "work_of_impulses"
 ) -> Quantity:
-    """Work of a blow, the change of the kinetic energy, W = T - T_before.
+    """Work of an impact, the change of the kinetic energy, W = T - T_before.
 
-    blow     the system, its state and the impulses
+    impact   the system, its state and the impulses
     energy   its kinetic energy T just after it, J, as `energy_after` yields it
     after    the rates just after it and the impulses, as `rates_after` yields them
     Second route: each impulse does the work J . (v + v_before)/2 at the place where it acts.
@@ -216,13 +216,13 @@ def work_of_impulses(
     Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, section 346.
     """
     found = {q.symbol: explicit(q.value) for q in after}
-    rates = {rate(q): found[rate(q)] for q in blow.moving}
-    before = tidied(blow.earlier(blow.system.matter.kinetic_energy()))
+    rates = {rate(q): found[rate(q)] for q in impact.moving}
+    before = tidied(impact.earlier(impact.system.matter.kinetic_energy()))
 
     def by_impulses(work: Expr) -> tuple[Expr, Expr]:
-        power = blow.power()
-        mean = (power.xreplace(rates) + blow.read_again(power, rates=True)) / 2
-        return work, mean.xreplace({each.letter: found[each.letter] for each in blow.meetings})
+        power = impact.power()
+        mean = (power.xreplace(rates) + impact.read_again(power, rates=True)) / 2
+        return work, mean.xreplace({each.letter: found[each.letter] for each in impact.meetings})
 
     return establish(
         WORK_OF_IMPULSES,

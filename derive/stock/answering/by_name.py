@@ -141,10 +141,20 @@ class ByName:
         own = self.offered(numbered[1]) if numbered else None
         if numbered is None or own is None:
             return ()
-        one = self.one_of(own, name, self._derived(own, name.place))
+        one = self._one_of(own, name, self._derived(own, name.place))
         return (one,) if one is not None else ()
 
-    def one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
+    def one(self, several: str, name: str, place: Place | None = None) -> Quantity:
+        """Return the step with another name among those of an offered name, or reject the other name."""
+        steps = self._derived(several, place)
+        found = self._one_of(several, name, steps)
+        if found is None:
+            keys = [q.key for q in steps]
+            help_line = did_you_mean(name, keys) or f"these are {', '.join(f'`{key}`' for key in keys)}"
+            rejected("no-such-answer", f"`{name}` is not one of `{several}`", place, help_line)
+        return found
+
+    def _one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
         """Return the step with another name among the steps of a name: by its key, or by its number after that name."""
         by_key = _called(name, {q.key: q for q in found})
         if len(by_key) == 1:

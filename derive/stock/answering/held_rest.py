@@ -13,10 +13,13 @@ from derive.steps.step import Quantity
 
 
 def rest_with_forces(
-    motions: Mapping[str, Quantity], coordinates: Mapping[str, Coordinate], forces: Sequence[Symbol]
+    motions: Sequence[Quantity], coordinates: Mapping[str, Coordinate], forces: Sequence[Symbol]
 ) -> tuple[Quantity, ...]:
-    """Return the static equations and their solution: as many positions and forces as there are equations."""
-    still = [_still(name, motion, coordinates) for name, motion in motions.items()]
+    """Return the static equations and their solution: as many positions and forces as there are equations.
+
+    motions       the equation of motion of each of the coordinates
+    """
+    still = [_still(name, motion, coordinates) for name, motion in zip(coordinates, motions, strict=True)]
     present = {s for each in still for s in explicit(each.value).free_symbols}
     unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + [s for s in forces if s in present]
     if len(unknown) != len(still):

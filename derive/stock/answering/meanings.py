@@ -34,14 +34,14 @@ MEANINGS: Mapping[str, str] = {
     "conserved_*": "the conserved momentum of {}",
     "constant_*": "the value of the conserved momentum of {}",
     "acceleration_*": "the acceleration of {}",
-    # blows
+    # impacts
     "jumps": "the jump of the momentum of each coordinate",
     "meetings": "the conditions on the rates just after a collision",
-    "rates_after": "all rates just after the blow",
-    "kinetic_energy_after": "the kinetic energy just after the blow",
+    "rates_after": "all rates just after the impact",
+    "kinetic_energy_after": "the kinetic energy just after the impact",
     "work_of_impulses": "the change of the kinetic energy",
     "jump_*": "the jump of the momentum of {}",
-    "*_dot_after": "the rate of {} just after the blow",
+    "*_dot_after": "the rate of {} just after the impact",
     # bodies
     "centre_of_mass": "the centre of mass",
     "centre_of_mass_*": "the {} component of the centre of mass",

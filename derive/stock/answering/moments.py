@@ -1,4 +1,4 @@
-"""The instants at which a drawing shows velocities: the start of a requested motion, and a blow."""
+"""The instants at which a drawing shows velocities: the start of a requested motion, and an impact."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from sympy import Expr, Integer, Symbol
 
 from derive.algebra.expressions import rate
 from derive.figures.velocities import Moment
-from derive.mechanics import Blow, System
+from derive.mechanics import Impact, System
 from derive.mechanics.impacts.impact import Collision, Impulse
 from derive.mechanics.kinematics.places import Location
 from derive.stock.keys.results import Result
@@ -29,11 +29,9 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
     return Moment(at, rates) if rates else None
 
 
-def struck(blow: Blow | None) -> Moment | None:
-    """Return what acts in a blow, and where."""
-    if blow is None:
-        return None
-    pushes = [act for act in blow.acts if isinstance(act, Impulse) and len(act.at) > 1]  # not the angular ones
-    meeting = [place for act in blow.acts if isinstance(act, Collision) for place in (act.start, act.end) if place]
-    rates = {q: blow.before[rate(q)] for q in blow.moving}
-    return Moment(blow.at, rates, [(Location(push.components), Location(push.at)) for push in pushes], meeting)
+def struck(impact: Impact) -> Moment:
+    """Return what acts in an impact, and where."""
+    pushes = [act for act in impact.acts if isinstance(act, Impulse) and len(act.at) > 1]  # not the angular ones
+    meeting = [place for act in impact.acts if isinstance(act, Collision) for place in (act.start, act.end) if place]
+    rates = {q: impact.before[rate(q)] for q in impact.moving}
+    return Moment(impact.at, rates, [(Location(push.components), Location(push.at)) for push in pushes], meeting)

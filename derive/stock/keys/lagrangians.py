@@ -24,7 +24,7 @@ WITH_BODIES = (
     "potential",
     "charges",
     "constraints",
-    "blow",
+    "impact",
 )
 
 

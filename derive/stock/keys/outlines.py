@@ -69,8 +69,8 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
     along = () if described.along.is_name else described.along.components
     drawing("body", shown, turning, _inclination(along) if along else [])
     if has_angle:
-        answer = answers.asks()["angle_between"]
-        drawing("vectors", vectors_in(body, answers.spin, answers.angular_momentum, angle=answer(), about=at))
+        angle = answers.angle_between
+        drawing("vectors", vectors_in(body, answers.spin, answers.angular_momentum, angle=angle, about=at))
 
 
 def drawn_free(answers: Any, turns: bool) -> None:

@@ -426,5 +426,11 @@ def read_result(written: Record, name: Word, letters: InLetters, faults: Faults)
     return None
 
 
+def read_results(written: Mapping[Word, Record], letters: InLetters, faults: Faults) -> tuple[Result, ...]:
+    """Return all results in symbols, except those with an error."""
+    found = (read_result(keys, name, letters, faults) for name, keys in written.items())
+    return tuple(result for result in found if result is not None)
+
+
 def _reading(verb: ResultVerb, argument: str, key: ResultKey, node: Any, letters: InLetters) -> tuple[str, Any]:
     return argument, SORTS[key.holds].read(verb, key, node, letters)

@@ -10,8 +10,8 @@ import pytest
 from derive.steps.record import recorded
 from derive.stock import body, rotation
 from derive.stock.answering.meanings import FORCE, MEANINGS, meaning_of
-from derive.stock.answering.of_systems import Answers
 from derive.stock.keys.bodies import DescribedBody
+from derive.stock.system import SystemAnswers
 from tests.stock.described import PENDULUM, loaded
 
 
@@ -20,7 +20,7 @@ from tests.stock.described import PENDULUM, loaded
     [
         ("frequency", "the frequencies of small oscillations"),
         ("motion_theta", "the equation of motion of theta"),
-        ("theta_dot_after", "the rate of theta just after the blow"),
+        ("theta_dot_after", "the rate of theta just after the impact"),
         ("angular_momentum_z", "the z component of the angular momentum"),
         ("angular_momentum_size", "the magnitude of the angular momentum"),
         ("wobble_period_x", "the period of a disturbed rotation about the x axis"),
@@ -35,8 +35,8 @@ def test_every_answer_that_is_offered_has_words(tmp_path: Path) -> None:
     described: Any = loaded(tmp_path, PENDULUM).described
     one: Any = body.Asked(DescribedBody("", (), True))
     with recorded():
-        names = [*Answers(described).asks(), *body.Answers(one).asks()]
-    names += rotation.Answers(rotation.DescribedRotation()).asks()
+        names = [*SystemAnswers(described).asks(), *body.BodyAnswers(one).asks()]
+    names += rotation.RotationAnswers(rotation.DescribedRotation()).asks()
     assert [name for name in names if meaning_of(name) == FORCE] == []
 
 

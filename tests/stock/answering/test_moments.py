@@ -27,7 +27,7 @@ parts:
   - ask: Find the kinetic energy.
     answer: kinetic_energy
 """
-BLOW = "  blow: {impulses: {components: [0, J], at: [x, z]}, before: {x_dot: v_0}}\n"
+IMPACT = "  impact: {impulses: {components: [0, J], at: [x, z]}, before: {x_dot: v_0}}\n"
 
 
 def arrows(folder: Path, text: str) -> list[str]:
@@ -47,6 +47,6 @@ def test_a_motion_of_which_half_the_start_is_known_has_no_arrow(tmp_path: Path) 
     assert arrows(tmp_path, edited(STONE, (one, ""))) == []
 
 
-def test_a_blow_has_what_acts_and_what_moved_before(tmp_path: Path) -> None:
-    text = STONE[: STONE.index("  results")] + BLOW + STONE[STONE.index("statement") :]
+def test_an_impact_has_what_acts_and_what_moved_before(tmp_path: Path) -> None:
+    text = STONE[: STONE.index("  results")] + IMPACT + STONE[STONE.index("statement") :]
     assert arrows(tmp_path, text) == ["v_0", "J"]

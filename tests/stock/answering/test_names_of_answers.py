@@ -154,7 +154,7 @@ def test_a_number_beyond_the_last_is_no_name(tmp_path: Path) -> None:
 def test_what_several_answers_rest_on_is_refused_once(tmp_path: Path) -> None:
     text = edited(HOOP, ("  gravity: g\n", "  gravity: g\n  at: rest_7\n"))
     text = edited(text, ("answer: equations_of_motion", "answer: [linearised, frequency, stability]"))
-    assert messages(tmp_path, text) == ["9: `rest_7` is not an equilibrium"]
+    assert messages(tmp_path, text) == ["9: `rest_7` is not one of `equilibria`"]
 
 
 @pytest.mark.parametrize("state", ["rest_3", "equilibrium_3", "equilibria_3"])

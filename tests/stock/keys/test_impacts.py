@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.stock.described import edited, messages
+from tests.stock.described import complaints, edited, messages
 
 BULLET = """\
 title: A bullet and a rod
@@ -17,7 +17,7 @@ given:
   places: {B: [x, -b], A: [b*sin(theta), -b*cos(theta)]}
   particles: {bullet: {mass: m, at: B}}
   bodies: {rod: {shape: rod, length: l, mass: M, held: end, on: [0, 0], turned: theta + pi}}
-  blow:
+  impact:
     at: {x: 0, theta: 0}
     before: {x_dot: v}
     collisions: {from: B, to: A}
@@ -47,7 +47,7 @@ ALONG = "collisions: {from: B, to: A, along: [1, 0]"
         (("{x_dot: v}", "{x_dot: b}"), "11: `x_dot` must be a speed, but `b` is a length"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_with_a_blow(edit: tuple[str, str], message: str, tmp_path: Path) -> None:
+def test_what_is_wrong_with_an_impact(edit: tuple[str, str], message: str, tmp_path: Path) -> None:
     text = BULLET if edit[0] in BULLET else edited(BULLET, (HIT, f"{ALONG}, restitution: e}}"))
     assert messages(tmp_path, edited(text, edit)) == [message]
 
@@ -57,7 +57,7 @@ def test_what_a_verb_refuses_is_told_where_it_is_described(tmp_path: Path) -> No
     assert messages(tmp_path, text) == ["10: the two places of this collision do not meet"]
 
 
-def test_all_faults_of_a_blow_are_told_at_once(tmp_path: Path) -> None:
+def test_all_faults_of_an_impact_are_told_at_once(tmp_path: Path) -> None:
     collision = "collisions: {from: C, to: [b*sin(thta), 0], along: [1, 0], restitution: l}"
     text = edited(BULLET, ("{x: 0, theta: 0}", "{x: 0, phi: 0}"), ("{x_dot: v}", "{x_dot: b}"), (HIT, collision))
     assert messages(tmp_path, text) == [
@@ -67,3 +67,8 @@ def test_all_faults_of_a_blow_are_told_at_once(tmp_path: Path) -> None:
         "12: `thta` is not declared",
         "12: `restitution` must be a number, but `l` is a length",
     ]
+
+
+def test_the_former_name_of_the_key_is_an_error_that_says_what_to_write(tmp_path: Path) -> None:
+    (found,) = complaints(tmp_path, edited(BULLET, ("  impact:\n", "  blow:\n")))
+    assert (found.message, found.help) == ("`given` has no key `blow`", "write `impact`")

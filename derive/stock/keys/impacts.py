@@ -125,23 +125,23 @@ class CollisionKeys(Record):
 
 
 @dataclass(frozen=True)
-class BlowKeys(Record):
-    """The keys of `blow:`, for events at one instant."""
+class ImpactKeys(Record):
+    """The keys of `impact:`, for events at one instant."""
 
     at: Mapping[Word, Tree] = key("the values of coordinates at that instant: `{theta: 0}`", mapping_of(SCALAR))
     before: Mapping[Word, Tree] = key(
-        "rates just before the blow; the others are zero: `{x_dot: v}`", mapping_of(SCALAR)
+        "rates just before the impact; the others are zero: `{x_dot: v}`", mapping_of(SCALAR)
     )
     impulses: Sequence[ImpulseKeys] = key("given impulses", list_of_parts(ImpulseKeys, "an impulse"))
     collisions: Sequence[CollisionKeys] = key("places that collide", list_of_parts(CollisionKeys, "a collision"))
 
     def read(
         self, coordinates: Mapping[str, Declared], forces: Mapping[str, Declared], places: Places, letters: InLetters
-    ) -> DescribedBlow:
-        """Return the blow in symbols; `forces` are those that keep constraints."""
+    ) -> DescribedImpact:
+        """Return the impact in symbols; `forces` are those that keep constraints."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
         if not both:
-            rejected("missing-key", "`blow` needs `impulses` or `collisions`", self.places[""])
+            rejected("missing-key", "`impact` needs `impulses` or `collisions`", self.places[""])
         values = [(q, node, ending) for ending, of in (("", self.at), (RATE, self.before)) for q, node in of.items()]
         found: list[Any] = each(
             [
@@ -157,7 +157,7 @@ class BlowKeys(Record):
             _, end, *_ = act.of
             brought += one.brings(letters, len(end.components))
         brought += [letters.unused(Word.at(f"J_{force}", self.places[""]), "use another symbol") for force in forces]
-        return DescribedBlow(
+        return DescribedImpact(
             acts=acts,
             at=at,
             before=before,
@@ -182,8 +182,8 @@ def _value(
 
 
 @dataclass(frozen=True)
-class DescribedBlow:
-    """A blow in symbols; `letters` are the symbols of its impulses."""
+class DescribedImpact:
+    """An impact in symbols; `letters` are the symbols of its impulses."""
 
     acts: tuple[Deferred[Impulse | Collision], ...]
     at: tuple[tuple[str, Expr], ...]
@@ -192,4 +192,4 @@ class DescribedBlow:
     place: Place | None = field(default=None, repr=False, compare=False)
 
 
-BLOW = record_of(BlowKeys, "a blow", "a mapping with `impulses` or `collisions`")
+IMPACT = record_of(ImpactKeys, "an impact", "a mapping with `impulses` or `collisions`")

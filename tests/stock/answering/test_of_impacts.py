@@ -1,4 +1,4 @@
-"""What parts ask of a blow that is told in YAML alone."""
+"""What parts ask of an impact that is told in YAML alone."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from sympy import Rational, symbols
 
 from derive.algebra.equality import equal
 from tests.stock.described import edited, solved
-from tests.stock.keys.test_blows import BULLET, HIT
+from tests.stock.keys.test_impacts import BULLET, HIT
 
 M, m, l, b, v, R = symbols("M m l b v R", positive=True)
 J = symbols("J", real=True)
@@ -38,7 +38,7 @@ def test_an_elastic_bullet_and_one_with_restitution(tmp_path: Path) -> None:
 
 
 def test_impulses_that_are_given(tmp_path: Path) -> None:
-    """A blow J across the rod at b turns it at 3 J b/(M l^2); an angular one J b too."""
+    """An impulse J across the rod at b turns it at 3 J b/(M l^2); an angular one J b too."""
     for hit in ("impulses: {components: [J, 0], at: A}", "impulses: {angular: J*b, on: theta}"):
         found = solved(tmp_path, edited(BULLET, (HIT, hit), (ASKED, "answer: [theta_dot_after, x_dot_after]")))
         assert equal(found["theta_dot_after"].value, 3 * J * b / (M * l**2))
@@ -64,7 +64,7 @@ given:
   coordinates: {x: length, y: length}
   particles: {one: {mass: m, at: [x, 0]}, two: {mass: m, at: [y, 0]}}
   constraints: {condition: y - x, equals: l, force: S}
-  blow: {impulses: {components: [J, 0], at: [x, 0]}}
+  impact: {impulses: {components: [J, 0], at: [x, 0]}}
 statement: Two.
 parts:
   - ask: Find what is asked.

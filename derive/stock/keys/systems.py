@@ -1,0 +1,373 @@
+"""Systems as `given:` describes them: coordinates, places, bodies, what acts on them, and results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import chain
+from typing import Any
+
+from sympy import Expr, Symbol
+
+from derive.algebra.expressions import scalar
+from derive.algebra.ranges import Range
+from derive.course.assumed import Assumed, read_assumed
+from derive.course.expression import Declared
+from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of, one_or_more
+from derive.course.stock import Described, InLetters, attempted, each
+from derive.course.written import SortOfLetter
+from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.course.yaml_tree import Sequence as Listed
+from derive.errors import Faults, Place, did_you_mean, rejected
+from derive.mechanics import potential
+from derive.mechanics.kinematics.coordinates import kind_of_rate
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.lagrange.momenta import kind_of_momentum
+from derive.stock.keys.deferred import Deferred
+from derive.stock.keys.formulas import FoundLetter
+from derive.stock.keys.impacts import IMPACT, DescribedImpact, ImpactKeys
+from derive.stock.keys.lagrangians import read_lagrangian
+from derive.stock.keys.parts import (
+    CENTRAL,
+    CHARGES,
+    CONSTRAINTS,
+    DAMPING,
+    FORCES,
+    PARTICLES,
+    SPRINGS,
+    CentralKeys,
+    ChargeKeys,
+    ConstraintKeys,
+    DampingKeys,
+    ForceKeys,
+    ParticleKeys,
+    SpringKeys,
+)
+from derive.stock.keys.placed import BODIES, ROLLING, MovingBodyKeys, RollingKeys
+from derive.stock.keys.places import (
+    COORDINATES,
+    PLACES,
+    TURNS,
+    Places,
+    WrittenPlace,
+    coordinate_letters,
+    is_letter,
+)
+from derive.stock.keys.results import RESULTS, names, read_results, written_in
+
+STATE = mapping_of(SCALAR)
+RELATIONS = as_written(one_or_more(SCALAR.schema), "a relation such as `l < r_0`, or a list of them")
+POSITIVE_CONSTANT = "positive"  # before the symbol of a constant, as in `positive length`
+INDIFFERENT_TO_STATES = (
+    "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
+    "energy_function_rate", "hamiltonian", "hamilton_equations", "no_slip", "angular_velocity", "accelerations",
+    "multipliers",
+)  # fmt: skip
+OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
+
+
+@dataclass(frozen=True)
+class SystemKeys(Record):
+    """The keys of a system."""
+
+    coordinates: Mapping[Word, SortOfLetter] = key(
+        "what varies: `theta: angle`, `x: length`, `r: positive length`, `beta: angle in (0, pi/2)`",
+        COORDINATES,
+        required=True,
+    )
+    axes: Mapping[Word, tuple[Mapping[Word, Tree], ...]] = key(
+        "rotating axes, by the rotations that lead to them from the axes of space: `hoop: [{z: omega*t}]`", TURNS
+    )
+    points: Mapping[Word, WrittenPlace] = key(
+        "places by name: `A: [l*sin(theta), -l*cos(theta)]`, `B: {from: A, by: [x, y]}`; the last component is upwards",
+        PLACES,
+        called="places",
+    )
+    particles: Mapping[Word, ParticleKeys] = key("particles by name", PARTICLES)
+    bodies: Mapping[Word, MovingBodyKeys] = key("rigid bodies by name", BODIES)
+    rolling: Sequence[RollingKeys] = key("bodies that roll without slipping", ROLLING)
+    gravity: Tree | None = key("the acceleration of free fall, downwards; without gravity nothing has weight", SCALAR)
+    springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
+    central: Sequence[CentralKeys] = key("potential energies that depend on the distance between two places", CENTRAL)
+    lagrangian: Tree | None = key(
+        "the Lagrangian itself, given as a formula of coordinates, their rates and `t`, in place of all bodies: "
+        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may be added",
+        SCALAR,
+    )
+    potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
+    forces: Sequence[ForceKeys] = key("given forces and torques", FORCES)
+    damping: Sequence[DampingKeys] = key("drag opposite and proportional to a velocity", DAMPING)
+    charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
+    constraints: Sequence[ConstraintKeys] = key("conditions kept by constraint forces", CONSTRAINTS)
+    impact: ImpactKeys | None = key("impulses and collisions at one instant", IMPACT, formerly="blow")
+    conserved: Mapping[Word, Tree] = key(
+        "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
+        "`psi: C*s`",
+        mapping_of(SCALAR),
+    )
+    assume: Tree | None = key(
+        "relations between constant symbols that are true: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
+    )
+    at: Tree | None = key(
+        "the state about which equations are linearised and stability is decided: `{theta: 0}`, or an equilibrium by "
+        "its name, `rest_3`; by default all equilibria",
+        as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
+    )
+    results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
+
+
+@dataclass(frozen=True)
+class DescribedSystem(Described):
+    """A system in symbols.
+
+    coordinates   the name of each, its kind, and whether it is positive
+    particles, bodies, rolling, acting   its parts, in the order of the file; `acting` is everything else
+    conserved     symbols of constant momenta by coordinates; `kept` are constant momenta with given values
+    at, at_rest   the state about which motions are small, by values or by the name of an equilibrium
+    impact        what happens at one instant
+    brought       symbols of constraint forces and constant momenta, with their places
+    named         the places that have names
+    given         a Lagrangian that replaces all bodies, and its kind
+    """
+
+    coordinates: tuple[tuple[str, str, bool], ...] = ()
+    particles: Mapping[str, Deferred[Any]] = field(default_factory=dict)
+    bodies: Mapping[str, Deferred[Any]] = field(default_factory=dict)
+    rolling: tuple[Deferred[tuple[Any, ...]], ...] = ()
+    acting: tuple[Deferred[Any], ...] = ()
+    gravity: Expr | None = None
+    conserved: tuple[tuple[str, Symbol], ...] = ()
+    kept: tuple[tuple[str, Expr], ...] = ()
+    at: tuple[tuple[str, Expr], ...] = ()
+    at_rest: Word | None = None
+    impact: DescribedImpact | None = None
+    brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
+    place: Place | None = field(default=None, repr=False, compare=False)
+    named: tuple[Location, ...] = ()
+    given: tuple[Expr, str | None] | None = None
+
+
+def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
+    """Return the description in the declared symbols and the coordinates.
+
+    The order of the readings is that in which numbers get their letters.
+    """
+    letters = coordinate_letters(written.coordinates, symbols, faults)
+    known = InLetters({**symbols, **letters})
+    places = Places(written.points, written.axes, known, {name: one.at for name, one in written.particles.items()})
+    named = attempted(faults, places.all_named) or {}
+    parts = _parts(written, places, known, faults)
+    given = attempted(faults, read_lagrangian, written, known)
+    gravity = attempted(faults, _value, known.value, written.gravity, "gravity", "acceleration")
+    energy = attempted(faults, _value, known.of_kind, written.potential, "potential", "energy")
+    if energy is not None:
+        parts["acting"] += (Deferred(potential, (energy,), place=written.values_at["potential"]),)
+    brought = letters_at(written)
+    attempted(faults, _check_different, brought)
+    kept = attempted(faults, _kept, written.conserved, letters, known) or ()
+    forces = _multipliers([*parts["acting"], *parts["rolling"]])
+    own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
+    impact = attempted(faults, written.impact.read, letters, forces, places, known) if written.impact else None
+    own |= impact.letters if impact else {}
+    own |= attempted(faults, _steady_rates, written, letters, known) or {}
+    momenta = _momenta(written.coordinates, letters, given[1] if given is not None else "energy")
+    with_own = known.also({**momenta, **symbols, **own})
+    results = read_results(written.results, with_own, faults)
+    constants = {name: letter for name, letter in {**symbols, **own}.items() if name not in {*letters, *forces}}
+    assumed = attempted(faults, _assumed, written.assume, constants, letters) or ()
+    rest = written.at.word if isinstance(written.at, Scalar) and not written.at.empty else None
+    return DescribedSystem(
+        assumed=assumed,
+        letters=own,
+        without=_without(written, [*own], [*impact.letters] if impact else []),
+        chosen=known.chosen,
+        measured=tuple(known.numbers.measured),
+        coordinates=tuple(
+            (str(n), letters[n].kind, bool(letters[n].symbol.is_positive)) for n in written.coordinates if n in letters
+        ),
+        **parts,
+        gravity=gravity,
+        conserved=tuple(
+            (str(q), own[name].symbol)
+            for q, word in _words(written.conserved).items()
+            if (name := _letter(word)[0]) in own
+        ),
+        kept=kept,
+        at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
+        at_rest=rest,
+        results=results,
+        impact=impact,
+        brought={str(name): name.place for name in brought},
+        place=written.places[""],
+        named=tuple(named.values()),
+        given=given,
+    )
+
+
+def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
+    """Return the bodies of the system and what acts on them, by the fields of its description."""
+
+    def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
+        return attempted(faults, each, [partial(one.part, *more) for one in keys]) or []
+
+    def by_name(keys: Mapping[Word, Any], *more: Any) -> dict[str, Any]:
+        found = attempted(faults, each, [partial(one.part, name, *more) for name, one in keys.items()]) or []
+        return {str(name): one for name, one in zip(keys, found, strict=False)}
+
+    particles = by_name(written.particles, places, known)
+    several: list[Sequence[Any]] = [written.springs, written.central, written.charges, written.constraints]
+    acting = [*chain(*(of_each(keys, places, known) for keys in several))]
+    bodies = by_name(written.bodies, len(written.bodies) == 1, places, known)
+    rolling = of_each(written.rolling, places, known, {str(name) for name in written.bodies})
+    names = {str(name) for name in (*written.bodies, *written.particles)}
+    with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
+    acting += of_each([*written.forces, *written.damping], places, with_friction, names)
+    return {"particles": particles, "bodies": bodies, "rolling": tuple(rolling), "acting": tuple(acting)}
+
+
+def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
+    """Return the answers that do not depend on `at`, `conserved` and `impact`."""
+    of_each = ("motion", "momentum", "acceleration")
+    one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
+    general = one | {*found, *INDIFFERENT_TO_STATES}
+    of_state = general | {f"{name}_{q}" for name in ("conserved", "constant") for q in written.coordinates}
+    of_rest = {"stability", "linearised", "normal_modes", "frequency", "period"}
+    found_for = {
+        "at": {*of_state, *OF_CYCLIC},
+        "conserved": general,
+        "impact": {*of_state, *OF_CYCLIC, *of_rest} - {*impulses},
+    }
+    return tuple(
+        (Word.at(key, written.places[key]), names) for key, names in found_for.items() if key in written.values_at
+    )
+
+
+def _value(reading: Callable[..., Expr], node: Tree | None, name: str, kind: str) -> Expr | None:
+    return reading(node, name, kind) if node is not None else None
+
+
+def _assumed(
+    written: Tree | None, constants: Mapping[str, Declared], coordinates: Mapping[str, Declared]
+) -> tuple[Assumed, ...]:
+    nodes = written.items if isinstance(written, Listed) else (written,)
+    entries = each([partial(read_assumed, node, constants, coordinates) for node in nodes if node is not None])
+    return tuple(chain(*entries))
+
+
+def _momenta(
+    written: Mapping[Word, str], coordinates: Mapping[str, Declared], lagrangian: str | None
+) -> dict[str, Declared]:
+    """Return the momenta of coordinates, for functions of both: `x*p_y - y*p_x`."""
+    kinds = {f"p_{q}": kind_of_momentum(coordinates[q].kind, lagrangian) for q in written if q in coordinates}
+    return {name: Declared(name, scalar(name), kind) for name, kind in kinds.items() if kind is not None}
+
+
+def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
+    """Return the symbols of the forces that keep constraints and rolling, for which results may be solved."""
+    names = [one.named["force"] for one in keeping if "force" in one.named]
+    return {name: FoundLetter(name, scalar(name), "force") for name in names}
+
+
+def letters_at(written: SystemKeys) -> list[Word]:
+    """Return the symbols that the description introduces in addition to its coordinates, with their places."""
+    forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
+    momenta = [Word.at(_letter(word)[0], word.place) for word in _words(written.conserved).values()]
+    return [*(force for force in forces if force), *(letter for letter in momenta if is_letter(letter))]
+
+
+def _words(written: Mapping[Word, Tree]) -> dict[Word, Word]:
+    return {q: node.word for q, node in written.items() if isinstance(node, Scalar)}
+
+
+def _check_different(brought: Sequence[Word]) -> None:
+    """Check that all these symbols are different."""
+    for i, word in enumerate(brought):
+        if word in brought[:i]:
+            message = f"`{word}` already denotes something else"
+            rejected("letter-clash", message, word.place, "use another symbol")
+
+
+def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: InLetters) -> dict[str, Declared]:
+    """Return the symbols for the rates of steady motions, in the order of the coordinates without a value there."""
+    found = {}
+    for result in written.results.values():
+        held = written_in(result)
+        if "steady" in held:
+            placed = {str(letter) for letter, _ in held["values"].items()} if "values" in held else set()
+            turning = [q for q in written.coordinates if q in letters and q not in placed]
+            for q, name in zip(turning, names(held.get("symbol")), strict=False):
+                known.unused(name, "leave it out of `symbols`, or give the rate another symbol")
+                found[str(name)] = Declared(str(name), scalar(name, positive=True), kind_of_rate(letters[q].kind))
+    return found
+
+
+def constant(name: str, positive: bool = False) -> Symbol:
+    """Return the symbol of a constant momentum, which is assumed to be nonzero."""
+    return scalar(name, positive=True) if positive else Symbol(name, real=True, nonzero=True)
+
+
+def _constants(
+    written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters, faults: Faults
+) -> dict[str, Declared]:
+    """Return the symbols of constant momenta."""
+    found = {}
+    for q in (q for q in written if q not in letters):
+        faults.error(
+            "no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=did_you_mean(q, letters)
+        )
+    for q, word in _words(written).items():
+        name, is_positive = _letter(word)
+        if q not in letters or not is_letter(name):
+            continue  # an expression is the value of the momentum, see `_kept`
+        with faults:
+            known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another symbol")
+        kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
+        found[name] = Declared(name, constant(name, positive=is_positive), kind)
+    return found
+
+
+def _kept(
+    written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters
+) -> tuple[tuple[str, Expr], ...]:
+    """Return the values of constant momenta that are given by an expression, `psi: C*s`."""
+    found = []
+    for q, node in written.items():
+        if q not in letters or isinstance(node, Scalar) and is_letter(_letter(node.word)[0]):
+            continue
+        kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
+        found.append((str(q), known.of_kind(node, f"the momentum of {q}", kind)))
+    return tuple(found)
+
+
+def _letter(word: Word) -> tuple[str, bool]:
+    """Return the symbol of a constant, and whether it is declared positive."""
+    name = word.removeprefix(f"{POSITIVE_CONSTANT} ").strip()
+    return name, name != word
+
+
+def _values(written: Tree | None, faults: Faults) -> Mapping[Word, Tree]:
+    return STATE.read(written, "at", faults) or {} if written else {}
+
+
+def _state(
+    written: Mapping[Word, Tree], coordinates: Mapping[str, Declared], letters: InLetters, faults: Faults
+) -> tuple[tuple[str, Expr], ...]:
+    found = []
+    for q, node in written.items():
+        if q not in coordinates:
+            help_line = did_you_mean(q, coordinates)
+            faults.error("no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=help_line)
+            continue
+        with faults:
+            value = letters.of_kind(node, str(q), coordinates[q].kind)
+            _check_range(q, value, coordinates[q].lies)
+            found.append((str(q), value))
+    return tuple(found)
+
+
+def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
+    """Reject a state at an end of its range or beyond: small displacements need room on both sides."""
+    if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
+        message = f"`{q}` lies between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"
+        rejected("range", message, q.place, help=f"give `{q}` a wider range, or none")
