@@ -29,7 +29,7 @@ from typing import Any
 
 from bench.ratios import PROBLEM, ROUNDS, SET, Edited, copied_tree, seconds
 from derive.building.cache import Cache, Kept, digest
-from derive.building.loaded import load
+from derive.building.preload import preload
 from derive.building.set_document import index_page, problem_document, problem_page, the_document
 from derive.building.solution import derived, rendered
 from derive.building.tex import chosen_engine, typeset
@@ -118,7 +118,7 @@ def pdf(root: Path, cache: Cache) -> None:
     files = [file for each in problems for file in each.files if file[0].endswith(".pdf")]
     with tempfile.TemporaryDirectory() as folder:
         for name, (tex, numbers) in documents.items():
-            typeset(tex, Path(folder) / f"{name}.pdf", engine, numbers=numbers, beside=files, formats=cache)
+            typeset(tex, Path(folder) / f"{name}.pdf", engine, numbers=numbers, included=files, formats=cache)
 
 
 def in_a_worker(work: Callable[[], None]) -> Callable[[], None]:
@@ -128,7 +128,7 @@ def in_a_worker(work: Callable[[], None]) -> Callable[[], None]:
 
 def sets(tree: Path, folder: Path) -> dict[str, tuple[float, float]]:
     """Return the seconds of HTML and of PDF, with kept derivations and without."""
-    load(tree, derives=True, draws=True)
+    preload(tree, derives=True, draws=True)
     caches = Cache(folder / "html"), Cache(folder / "pdf")
     works = [in_a_worker(partial(make, tree, cache)) for make, cache in zip((html, pdf), caches, strict=True)]
     cold = [seconds(work, rounds=1) for work in works]

@@ -1,4 +1,4 @@
-"""The key that seals what is kept belongs to the tests: nothing is written to the folders of whoever runs them."""
+"""The key that signs what is kept belongs to the tests: nothing is written to the folders of whoever runs them."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     return found.points, found.title
 
 
-def explained(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | list[tuple[str, ...]]:
+def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | list[tuple[str, ...]]:
     said = rendered(root, problem_id, None).title
     return f"{key}: {said} {as_json}" if key else [("step", "part"), ("torque", said)]
 
@@ -211,7 +211,7 @@ def replace_derivation(monkeypatch: Any) -> None:
         paper_page,
         the_document,
     )
-    modules = {"solution": (rendered,), "headline": (headline,), "explained": (explained,), "set_document": documents}
+    modules = {"solution": (rendered,), "headline": (headline,), "explain": (explain,), "set_document": documents}
     for name, functions in modules.items():
         fake = ModuleType(f"derive.building.{name}")
         for function in functions:

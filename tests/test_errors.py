@@ -22,13 +22,13 @@ from derive.errors import (
 
 def test_a_fault_is_shown_with_its_line_a_caret_and_what_to_do() -> None:
     place = Place("a.yaml", 12, 9, "  mass: a\n", 1)
-    fault = Complaint("wrong-kind", "`mass` must be a mass", place, ("why",), "mend it")
+    fault = Complaint("wrong-kind", "`mass` must be a mass", place, ("why",), "fix it")
     assert fault.shown().splitlines() == [
         "a.yaml:12:9: error[wrong-kind]: `mass` must be a mass",
         "  12 |   mass: a",
         "     |         ^",
         "     = why",
-        "     = help: mend it",
+        "     = help: fix it",
     ]
 
 

@@ -77,8 +77,8 @@ def check_tools(uv: str | None) -> None:
             f"error[python]: derive needs Python 3.11 or later, and this is {this}: install a newer one, or uv"
         )
     if not uv and not has_venv():
-        mend = f"`apt install {name}-venv`, or install uv, then `make` again"
-        raise Stopped(f"error[venv]: {name} has no working venv module: {mend}")
+        fix = f"`apt install {name}-venv`, or install uv, then `make` again"
+        raise Stopped(f"error[venv]: {name} has no working venv module: {fix}")
 
 
 def run(command: list[str], failed: str) -> None:

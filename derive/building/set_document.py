@@ -60,7 +60,7 @@ class Listed:
 
 def problem_document(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     """Return a complete .tex of one problem, numbered as in its set."""
-    return _document(root, "document.tex.j2", heading, [_alone(problem, heading)])
+    return _document(root, "document.tex.j2", heading, [_standalone(problem, heading)])
 
 
 def set_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
@@ -101,12 +101,12 @@ def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered
 
 def problem_page(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     """Return the page of one problem for a browser: one file with everything that it shows."""
-    return _page(root, "solution.html.j2", heading, [_alone(problem, heading)])
+    return _page(root, "solution.html.j2", heading, [_standalone(problem, heading)])
 
 
 def problem_main(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     """Return the main part of the page of a problem."""
-    return _page(root, "main.html.j2", heading, [_alone(problem, heading)])
+    return _page(root, "main.html.j2", heading, [_standalone(problem, heading)])
 
 
 def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
@@ -126,7 +126,7 @@ def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Lis
     return filled_html(folder, template, {**_facts(root, heading, problems), **papers, "font": font, **more})
 
 
-def _alone(problem: Rendered, heading: ProblemSet) -> Listed:
+def _standalone(problem: Rendered, heading: ProblemSet) -> Listed:
     """Return a problem with its number in the set, if the set lists it."""
     return Listed(str(heading.numbers.get(problem.id.rpartition("/")[2], "")), problem)
 

@@ -17,15 +17,15 @@ from typing import TYPE_CHECKING
 
 from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Constrained, digest, engine_digest, file_digest, not_kept
 from derive.building.files import folder, write, writing
-from derive.building.loaded import load
-from derive.building.lock import alone
+from derive.building.lock import locked
 from derive.building.manifest import Manifest, Papers, outputs_of, outputs_of_paper
-from derive.building.named import check_asked, set_folder
 from derive.building.papers import named_papers, still_there, with_asked
 from derive.building.preamble import at_hand, beginning
+from derive.building.preload import preload
 from derive.building.recipe import EDITED, EVIDENCE, MODULES, PAPERS, Recipe, edited_since, recipe_digest, recipe_of
 from derive.building.scratch import sweep
-from derive.building.sealed import regular_content
+from derive.building.set_names import check_asked, set_folder
+from derive.building.signed import regular_content
 from derive.building.staleness import left_older
 from derive.building.tex import Engine, by_the_clock, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
@@ -107,7 +107,7 @@ def built_set(
     engine = chosen_engine(options.engine)
     check_asked(root, set_id, options.only)
     outputs = folder(set_folder(root, set_id))
-    with alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
+    with locked(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
         sweep(outputs, outputs / CACHE)
         return _Build(root, set_id, options, engine, outputs, tell, edits, ended).report()
 
@@ -250,7 +250,7 @@ class _Build:
 
     def _pages(self, keys: Mapping[str, str]) -> None:
         """Take pages of problems by name and key: those that an earlier build kept, while the others are derived."""
-        kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.recalled_data(key)))}
+        kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.get_data(key)))}
         self._derive([name for name in keys if name not in kept])
         for name, page in kept.items():
             self.ended(Ended("kept", f"{self.set_id}/{name}"))
@@ -265,7 +265,7 @@ class _Build:
             self._prepare()
         several, again = len(names) > 1, bool(self.edits)
         read = self.set_id if several else ""
-        load(self.root, derives=several or again, draws=self.anew or again, set_id=read)
+        preload(self.root, derives=several or again, draws=self.anew or again, set_id=read)
         from derive.building.solution import rendered
 
         self._prepare()
@@ -392,16 +392,16 @@ class _Build:
             return
         source = digest("pdf", tex, self.engine.identity, *(content for _, content in files))
         texts = {f"{name}.tex": tex, **texts}
-        kept = self.cache.recalled(source)
+        kept = self.cache.get(source)
         if kept is not None:
             if self._record({pdf: kept, **texts}):
                 self._was_made(name)
             return
         limit = self.options.limit
-        beside = [file for file in files if file[0].endswith(".pdf")]
+        included = [file for file in files if file[0].endswith(".pdf")]
         work = partial(
             typeset, tex, self.outputs / pdf, self.engine,
-            timeout=limit, numbers=numbers, beside=beside, formats=replace(self.cache, fresh=False),
+            timeout=limit, numbers=numbers, included=included, formats=replace(self.cache, fresh=False),
         )  # fmt: skip
         job = Job(f"the pages of `{self.set_id}/{name}`", work, by_the_clock(limit), rank=rank)
         self._put(job, partial(self._was_typeset, pdf, source, texts))

@@ -39,7 +39,7 @@ from derive.page.folding import with_details
 from derive.page.hints import with_hints
 from derive.page.rubric import credits_of, faults_of_rubric
 from derive.page.template import template_folder
-from derive.page.theorems import alone
+from derive.page.theorems import standalone
 from derive.page.tree import Document
 from derive.page.wording import phrases
 from derive.render.formats import HTML, TYPESET, Solution, built_formats, formats
@@ -128,7 +128,7 @@ def printed(
     Faults(fault for fault in of_numbers if fault.severity == "error").stop()
     warnings = (*problem.warnings, *document.warnings, *of_numbers, *failures)
     solution = Solution(
-        alone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
+        standalone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
     )
     wanted = {*built_formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
@@ -207,7 +207,7 @@ def _edited(problem: Problem, begun: int) -> bool:
 @lru_cache(maxsize=4)  # for a process that asks more than once
 def _kept(cache: Cache, key: str) -> Solved:
     """Return what was kept under a key."""
-    kept = Solved.from_data(cache.recalled_data(key))
+    kept = Solved.from_data(cache.get_data(key))
     if kept is None:
         raise KeyError(key)
     return kept

@@ -14,8 +14,8 @@ from pathlib import Path
 from derive.building.cache import PACKAGES, file_digest
 from derive.building.files import shown_path
 from derive.building.manifest import Manifest
-from derive.building.named import check_asked, set_folder, set_names
 from derive.building.recipe import DETAIL, ENGINE, EVIDENCE, MODULES, PAPERS, Recipe, recipe_of
+from derive.building.set_names import check_asked, set_folder, set_names
 from derive.building.tex import chosen_engine
 from derive.course.names import INDEX, NAME
 from derive.course.names import PAPERS as KINDS_OF_PAPERS
@@ -44,13 +44,13 @@ class Staleness:
 
     of: str
     reasons: tuple[str, ...]
-    mends: tuple[str, ...] = ()
+    fixes: tuple[str, ...] = ()
 
     def shown(self) -> str:
         if not self.reasons:
             return f"{self.of} is up to date"
         told = [*self.reasons[:MOST], *([f"and {len(self.reasons) - MOST} more"] if self.reasons[MOST:] else [])]
-        return "\n".join([f"{self.of} is out of date:", *(f"  {each}" for each in told), *self.mends])
+        return "\n".join([f"{self.of} is out of date:", *(f"  {each}" for each in told), *self.fixes])
 
 
 def left_older(
@@ -111,7 +111,7 @@ def staleness(asked: Asked) -> Staleness:
         why = f"`{asked.set_id}` has not been built here yet"
         return Staleness(of, (why,), (_built_by(asked, manifest, outputs),))
     found = tuple(dict.fromkeys(_reasons(asked, manifest, outputs)))
-    return Staleness(of, found, tuple(_mends(asked, manifest, outputs)) if found else ())
+    return Staleness(of, found, tuple(_fixes(asked, manifest, outputs)) if found else ())
 
 
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
@@ -218,7 +218,7 @@ def _of_output(manifest: Manifest, name: str) -> Iterator[str]:
         yield f"`{name}` has been edited since the build wrote it"
 
 
-def _mends(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
+def _fixes(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
     yield _built_by(asked, manifest, outputs)
     now = recipe_of(asked.root, asked.detail, asked.evidence or manifest.evidence)
     options: dict[str, str] = {}

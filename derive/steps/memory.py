@@ -23,7 +23,7 @@ from derive.steps.record import QUESTIONS, Call, Run, add, assume, finished_step
 class Store(Protocol):
     """The store that keeps the texts of calls."""
 
-    def recalled(self, key: str) -> str | None: ...
+    def get(self, key: str) -> str | None: ...
 
     def keep(self, key: str, text: str) -> None: ...
 
@@ -118,7 +118,7 @@ class Memory:
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
         """Read what a call left; None if it was not made, or if the record now answers its questions differently."""
-        kept = self.store.recalled(key)
+        kept = self.store.get(key)
         if kept is None:
             return None
         try:

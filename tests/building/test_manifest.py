@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from fake_course import Course, stand_in_course
 
-from derive.building import sealed
+from derive.building import signed
 from derive.building.cache import digest
 from derive.building.manifest import Manifest, outputs_of, outputs_of_paper
 from derive.building.sets import Options, Report, built_set
@@ -25,11 +25,11 @@ def built(course: Course) -> Report:
     return built_set(course.root, "hw1", Options(), lambda _: None)
 
 
-def resealed(course: Course, **changes: Any) -> None:
+def signed_again(course: Course, **changes: Any) -> None:
     """The record as it would be if derive itself had written it."""
     record = dataclasses.asdict(Manifest.read(course.outputs)) | changes
     del record["folder"]
-    sealed.seal(course.outputs / ".manifest.json", "the record of hw1", json.dumps(record).encode())
+    signed.write_signed(course.outputs / ".manifest.json", "the record of hw1", json.dumps(record).encode())
 
 
 @pytest.mark.parametrize("name", ["../../victim.txt", "/victim.txt", ".lock", "a/b.pdf", "victim", "x.py", ""])
@@ -37,7 +37,7 @@ def test_a_record_names_plain_outputs_or_is_none(course: Course, name: str) -> N
     victim = course.root / "victim.txt"
     victim.write_text("mine")
     built(course)
-    resealed(course, drawings={"one": [name]})
+    signed_again(course, drawings={"one": [name]})
     course.problem("one", "edited")
     assert not built(course).failed
     assert victim.read_text() == "mine"
@@ -67,7 +67,7 @@ def test_a_record_with_a_field_of_another_type_counts_as_none(course: Course, fi
     Manifest(folder).save()
     if type(value) is type(getattr(Manifest(folder), field)) and isinstance(value, str):
         value = 3.5
-    resealed(course, **{field: value})
+    signed_again(course, **{field: value})
     assert Manifest.read(folder) == Manifest(folder)
 
 
