@@ -112,9 +112,9 @@ def html(root: Path, cache: Cache) -> None:
 def pdf(root: Path, cache: Cache) -> None:
     heading, problems, engine = problem_set(root, SET), pages(root, cache, TYPESET), chosen_engine(None)
     documents = {each.id.rpartition("/")[2]: (problem_document(root, each, heading), None) for each in problems}
-    for paper, _ in heading.papers:
-        numbers = Kept(cache, digest("numbers", paper)) if paper == SOLUTIONS else None
-        documents[paper] = the_document(paper)(root, heading, problems), numbers
+    for kind, _ in heading.documents:
+        numbers = Kept(cache, digest("numbers", kind)) if kind == SOLUTIONS else None
+        documents[kind] = the_document(kind)(root, heading, problems), numbers
     files = [file for each in problems for file in each.files if file[0].endswith(".pdf")]
     with tempfile.TemporaryDirectory() as folder:
         for name, (tex, numbers) in documents.items():
@@ -145,8 +145,8 @@ def main() -> None:
         told = f"{took['derivation']:.2f} s of derivation"
         more = took["given"] - took["derivation"]
         print(f"{'edit of a given, previewed':28}{took['given']:6.2f} s {more:6.2f} s over {told:22} aim 0.3 s")
-        for how, (web, paper) in sets(tree, Path(folder)).items():
-            print(f"{f'HTML of {SET}{how}':28}{web:6.2f} s {web / paper:6.2f} x its PDFs{'':18} aim 0.5")
+        for how, (web, kind) in sets(tree, Path(folder)).items():
+            print(f"{f'HTML of {SET}{how}':28}{web:6.2f} s {web / kind:6.2f} x its PDFs{'':18} aim 0.5")
 
 
 if __name__ == "__main__":

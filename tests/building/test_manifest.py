@@ -12,7 +12,7 @@ from fake_course import Course, stand_in_course
 
 from derive.building import signed
 from derive.building.cache import digest
-from derive.building.manifest import Manifest, outputs_of, outputs_of_paper
+from derive.building.manifest import Manifest, outputs_of, outputs_of_document
 from derive.building.sets import Options, Report, built_set
 
 
@@ -157,12 +157,12 @@ def test_a_document_is_older_as_soon_as_a_file_of_any_of_its_problems_or_a_word_
     assert older(words, a="2") == older(words, set="2") == older({"templates/words": "2"}) == ["one", "solutions"]
 
 
-def test_a_paper_that_the_set_no_longer_has_is_taken_away(tmp_path: Path) -> None:
-    record = Manifest(tmp_path, papers=[["solutions", "hw1"], ["key", "key"]])
+def test_a_document_that_the_set_no_longer_has_is_taken_away(tmp_path: Path) -> None:
+    record = Manifest(tmp_path, documents=[["solutions", "hw1"], ["key", "key"]])
     for name in ("hw1.pdf", "hw1.tex", "key.pdf"):
         (tmp_path / name).write_text("ours")
         record.outputs[name] = digest("ours")
-    record.replace_papers([["solutions", "solutions"], ["key", "key"]])
+    record.replace_documents([["solutions", "solutions"], ["key", "key"]])
     assert [file.name for file in tmp_path.iterdir()] == ["key.pdf"]
     assert record.documents == ["solutions", "key", "index"]
 
@@ -187,8 +187,8 @@ def test_an_output_is_taken_away_only_as_it_was_written(tmp_path: Path) -> None:
 
 
 def test_a_document_of_the_set_has_no_text_and_no_json() -> None:
-    assert outputs_of_paper("solutions", "hw9") == ["hw9.pdf", "hw9.tex"]
-    assert outputs_of_paper("hints", "hw9-hints") == ["hw9-hints.pdf", "hw9-hints.tex", "hw9-hints.html"]
+    assert outputs_of_document("solutions", "hw9") == ["hw9.pdf", "hw9.tex"]
+    assert outputs_of_document("hints", "hw9-hints") == ["hw9-hints.pdf", "hw9-hints.tex", "hw9-hints.html"]
     own = outputs_of("block")
     assert {"block.pdf", "block.tex", "block.json", "block.txt"} <= set(own)
     assert Manifest(Path(), drawings={"block": ["block-axes.svg"]}).outputs_of("block") == [*own, "block-axes.svg"]

@@ -164,10 +164,10 @@ def carried_out(course: Course, found: Staleness) -> None:
     command = found.fixes[0].partition("`derive build ")[2].removesuffix("`").split()
     what, *options = command
     only = (what.partition("/")[2],) if "/" in what else ()
-    built(course, only=only, papers=tuple(options[1].split(",")) if options[:1] == ["--only"] else ())
+    built(course, only=only, documents=tuple(options[1].split(",")) if options[:1] == ["--only"] else ())
 
 
-def test_a_paper_that_was_never_made_is_told_with_the_command_that_makes_it(course: Course) -> None:
+def test_a_document_that_was_never_made_is_told_with_the_command_that_makes_it(course: Course) -> None:
     found = told(course, "build/hw1/key.pdf")
     assert found.reasons == ("the document `key` of `hw1` has not been made",)
     assert found.fixes == ("to bring it up to date: `derive build hw1 --only key`",)
@@ -176,8 +176,8 @@ def test_a_paper_that_was_never_made_is_told_with_the_command_that_makes_it(cour
 
 
 @pytest.mark.parametrize("name", ["key.pdf", "key.html", "solutions.pdf", "index.html", "one.pdf"])
-def test_the_command_that_is_named_works_for_papers_that_were_asked_for_before(course: Course, name: str) -> None:
-    built(course, papers=("key",))
+def test_the_command_that_is_named_works_for_documents_that_were_asked_for_before(course: Course, name: str) -> None:
+    built(course, documents=("key",))
     edited(course)
     found = told(course, f"build/hw1/{name}")
     assert found.reasons == ("`problems/hw1/one.yaml` has changed",)
@@ -185,9 +185,9 @@ def test_the_command_that_is_named_works_for_papers_that_were_asked_for_before(c
     assert told(course, f"build/hw1/{name}").reasons == ()
 
 
-def test_what_another_paper_alone_was_made_from_says_nothing_of_this_one(course: Course) -> None:
+def test_what_another_document_alone_was_made_from_says_nothing_of_this_one(course: Course) -> None:
     edited(course)
-    built(course, papers=("key",))
+    built(course, documents=("key",))
     assert told(course, "build/hw1/key.pdf").reasons == told(course, "build/hw1/one.pdf").reasons == ()
     found = told(course, "build/hw1/solutions.pdf")
     assert found.reasons == ("`problems/hw1/one.yaml` has changed",)

@@ -52,7 +52,7 @@ def build(arguments: argparse.Namespace) -> int:
         arguments.jobs,
         arguments.time_limit,
         evidence=arguments.evidence,
-        papers=arguments.only,
+        documents=arguments.only,
     )
     asked = _sets_asked(arguments.sets or set_names(root))
     if not asked:
