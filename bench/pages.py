@@ -28,7 +28,7 @@ from typing import Any
 
 from bench.ratios import PROBLEM, ROUNDS, SET, Edited, copied_tree, seconds
 from derive.building.cache import Cache, Kept, digest
-from derive.building.loaded import load
+from derive.building.preload import preload
 from derive.building.set_document import index_page, problem_document, problem_page, the_document
 from derive.building.solution import derived, rendered
 from derive.building.tex import chosen_engine, typeset
@@ -111,13 +111,13 @@ def html(root: Path, cache: Cache) -> None:
 def pdf(root: Path, cache: Cache) -> None:
     heading, problems, engine = problem_set(root, SET), pages(root, cache, TYPESET), chosen_engine(None)
     documents = {each.id.rpartition("/")[2]: (problem_document(root, each, heading), None) for each in problems}
-    for paper, _ in heading.papers:
-        numbers = Kept(cache, digest("numbers", paper)) if paper == SOLUTIONS else None
-        documents[paper] = the_document(paper)(root, heading, problems), numbers
+    for kind, _ in heading.documents:
+        numbers = Kept(cache, digest("numbers", kind)) if kind == SOLUTIONS else None
+        documents[kind] = the_document(kind)(root, heading, problems), numbers
     files = [file for each in problems for file in each.files if file[0].endswith(".pdf")]
     with tempfile.TemporaryDirectory() as folder:
         for name, (tex, numbers) in documents.items():
-            typeset(tex, Path(folder) / f"{name}.pdf", engine, numbers=numbers, beside=files, formats=cache)
+            typeset(tex, Path(folder) / f"{name}.pdf", engine, numbers=numbers, included=files, formats=cache)
 
 
 def in_a_worker(work: Callable[[], None]) -> Callable[[], None]:
@@ -127,7 +127,7 @@ def in_a_worker(work: Callable[[], None]) -> Callable[[], None]:
 
 def sets(tree: Path, folder: Path) -> dict[str, tuple[float, float]]:
     """Return the seconds of HTML and of PDF, with derivations from the cache and without."""
-    load(tree, derives=True, draws=True)
+    preload(tree, derives=True, draws=True)
     caches = Cache(folder / "html"), Cache(folder / "pdf")
     works = [in_a_worker(partial(make, tree, cache)) for make, cache in zip((html, pdf), caches, strict=True)]
     cold = [seconds(work, rounds=1) for work in works]
@@ -144,8 +144,8 @@ def main() -> None:
         told = f"{took['derivation']:.2f} s of derivation"
         more = took["given"] - took["derivation"]
         print(f"{'edit of a given, previewed':28}{took['given']:6.2f} s {more:6.2f} s over {told:22} aim 0.3 s")
-        for how, (web, paper) in sets(tree, Path(folder)).items():
-            print(f"{f'HTML of {SET}{how}':28}{web:6.2f} s {web / paper:6.2f} x its PDFs{'':18} aim 0.5")
+        for how, (web, kind) in sets(tree, Path(folder)).items():
+            print(f"{f'HTML of {SET}{how}':28}{web:6.2f} s {web / kind:6.2f} x its PDFs{'':18} aim 0.5")
 
 
 if __name__ == "__main__":

@@ -121,9 +121,9 @@ def derivation(root: Path, name: str) -> float:
     """Return the seconds in which this process derives or refuses a problem."""
     import scipy.integrate  # noqa: F401  the witness imports it and NumPy when it first integrates
 
-    from derive.building.loaded import load
+    from derive.building.preload import preload
 
-    load(root, derives=True, draws=False)
+    preload(root, derives=True, draws=False)
     started = time.process_time()
     refused = is_refused(root, name)
     taken = time.process_time() - started

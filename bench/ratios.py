@@ -110,8 +110,8 @@ def two_passes(pages: Path, folder: Path) -> float:
     engine, scratch, tex = chosen_engine(None), folder / "scratch.pdf", pages.read_text()
     beside = [(file.name, file.read_bytes()) for file in pages.parent.glob("*-*.pdf")]
     noted = Kept(Cache(folder / "noted" / pages.parent.name), digest("numbers"))
-    typeset(tex, scratch, engine, numbers=noted, beside=beside)
-    return 2 * seconds(lambda: typeset(tex, scratch, engine, numbers=noted, beside=beside), rounds=3)
+    typeset(tex, scratch, engine, numbers=noted, included=beside)
+    return 2 * seconds(lambda: typeset(tex, scratch, engine, numbers=noted, included=beside), rounds=3)
 
 
 def main() -> None:

@@ -61,6 +61,6 @@ def solved_once(root: Path, problem_id: str) -> tuple[Problem, Solved]:
     """Return the problem and its steps, before they become a page."""
     rendered_once(root, problem_id, only=())
     problem = load_problem(root, problem_id)
-    solved = Solved.from_data(kept().recalled_data(steps_key(problem)))
+    solved = Solved.from_data(kept().get_data(steps_key(problem)))
     assert solved is not None
     return problem, solved

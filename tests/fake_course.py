@@ -48,7 +48,7 @@ def rendered(
     draws: bool = False,
     only: tuple[str, ...] | None = None,
     evidence: str = "none",
-    papers: tuple[str, ...] = (),
+    documents: tuple[str, ...] = (),
 ) -> Rendered:
     path = path_of(root, problem_id)
     said = (root / path).read_text(encoding="utf-8").strip()
@@ -104,7 +104,7 @@ def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     return found.points, found.title
 
 
-def explained(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | list[tuple[str, ...]]:
+def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | list[tuple[str, ...]]:
     said = rendered(root, problem_id, None).title
     return f"{key}: {said} {as_json}" if key else [("step", "part"), ("torque", said)]
 
@@ -125,17 +125,17 @@ def report_document(root: Path, heading: object, problems: list[Rendered]) -> st
     return "".join(f"checks of {problem.id}\n" for problem in problems)
 
 
-def paper_document(root: Path, heading: object, problems: list[Rendered], paper: str) -> str:
-    return "".join(f"{paper} of {problem.id}\n" for problem in problems)
+def document_on_request(root: Path, heading: object, problems: list[Rendered], kind: str) -> str:
+    return "".join(f"{kind} of {problem.id}\n" for problem in problems)
 
 
-def the_document(paper: str) -> Callable[[Path, object, list[Rendered]], str]:
+def the_document(kind: str) -> Callable[[Path, object, list[Rendered]], str]:
     known = {"solutions": set_document, "problems": sheet_document, "report": report_document}
-    return known.get(paper) or partial(paper_document, paper=paper)
+    return known.get(kind) or partial(document_on_request, kind=kind)
 
 
-def paper_page(root: Path, heading: object, problems: list[Rendered], paper: str) -> str:
-    return f"<!-- {paper} -->{paper_document(root, heading, problems, paper)}"
+def document_page(root: Path, heading: object, problems: list[Rendered], kind: str) -> str:
+    return f"<!-- {kind} -->{document_on_request(root, heading, problems, kind)}"
 
 
 def problem_page(root: Path, problem: Rendered, heading: object) -> str:
@@ -208,10 +208,10 @@ def replace_derivation(monkeypatch: Any) -> None:
         report_document,
         problem_page,
         index_page,
-        paper_page,
+        document_page,
         the_document,
     )
-    modules = {"solution": (rendered,), "headline": (headline,), "explained": (explained,), "set_document": documents}
+    modules = {"solution": (rendered,), "headline": (headline,), "explain": (explain,), "set_document": documents}
     for name, functions in modules.items():
         fake = ModuleType(f"derive.building.{name}")
         for function in functions:

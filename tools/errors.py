@@ -128,7 +128,7 @@ def _each_complaint(text: str) -> Iterator[str]:
 def told() -> dict[str, tuple[str, str]]:
     """Return the cause and the fix of each code."""
     read = yaml.safe_load(TOLD.read_text(encoding="utf-8"))
-    return {code: (entry["cause"], entry["mend"]) for code, entry in read.items()}
+    return {code: (entry["cause"], entry["fix"]) for code, entry in read.items()}
 
 
 def document() -> str:
@@ -137,11 +137,11 @@ def document() -> str:
 
 
 def _entry(code: str, said: list[str]) -> str:
-    cause, mend = told()[code]
+    cause, fix = told()[code]
     lines = [f"## {code}", "", *(f"- {_in_words(message)}" for message in said[:MOST])]
     if said[MOST:]:
         lines.append(f"- and {len(said) - MOST} more like these")
-    lines += [*([""] if said else []), f"**Cause.** {cause}", "", f"**Fix.** {mend}", ""]
+    lines += [*([""] if said else []), f"**Cause.** {cause}", "", f"**Fix.** {fix}", ""]
     if code in examples():
         lines += ["```", examples()[code], "```", ""]
     return "\n".join(lines)

@@ -1,6 +1,6 @@
 """The work that builds keep: each value under a digest of everything that it depends on.
 
-Steps, pages, drawings and PDFs are kept in one folder, sealed. A value under its digest is valid for as long as the
+Steps, pages, drawings and PDFs are kept in one folder, signed. A value under its digest is valid for as long as the
 folder exists, so nothing in it is ever out of date; when there is too much, what was used longest ago is removed.
 """
 
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from derive import FOLDER
-from derive.building import sealed
+from derive.building import signed
 from derive.building.files import shown_path
 from derive.errors import BuildFailed, Complaint
 
@@ -38,7 +38,7 @@ def digest(*parts: str | bytes) -> str:
 def file_digest(path: Path) -> str:
     """Return the digest of the file's content; empty for a missing file, so that a new file counts as a change."""
     try:
-        return digest(sealed.regular_content(path))
+        return digest(signed.regular_content(path))
     except OSError:
         return ""
 
@@ -77,7 +77,7 @@ def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
 
 @dataclass(frozen=True)
 class Cache:
-    """The values kept in a folder, if there is one; with `fresh` none is recalled, and all are made and kept again."""
+    """The values kept in a folder, if there is one; with `fresh` none is read, and all are made and kept again."""
 
     folder: Path | None = None
     fresh: bool = False
@@ -86,24 +86,24 @@ class Cache:
         default_factory=list, compare=False, repr=False
     )  # warnings about what the disk refused
 
-    def recalled(self, key: str) -> bytes | None:
+    def get(self, key: str) -> bytes | None:
         """Return what was kept under that digest; nothing if it is missing or was changed."""
         if self.folder is None or self.fresh:
             return None
-        content = sealed.unsealed(self.folder / key, key)
+        content = signed.read_signed(self.folder / key, key)
         if content is not None:
             with suppress(OSError):  # the file may belong to another user
                 os.utime(self.folder / key, follow_symlinks=False)
         return content
 
-    def recalled_data(self, key: str) -> Any:
-        """Return data of JSON that was kept under that digest, like `recalled`."""
-        return sealed.data_of(self.recalled(key))
+    def get_data(self, key: str) -> Any:
+        """Return data of JSON that was kept under that digest, like `get`."""
+        return signed.data_of(self.get(key))
 
     def keep(self, key: str, content: bytes) -> None:
         if self.folder is not None:
             try:
-                sealed.seal(self.folder / key, key, content)
+                signed.write_signed(self.folder / key, key, content)
             except BuildFailed as refused:  # the next build has more to do, but this one succeeds
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
@@ -137,8 +137,8 @@ class Constrained:
     cache: Cache
     key: str
 
-    def recalled(self) -> bytes | None:
-        return self.cache.recalled(self.key)
+    def get(self) -> bytes | None:
+        return self.cache.get(self.key)
 
     def keep(self, content: bytes) -> None:
         self.cache.keep(self.key, content)

@@ -30,10 +30,10 @@ class Calls:
     @cached_property
     def earlier(self) -> dict[str, str]:
         """The calls kept before, the ones used last first."""
-        blocks = (self.cache.recalled(self.key) or b"").decode().split(BETWEEN)
+        blocks = (self.cache.get(self.key) or b"").decode().split(BETWEEN)
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 
-    def recalled(self, key: str) -> str | None:
+    def get(self, key: str) -> str | None:
         text = self.earlier.get(key)
         if text is not None:
             self.used[key] = text

@@ -8,8 +8,8 @@ from functools import partial
 from pathlib import Path
 
 from derive.building.files import writing
-from derive.building.lock import alone
-from derive.building.named import set_names
+from derive.building.lock import locked
+from derive.building.set_names import set_names
 from derive.building.sets import CACHE
 from derive.errors import Complaint, Misused, did_you_mean
 
@@ -30,7 +30,7 @@ def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str
     meant = [path for path in folders if not sets or path.name in sets]
     found = []
     for outputs in meant:
-        with alone(outputs, partial(waiting, outputs.name)):
+        with locked(outputs, partial(waiting, outputs.name)):
             folder = outputs / CACHE if cache else outputs
             if folder.is_dir() and not folder.is_symlink():
                 size = sum(each.lstat().st_size for each in folder.rglob("*") if not each.is_dir())

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from derive.building.cache import PACKAGES, package_version
 from derive.building.files import shown_path
-from derive.building.named import set_names
+from derive.building.set_names import set_names
 from derive.building.tex import chosen_engine, engines, typeset
 from derive.errors import DeriveError
 
@@ -30,11 +30,11 @@ class Finding:
     what: str
     good: bool
     found: str
-    mend: str = ""
+    fix: str = ""
 
     def shown(self) -> str:
         line = f"{'ok' if self.good else 'no':4}{self.what:10}{self.found}"
-        return line if self.good or not self.mend else f"{line}\n{'':14}{self.mend}"
+        return line if self.good or not self.fix else f"{line}\n{'':14}{self.fix}"
 
 
 def findings(root: Path | None, engine: str | None) -> list[Finding]:

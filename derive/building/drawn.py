@@ -76,7 +76,7 @@ def _files(
         told = sorted(_within(data, known))
     seen = data, told, _within(data, notation.known_dimensions), width, alt
     key = digest("drawing", engine_digest("matplotlib"), repr(seen))
-    svg, zero, pdf = (cache.recalled(key) or b"").partition(b"\0")
+    svg, zero, pdf = (cache.get(key) or b"").partition(b"\0")
     if not zero:
         try:
             sheet = _drawn(drawing, known, notation, words, width, alt, partial(_letters, cache))
@@ -123,7 +123,7 @@ def _drawn(
 def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
     """Return letters as they were kept for this drawing or for another one; the others are typeset now."""
     keys = {text: digest("letters", engine_digest("matplotlib"), text) for text in texts}
-    known = {text: kept for text, key in keys.items() if (kept := cache.recalled_data(key)) is not None}
+    known = {text: kept for text, key in keys.items() if (kept := cache.get_data(key)) is not None}
     if new := keys.keys() - known:
         from derive.render.drawing.lettering import letters_of
 

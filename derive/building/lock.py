@@ -14,7 +14,7 @@ from derive.errors import BuildFailed, Complaint
 
 
 @contextmanager
-def alone(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
+def locked(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
     """Hold the folder of a set. A lock of this kind is not inherited by workers, and ends with its process."""
     path = outputs / ".lock"
     with writing(path):  # do not follow a link, and do not wait for a pipe

@@ -13,13 +13,13 @@ from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from derive.building import sealed
+from derive.building import signed
 from derive.building.cache import digest, file_digest
 from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
 from derive.course.names import INDEX, ON_A_PAGE
 from derive.render.formats import built_formats
 
-Papers = Sequence[Sequence[str]]  # each document with the name of its files
+Documents = Sequence[Sequence[str]]  # each document with the name of its files
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
 
@@ -37,7 +37,7 @@ class Manifest:
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all that its page was made from
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
-    papers: list[list[str]] = field(default_factory=list)  # each document with the name of its files
+    documents: list[list[str]] = field(default_factory=list)  # each document with the name of its files
     asked: list[str] = field(default_factory=list)  # documents that the set does not name, but `--only` did
     evidence: str = ""  # how much, by the set's file, solutions show of their checks
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
@@ -48,14 +48,14 @@ class Manifest:
     @classmethod
     def read(cls, folder: Path) -> Manifest:
         """Return what was recorded here; an empty record if nothing was, or if it is not as it was written."""
-        recorded = sealed.data_of(sealed.unsealed(folder / ".manifest.json", _record_of(folder)))
+        recorded = signed.data_of(signed.read_signed(folder / ".manifest.json", _record_of(folder)))
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 
     def save(self) -> None:
         used = {*self.made_by.values(), *self.typeset_by.values()}
         self.recipes = {key: recipe for key, recipe in self.recipes.items() if key in used}
         recorded = {name: value for name, value in asdict(self).items() if name != "folder"}
-        sealed.seal(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
+        signed.write_signed(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
 
     def remove(self, output: str) -> None:
         """Remove an output if it is a file of this folder and still as it was written."""
@@ -71,13 +71,13 @@ class Manifest:
         for table in (self.pages, self.inputs, self.drawings, self.made_by, self.typeset_from, self.typeset_by):
             table.pop(name, None)
 
-    def replace_papers(self, papers: list[list[str]]) -> None:
+    def replace_documents(self, documents: list[list[str]]) -> None:
         """Remove the documents that are not among these, which the set has from now on."""
-        files = {file for _, file in papers}
-        for paper, file in self.papers:
-            if [paper, file] not in papers and file not in files:
+        files = {file for _, file in documents}
+        for kind, file in self.documents:
+            if [kind, file] not in documents and file not in files:
                 self.forget(file)
-        self.papers = papers
+        self.documents = documents
 
     def page_key(self, problem: str, recipe: str, read: Callable[[str], str]) -> str:
         """Return the key of its page: a digest of how it was made, and of what `read` gives for each of its inputs."""
@@ -102,17 +102,17 @@ class Manifest:
         for problem in [name] if name in self.pages else self.problems:
             self.typeset_from[name] |= self.inputs[problem]
 
-    def is_current(self, recipe: Recipe, engine: str, read: Callable[[str], str], papers: Papers) -> bool:
+    def is_current(self, recipe: Recipe, engine: str, read: Callable[[str], str], documents: Documents) -> bool:
         """Return whether nothing need be done for the problems of the set and for these documents."""
         page, document = recipe_digest(recipe), recipe_digest(of_documents(recipe, engine))
-        documents = [*self.problems, *(file for _, file in papers), INDEX]
-        of_papers = [output for paper, file in papers for output in outputs_of_paper(paper, file)]
+        names = [*self.problems, *(file for _, file in documents), INDEX]
+        of_set = [output for kind, file in documents for output in outputs_of_document(kind, file)]
         return (
             self.complete
             and all(read(path) == content for path, content in self.set_inputs.items())
             and all(self.pages.get(name) == self.page_key(name, page, read) for name in self.problems)
-            and all(self.typeset_by.get(name) == document and self._reads_so(name, read) for name in documents)
-            and all(self.holds(name) for name in [*self._outputs_of_problems(), *of_papers, f"{INDEX}.html"])
+            and all(self.typeset_by.get(name) == document and self._reads_so(name, read) for name in names)
+            and all(self.holds(name) for name in [*self._outputs_of_problems(), *of_set, f"{INDEX}.html"])
         )
 
     def _reads_so(self, document: str, read: Callable[[str], str]) -> bool:
@@ -127,14 +127,14 @@ class Manifest:
         return (self.folder / f"{document}.pdf").is_file() and not (was == is_now and self._reads_so(document, read))
 
     @property
-    def documents(self) -> list[str]:
+    def document_files(self) -> list[str]:
         """The names of the files of the documents of the whole set."""
-        return [*(file for _, file in self.papers), INDEX]
+        return [*(file for _, file in self.documents), INDEX]
 
     def all_outputs(self) -> list[str]:
         """Return the outputs of every problem, of every document, and of the set for a browser."""
-        of_papers = [output for paper, file in self.papers for output in outputs_of_paper(paper, file)]
-        return [*self._outputs_of_problems(), *of_papers, f"{INDEX}.html"]
+        of_set = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
+        return [*self._outputs_of_problems(), *of_set, f"{INDEX}.html"]
 
     def _outputs_of_problems(self) -> list[str]:
         return [output for name in self.problems for output in self.outputs_of(name)]
@@ -143,8 +143,8 @@ class Manifest:
         """Return all outputs of a problem, with its drawings; or of a document of the set, by the name of its files."""
         if name == INDEX:
             return [f"{INDEX}.html"]
-        if of_paper := next((paper for paper, file in self.papers if file == name), None):
-            return outputs_of_paper(of_paper, name)
+        if kind := next((kind for kind, file in self.documents if file == name), None):
+            return outputs_of_document(kind, name)
         return [*outputs_of(name), *self.drawings.get(name, [])]
 
     def holds(self, output: str) -> bool:
@@ -166,7 +166,7 @@ def _is_record(recorded: Any) -> bool:
         return False
     tables = [recorded[name] for name in ("set_inputs", "pages", "outputs", "made_by", "typeset_by")]
     tables += [each for name in ("inputs", "recipes", "typeset_from") for each in recorded[name].values()]
-    lists = [recorded["problems"], recorded["asked"], *recorded["papers"], *recorded["drawings"].values()]
+    lists = [recorded["problems"], recorded["asked"], *recorded["documents"], *recorded["drawings"].values()]
     if not all(isinstance(each, dict) for each in tables):
         return False
     texts = [text for table in tables for text in table.values()]
@@ -195,6 +195,6 @@ def outputs_of(name: str) -> list[str]:
     return [f"{name}.{suffix}" for suffix in ("pdf", "tex", "html", *(f.suffix for f in built_formats().values()))]
 
 
-def outputs_of_paper(paper: str, file: str) -> list[str]:
+def outputs_of_document(kind: str, file: str) -> list[str]:
     """Return the outputs of a document of the whole set."""
-    return [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if paper in ON_A_PAGE else ()))]
+    return [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if kind in ON_A_PAGE else ()))]

@@ -62,7 +62,7 @@ def without_preamble(
     key = digest("format", above, identity)
     file, own = Path(at_hand().name, key), place / f"{NAME}.fmt"
     if not file.is_file():
-        made = cache.recalled(key)
+        made = cache.get(key)
         if made is None:
             made = _dumped(above, [engine, "-ini", *options], environment, place)
             if made != CANNOT or shutil.disk_usage(place).free > ROOM:  # otherwise the disk may have been full

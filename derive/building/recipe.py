@@ -14,7 +14,7 @@ from derive.building.cache import PACKAGES, digest, engine_digest, file_digest, 
 
 MODULES = "the modules of derive"
 EDITED = "edited during the build"  # instead of a digest
-OPTIONS = DETAIL, EVIDENCE, PAPERS, ENGINE = "--detail", "--evidence", "--only", "--engine"
+OPTIONS = DETAIL, EVIDENCE, ONLY, ENGINE = "--detail", "--evidence", "--only", "--engine"
 OWN = "templates of derive"
 
 Recipe = Mapping[str, str]
@@ -28,7 +28,7 @@ def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
     """Return the recipe of a document of the set: typeset by this engine, whatever else is made of the problems."""
-    return {**recipe, PAPERS: "", ENGINE: engine}
+    return {**recipe, ONLY: "", ENGINE: engine}
 
 
 def recipe_digest(recipe: Recipe) -> str:

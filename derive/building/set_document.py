@@ -35,7 +35,7 @@ class Listed:
 
     number: str
     problem: Rendered
-    paper: str = SOLUTIONS
+    kind: str = SOLUTIONS
 
     @property
     def id(self) -> Tex:
@@ -43,7 +43,7 @@ class Listed:
 
     @property
     def body(self) -> Tex:
-        return Tex(self.problem.papers.get(self.paper, "")) if self.paper in MORE else self.problem.latex
+        return Tex(self.problem.documents.get(self.kind, "")) if self.kind in MORE else self.problem.latex
 
     @property
     def name(self) -> str:
@@ -60,7 +60,7 @@ class Listed:
 
 def problem_document(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     """Return a complete .tex of one problem, numbered as in its set."""
-    return _document(root, "document.tex.j2", heading, [_alone(problem, heading)])
+    return _document(root, "document.tex.j2", heading, [_standalone(problem, heading)])
 
 
 def set_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
@@ -73,23 +73,23 @@ def sheet_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]
     return _document(root, "sheet.tex.j2", heading, _listed(problems))
 
 
-def paper_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered], paper: str) -> str:
+def document_on_request(root: Path, heading: ProblemSet, problems: Sequence[Rendered], kind: str) -> str:
     """Return a complete .tex of one of the documents that are made only on request."""
-    return _document(root, "set.tex.j2", heading, _listed(problems, paper), paper)
+    return _document(root, "set.tex.j2", heading, _listed(problems, kind), kind)
 
 
-def paper_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], paper: str) -> str:
+def document_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], kind: str) -> str:
     """Return the same for a browser, on one page; the sheet has such a page too."""
-    kind = phrases(template_folder(root)).labels["documents"][paper]
-    listed = _listed(problems, paper)
-    bodies = told_once([(each.name, each.number, each.problem.papers.get(f"{paper}.html", "")) for each in listed])
-    return _page(root, "paper.html.j2", heading, listed, kind_of_paper=kind, bodies=bodies)
+    label = phrases(template_folder(root)).labels["documents"][kind]
+    listed = _listed(problems, kind)
+    bodies = told_once([(each.name, each.number, each.problem.documents.get(f"{kind}.html", "")) for each in listed])
+    return _page(root, "document.html.j2", heading, listed, kind_of_document=label, bodies=bodies)
 
 
-def the_document(paper: str) -> Callable[[Path, ProblemSet, Sequence[Rendered]], str]:
+def the_document(kind: str) -> Callable[[Path, ProblemSet, Sequence[Rendered]], str]:
     """Return the function that makes the .tex of a document."""
     known = {SOLUTIONS: set_document, SHEET: sheet_document, REPORT: report_document}
-    return known.get(paper) or partial(paper_document, paper=paper)
+    return known.get(kind) or partial(document_on_request, kind=kind)
 
 
 def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
@@ -101,12 +101,12 @@ def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered
 
 def problem_page(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     """Return the page of one problem for a browser: one file with everything that it shows."""
-    return _page(root, "solution.html.j2", heading, [_alone(problem, heading)])
+    return _page(root, "solution.html.j2", heading, [_standalone(problem, heading)])
 
 
 def problem_main(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     """Return the main part of the page of a problem."""
-    return _page(root, "main.html.j2", heading, [_alone(problem, heading)])
+    return _page(root, "main.html.j2", heading, [_standalone(problem, heading)])
 
 
 def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
@@ -122,25 +122,23 @@ def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) ->
 def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], **more: Any) -> str:
     folder = template_folder(root)
     font = b64encode((folder / HTML / FONT).read_bytes()).decode()
-    papers = {"documents": heading.papers, "on_a_page": ON_A_PAGE}
-    return filled_html(folder, template, {**_facts(root, heading, problems), **papers, "font": font, **more})
+    documents = {"documents": heading.documents, "on_a_page": ON_A_PAGE}
+    return filled_html(folder, template, {**_facts(root, heading, problems), **documents, "font": font, **more})
 
 
-def _alone(problem: Rendered, heading: ProblemSet) -> Listed:
+def _standalone(problem: Rendered, heading: ProblemSet) -> Listed:
     """Return a problem with its number in the set, if the set lists it."""
     return Listed(str(heading.numbers.get(problem.id.rpartition("/")[2], "")), problem)
 
 
-def _listed(problems: Sequence[Rendered], paper: str = SOLUTIONS) -> list[Listed]:
-    return [Listed(str(number), problem, paper) for number, problem in enumerate(problems, 1)]
+def _listed(problems: Sequence[Rendered], kind: str = SOLUTIONS) -> list[Listed]:
+    return [Listed(str(number), problem, kind) for number, problem in enumerate(problems, 1)]
 
 
-def _document(
-    root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], paper: str = SOLUTIONS
-) -> str:
+def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], kind: str = SOLUTIONS) -> str:
     facts = _facts(root, heading, problems)
     labels = facts["labels"]
-    facts["kind_of_paper"] = labels["solutions"] if paper == SOLUTIONS else labels["documents"][paper]
+    facts["kind_of_document"] = labels["solutions"] if kind == SOLUTIONS else labels["documents"][kind]
     return whole_latex(template_folder(root), template, facts)
 
 

@@ -16,16 +16,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Constrained, digest, engine_digest, file_digest, not_kept
+from derive.building.documents import named_documents, still_there, with_asked
 from derive.building.files import folder, write, writing
-from derive.building.loaded import load
-from derive.building.lock import alone
-from derive.building.manifest import Manifest, Papers, outputs_of, outputs_of_paper
-from derive.building.named import check_asked, set_folder
-from derive.building.papers import named_papers, still_there, with_asked
+from derive.building.lock import locked
+from derive.building.manifest import Documents, Manifest, outputs_of, outputs_of_document
 from derive.building.preamble import at_hand, beginning
-from derive.building.recipe import EDITED, EVIDENCE, MODULES, PAPERS, Recipe, edited_since, recipe_digest, recipe_of
+from derive.building.preload import preload
+from derive.building.recipe import EDITED, EVIDENCE, MODULES, ONLY, Recipe, edited_since, recipe_digest, recipe_of
 from derive.building.scratch import sweep
-from derive.building.sealed import regular_content
+from derive.building.set_names import check_asked, set_folder
+from derive.building.signed import regular_content
 from derive.building.staleness import left_older
 from derive.building.tex import Engine, by_the_clock, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
@@ -51,7 +51,7 @@ class Options:
     jobs: int = 0  # 0: as many as there are processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems of the set, if not all of them
-    papers: tuple[str, ...] = ()  # these documents alone, if not those that the set itself names
+    documents: tuple[str, ...] = ()  # these documents alone, if not those that the set itself names
     evidence: str | None = None  # how much solutions show of their checks, if not what the set says
 
 
@@ -107,7 +107,7 @@ def built_set(
     engine = chosen_engine(options.engine)
     check_asked(root, set_id, options.only)
     outputs = folder(set_folder(root, set_id))
-    with alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
+    with locked(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
         sweep(outputs, outputs / CACHE)
         return _Build(root, set_id, options, engine, outputs, tell, edits, ended).report()
 
@@ -131,9 +131,9 @@ class _Build:
         self.started = time.time_ns()
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
-        self.papers = with_asked(self.manifest.papers, options.papers)
+        self.documents = with_asked(self.manifest.documents, options.documents)
         self.made_by = recipe_of(root, options.detail, options.evidence or self.manifest.evidence)
-        self.made_by[PAPERS] = self._papers_told()
+        self.made_by[ONLY] = self._kinds_of_each_problem()
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)
         self.derived: dict[str, Rendered] = {}
@@ -152,9 +152,9 @@ class _Build:
             self._rebuild()
         result.problems = len(self.names)
         if not result.failed:
-            if self._is_current(self.papers) and EDITED not in self._recipe().values():
+            if self._is_current(self.documents) and EDITED not in self._recipe().values():
                 self._keep(self._stamp)
-            names = [*self.names, *(file for _, file in self.papers)]
+            names = [*self.names, *(file for _, file in self.documents)]
             result.warnings += left_older(manifest, self.set_id, names, self.made_by, cache(self._digest))
         result.warnings += dict.fromkeys(self.cache.unkept)
         result.seconds = (time.time_ns() - self.started) / 1e9
@@ -167,9 +167,9 @@ class _Build:
         except DeriveError as error:
             self.cache.unkept.extend(map(not_kept, error.complaints))
 
-    def _is_current(self, papers: Papers) -> bool:
-        there = papers == still_there(papers, self.manifest, self.options.papers)
-        return there and self.manifest.is_current(self.made_by, self.engine.identity, cache(self._digest), papers)
+    def _is_current(self, documents: Documents) -> bool:
+        there = documents == still_there(documents, self.manifest, self.options.documents)
+        return there and self.manifest.is_current(self.made_by, self.engine.identity, cache(self._digest), documents)
 
     def _rebuild(self) -> None:
         from derive.course.problem_set import problem_set
@@ -181,13 +181,13 @@ class _Build:
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.manifest.evidence = heading.evidence
-        self.papers = named_papers(heading, self.manifest, self.options.papers)
+        self.documents = named_documents(heading, self.manifest, self.options.documents)
         self.made_by[EVIDENCE] = self.options.evidence or heading.evidence
-        self.made_by[PAPERS] = self._papers_told()
+        self.made_by[ONLY] = self._kinds_of_each_problem()
         shown = EvidenceShown(self.made_by[EVIDENCE])
         held, wanted = self.manifest.holds, self._wanted()
-        there = [(paper, file) for paper, file in self.papers if [paper, file] in wanted or held(f"{file}.pdf")]
-        self.heading = replace(heading, evidence=shown, papers=tuple(there))
+        there = [(kind, file) for kind, file in self.documents if [kind, file] in wanted or held(f"{file}.pdf")]
+        self.heading = replace(heading, evidence=shown, documents=tuple(there))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         if unlisted := [name for name in self.options.only if name not in self.names]:
             message = f"the set `{self.set_id}` does not list `{unlisted[0]}`"
@@ -217,13 +217,13 @@ class _Build:
                 self._keep(self.manifest.save)
                 self.cache.evict()
 
-    def _papers_told(self) -> str:
+    def _kinds_of_each_problem(self) -> str:
         """Return the documents that are made of each problem in addition to its solution."""
-        return ",".join(sorted(paper for paper, _ in self.papers if paper in ON_A_PAGE))
+        return ",".join(sorted(kind for kind, _ in self.documents if kind in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:
         """Return the documents that are made now: all that the set has, or those that are asked for."""
-        return [pair for pair in self.papers if not self.options.papers or pair[0] in self.options.papers]
+        return [pair for pair in self.documents if not self.options.documents or pair[0] in self.options.documents]
 
     def _finish(self) -> None:
         """Finish everything that is under way, and what follows from it."""
@@ -250,7 +250,7 @@ class _Build:
 
     def _pages(self, keys: Mapping[str, str]) -> None:
         """Take pages of problems by name and key: those that an earlier build kept, while the others are derived."""
-        kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.recalled_data(key)))}
+        kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.get_data(key)))}
         self._derive([name for name in keys if name not in kept])
         for name, page in kept.items():
             self.ended(Ended("kept", f"{self.set_id}/{name}"))
@@ -265,17 +265,16 @@ class _Build:
             self._prepare()
         several, again = len(names) > 1, bool(self.edits)
         read = self.set_id if several else ""
-        load(self.root, derives=several or again, draws=self.anew or again, set_id=read)
+        preload(self.root, derives=several or again, draws=self.anew or again, set_id=read)
         from derive.building.solution import rendered
 
         self._prepare()
         shown = EvidenceShown(self.made_by[EVIDENCE])
-        more = [paper for paper, _ in self.papers if paper in ON_A_PAGE]
+        more = [kind for kind, _ in self.documents if kind in ON_A_PAGE]
         for name in names:
             problem = f"{self.set_id}/{name}"
-            work = partial(
-                rendered, self.root, problem, self.options.detail, self.cache, draws=True, evidence=shown, papers=more
-            )
+            work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True)
+            work = partial(work, evidence=shown, documents=more)
             self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
         self.crew.start()
 
@@ -313,8 +312,8 @@ class _Build:
     def _check_files(self, name: str, derived: Rendered) -> None:
         """Remove drawings that the problem no longer has; report a name that two outputs would have."""
         files = [file for file, _ in derived.files]
-        of_papers = [output for paper, file in self.papers for output in outputs_of_paper(paper, file)]
-        others = {*(output for other in self.names for output in outputs_of(other)), *of_papers, f"{INDEX}.html"}
+        of_documents = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
+        others = {*(output for other in self.names for output in outputs_of(other)), *of_documents, f"{INDEX}.html"}
         for file in self.manifest.drawings.get(name, []):
             if file not in {*files, *others}:
                 self.manifest.remove(file)
@@ -352,20 +351,20 @@ class _Build:
         """Make the documents of the set, as soon as its last problem is derived."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.building.set_document import index_page, paper_page, the_document
+        from derive.building.set_document import document_page, index_page, the_document
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
-        for paper, file in self._wanted():
-            numbers = Constrained(self.cache, digest("numbers", paper, self.engine.identity))  # then one run is enough
-            document = partial(the_document(paper), self.root, self.heading, parts)
-            of_set = partial(paper_page, self.root, self.heading, parts, paper)
-            page = self._page(file, of_set) if paper in ON_A_PAGE else {}
-            rank = FIRST if paper == SOLUTIONS else LAST
-            beside = files if paper != REPORT else ()
-            self._typeset(file, document, page, beside, rank, numbers if paper not in (SHEET, REPORT) else None)
+        for kind, file in self._wanted():
+            numbers = Constrained(self.cache, digest("numbers", kind, self.engine.identity))  # then one run is enough
+            document = partial(the_document(kind), self.root, self.heading, parts)
+            of_set = partial(document_page, self.root, self.heading, parts, kind)
+            page = self._page(file, of_set) if kind in ON_A_PAGE else {}
+            rank = FIRST if kind == SOLUTIONS else LAST
+            beside = files if kind != REPORT else ()
+            self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
         """Return a page for a browser, which accompanies a PDF."""
@@ -392,16 +391,16 @@ class _Build:
             return
         source = digest("pdf", tex, self.engine.identity, *(content for _, content in files))
         texts = {f"{name}.tex": tex, **texts}
-        kept = self.cache.recalled(source)
+        kept = self.cache.get(source)
         if kept is not None:
             if self._record({pdf: kept, **texts}):
                 self._was_made(name)
             return
         limit = self.options.limit
-        beside = [file for file in files if file[0].endswith(".pdf")]
+        included = [file for file in files if file[0].endswith(".pdf")]
         work = partial(
             typeset, tex, self.outputs / pdf, self.engine,
-            timeout=limit, numbers=numbers, beside=beside, formats=replace(self.cache, fresh=False),
+            timeout=limit, numbers=numbers, included=included, formats=replace(self.cache, fresh=False),
         )  # fmt: skip
         job = Job(f"the pages of `{self.set_id}/{name}`", work, by_the_clock(limit), rank=rank)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
@@ -410,7 +409,7 @@ class _Build:
         """Write the text and the source after their PDF, so that files next to each other belong together."""
         self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
         name = pdf.removesuffix(".pdf")
-        if name in [file for _, file in self.papers] and outcome.error:
+        if name in [file for _, file in self.documents] and outcome.error:
             self.whole_failed = outcome
             return
         if not self._took(outcome):

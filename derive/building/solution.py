@@ -39,7 +39,7 @@ from derive.page.folding import with_details
 from derive.page.hints import with_hints
 from derive.page.rubric import credits_of, faults_of_rubric
 from derive.page.template import template_folder
-from derive.page.theorems import alone
+from derive.page.theorems import standalone
 from derive.page.tree import Document
 from derive.page.wording import phrases
 from derive.render.formats import HTML, TYPESET, Solution, built_formats, formats
@@ -47,9 +47,9 @@ from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import in_one_line
+from derive.render.printing.documents import document_fragments
 from derive.render.printing.html_page import NO_HTML, problem_html
 from derive.render.printing.latex_page import NOT_TYPESET, problem_latex
-from derive.render.printing.papers import paper_fragments
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Rendered, SourceFault
 from derive.steps import record
@@ -76,20 +76,20 @@ def rendered(
     draws: bool = False,
     only: Collection[str] | None = None,
     evidence: EvidenceShown = EvidenceShown.NONE,
-    papers: Collection[str] = (),
+    documents: Collection[str] = (),
 ) -> Rendered:
     """Derive a problem and print it; raise `DeriveError` with everything that is wrong.
 
     Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time. `draws`
     says whether the files of its drawings are wanted too, `only` which formats are wanted (default: all of a build),
-    `evidence` how much it shows about its checks, and `papers` which other documents: the key, hints, a rubric.
+    `evidence` how much it shows about its checks, and `documents` which other documents: the key, hints, a rubric.
     """
     begun = time.time_ns()
     problem = load_problem(root, problem_id)
     _check_characters(problem)
     phrases(template_folder(root))  # raises what is wrong with them, before anything is derived
     solved, failures = _solved(problem, cache, begun)
-    page = printed(problem, solved, failures, detail, cache, draws, only, evidence, papers)
+    page = printed(problem, solved, failures, detail, cache, draws, only, evidence, documents)
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
 
 
@@ -102,7 +102,7 @@ def printed(
     draws: bool = False,
     only: Collection[str] | None = None,
     evidence: EvidenceShown = EvidenceShown.NONE,
-    papers: Collection[str] = (),
+    documents: Collection[str] = (),
 ) -> Rendered:
     """Return the page of a derived problem, as `rendered` does; the `failures` are reported with its warnings."""
     root, words = problem.root, phrases(template_folder(problem.root))
@@ -128,7 +128,7 @@ def printed(
     Faults(fault for fault in of_numbers if fault.severity == "error").stop()
     warnings = (*problem.warnings, *document.warnings, *of_numbers, *failures)
     solution = Solution(
-        alone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
+        standalone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
     )
     wanted = {*built_formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
@@ -136,10 +136,10 @@ def printed(
     rubric = {chr(ord("a") + i): part.rubric for i, part in enumerate(problem.parts)}
     Faults(faults_of_rubric(document, rubric)).stop()
 
-    def page_of(paper: str) -> Document:
-        if paper == HINTS:
+    def page_of(kind: str) -> Document:
+        if kind == HINTS:
             return with_hints(document, problem, derivation, values, words)
-        return full() if paper == KEY else document
+        return full() if kind == KEY else document
 
     page = NO_HTML
     if HTML in wanted:
@@ -157,8 +157,8 @@ def printed(
         report=fragments.report,
         html=page.solution,
         title_html=page.title,
-        papers=paper_fragments(
-            papers,
+        documents=document_fragments(
+            documents,
             page_of,
             credits_of(document, rubric, values.values()),
             words,
@@ -207,7 +207,7 @@ def _edited(problem: Problem, begun: int) -> bool:
 @lru_cache(maxsize=4)  # for a process that asks more than once
 def _kept(cache: Cache, key: str) -> Solved:
     """Return what was kept under a key."""
-    kept = Solved.from_data(cache.recalled_data(key))
+    kept = Solved.from_data(cache.get_data(key))
     if kept is None:
         raise KeyError(key)
     return kept

@@ -14,11 +14,10 @@ from pathlib import Path
 from derive.building.cache import PACKAGES, file_digest
 from derive.building.files import shown_path
 from derive.building.manifest import Manifest
-from derive.building.named import check_asked, set_folder, set_names
-from derive.building.recipe import DETAIL, ENGINE, EVIDENCE, MODULES, PAPERS, Recipe, recipe_of
+from derive.building.recipe import DETAIL, ENGINE, EVIDENCE, MODULES, ONLY, Recipe, recipe_of
+from derive.building.set_names import check_asked, set_folder, set_names
 from derive.building.tex import chosen_engine
-from derive.course.names import INDEX, NAME
-from derive.course.names import PAPERS as KINDS_OF_PAPERS
+from derive.course.names import DOCUMENTS, INDEX, NAME
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
 SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # of files that builds write
@@ -44,13 +43,13 @@ class Staleness:
 
     of: str
     reasons: tuple[str, ...]
-    mends: tuple[str, ...] = ()
+    fixes: tuple[str, ...] = ()
 
     def shown(self) -> str:
         if not self.reasons:
             return f"{self.of} is up to date"
         told = [*self.reasons[:MOST], *([f"and {len(self.reasons) - MOST} more"] if self.reasons[MOST:] else [])]
-        return "\n".join([f"{self.of} is out of date:", *(f"  {each}" for each in told), *self.mends])
+        return "\n".join([f"{self.of} is out of date:", *(f"  {each}" for each in told), *self.fixes])
 
 
 def left_older(
@@ -74,12 +73,12 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
         check_asked(root, set_id)
         return set_id, ()
     manifest = Manifest.read(set_folder(root, set_id))
-    known = {*manifest.outputs, *(file for part in [*manifest.problems, *manifest.documents] for file in
+    known = {*manifest.outputs, *(file for part in [*manifest.problems, *manifest.document_files] for file in
                                   manifest.outputs_of(part))}  # fmt: skip
     if built and name in known:
         return set_id, (name,)
     stem = Path(name).stem if built else name
-    if stem in manifest.documents or stem in KINDS_OF_PAPERS:
+    if stem in manifest.document_files or stem in DOCUMENTS:
         check_asked(root, set_id)
     elif built and Path(name).suffix.removeprefix(".") not in SUFFIXES:
         help_line = did_you_mean(name, sorted(known)) or _SUCH_AS
@@ -104,14 +103,14 @@ def staleness(asked: Asked) -> Staleness:
     """Return why these outputs would be made again by `derive build`."""
     folder = set_folder(asked.root, asked.set_id)
     manifest = Manifest.read(folder)
-    parts = [*manifest.problems, *manifest.documents]
+    parts = [*manifest.problems, *manifest.document_files]
     outputs = asked.outputs or tuple(file for part in parts for file in manifest.outputs_of(part))
     of = shown_path(folder / outputs[0]) if len(outputs) == 1 else _named(asked, manifest)
     if not manifest.pages:
         why = f"`{asked.set_id}` has not been built here yet"
         return Staleness(of, (why,), (_built_by(asked, manifest, outputs),))
     found = tuple(dict.fromkeys(_reasons(asked, manifest, outputs)))
-    return Staleness(of, found, tuple(_mends(asked, manifest, outputs)) if found else ())
+    return Staleness(of, found, tuple(_fixes(asked, manifest, outputs)) if found else ())
 
 
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
@@ -136,12 +135,12 @@ def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterat
     for name in outputs:
         if _document_of(manifest, name) in made:
             yield from _of_output(manifest, name)
-    if not manifest.complete and any(name in manifest.documents for name in documents):
+    if not manifest.complete and any(name in manifest.document_files for name in documents):
         yield f"the last build of `{asked.set_id}` was not of all its problems, was interrupted or found an error"
 
 
 def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
-    if name in manifest.documents or name in KINDS_OF_PAPERS:
+    if name in manifest.document_files or name in DOCUMENTS:
         return f"the document `{name}` of `{asked.set_id}` has not been made"
     if _is_unlisted(asked, manifest, name):
         return f"the set `{asked.set_id}` does not list `{name}`"
@@ -151,7 +150,7 @@ def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
 def _is_unlisted(asked: Asked, manifest: Manifest, name: str) -> bool:
     """Return whether the present set lacks this problem; unknown after an edit, as the set is not read again."""
     edited = any(file_digest(asked.root / path) != before for path, before in manifest.set_inputs.items())
-    return not edited and name not in [*manifest.problems, *manifest.documents, *KINDS_OF_PAPERS]
+    return not edited and name not in [*manifest.problems, *manifest.document_files, *DOCUMENTS]
 
 
 def _documents(manifest: Manifest, outputs: Sequence[str]) -> list[str]:
@@ -180,7 +179,7 @@ def _of_file(path: str, before: str, now: str) -> Iterator[str]:
 def _of_recipe(before: Recipe, now: Recipe) -> Iterator[str]:
     for name in sorted({*before, *now}):
         was, is_now = before.get(name, ""), now.get(name, "")
-        if was == is_now or name in (PAPERS, ENGINE):
+        if was == is_now or name in (ONLY, ENGINE):
             continue
         if name in (DETAIL, EVIDENCE):
             yield f"it was made with {_option(name, was)}, and would be with {_option(name, is_now)}"
@@ -218,7 +217,7 @@ def _of_output(manifest: Manifest, name: str) -> Iterator[str]:
         yield f"`{name}` has been edited since the build wrote it"
 
 
-def _mends(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
+def _fixes(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
     yield _built_by(asked, manifest, outputs)
     now = recipe_of(asked.root, asked.detail, asked.evidence or manifest.evidence)
     options: dict[str, str] = {}
@@ -233,9 +232,9 @@ def _mends(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator
 def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
     """Return the command that makes these outputs, among all that a build of their problem or their set makes."""
     documents = _documents(manifest, outputs)
-    papers = [name for name in documents if name in KINDS_OF_PAPERS and name not in manifest.documents]
-    only = ",".join(papers) if papers and manifest.pages else ""
-    options = {DETAIL: asked.detail, EVIDENCE: asked.evidence, ENGINE: asked.engine, PAPERS: only}
+    kinds = [name for name in documents if name in DOCUMENTS and name not in manifest.document_files]
+    only = ",".join(kinds) if kinds and manifest.pages else ""
+    options = {DETAIL: asked.detail, EVIDENCE: asked.evidence, ENGINE: asked.engine, ONLY: only}
     said = "".join(f" {name} {value}" for name, value in options.items() if value)
     unlisted = [name for name in documents if _is_unlisted(asked, manifest, name)] if manifest.pages else []
     first = f"list `{unlisted[0]}` in `problems/{asked.set_id}/set.yaml`, then " if unlisted else ""
@@ -246,5 +245,5 @@ def _named(asked: Asked, manifest: Manifest) -> str:
     """Return the id of the problem if the outputs are of one problem only, else the set."""
     documents = _documents(manifest, asked.outputs)
     (one,) = documents if len(documents) == 1 else ("",)
-    of_set = one in (*manifest.documents, *KINDS_OF_PAPERS, INDEX)
+    of_set = one in (*manifest.document_files, *DOCUMENTS, INDEX)
     return f"{asked.set_id}/{one}" if one and not of_set else asked.set_id

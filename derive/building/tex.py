@@ -107,11 +107,11 @@ def chosen_engine(name: str | None) -> Engine:
     if engine:
         return engine
     if not wanted:
-        message, mend = "no TeX engine was found", f"{INSTALL}, or install TeX Live"
+        message, fix = "no TeX engine was found", f"{INSTALL}, or install TeX Live"
     else:
         message = f"the TeX engine `{wanted}` is not installed"
-        mend = f"use `{found[0].name}`, which is" if found else f"install `{wanted}`, or {INSTALL}"
-    raise BuildFailed(Complaint("no-tex", message, help=mend))
+        fix = f"use `{found[0].name}`, which is" if found else f"install `{wanted}`, or {INSTALL}"
+    raise BuildFailed(Complaint("no-tex", message, help=fix))
 
 
 def typeset(
@@ -122,22 +122,22 @@ def typeset(
     timeout: float = 120,
     log: Path | None = None,
     numbers: Constrained | None = None,
-    beside: Sequence[tuple[str, bytes]] = (),
+    included: Sequence[tuple[str, bytes]] = (),
     formats: Cache = NO_CACHE,
 ) -> bool:
     """Write the PDF of `tex` to `target`; return whether its content changed. On failure `target` is unchanged.
 
     `numbers` are the page numbers of the last time, kept for the next: if they are still right, one run is enough;
-    `beside` are files that the source includes, such as its drawings; `formats` keeps the beginning of documents.
+    `included` are files that the source includes, such as its drawings; `formats` keeps the beginning of documents.
     """
     kept = (log or target.parent / "log") / target.stem
     with Scratch() as name:
         source = Path(name) / f"{target.stem}.tex"
         write(source, tex)
-        for file, content in beside:
+        for file, content in included:
             write(Path(name) / file, content)
         noted = source.with_suffix(".aux")
-        begun = numbers.recalled() if numbers else None
+        begun = numbers.get() if numbers else None
         if begun is not None:
             noted.write_bytes(begun)
         unnumbered = numbers is not None and begun is None
@@ -270,9 +270,9 @@ def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) ->
     where = f" in {mark}" if mark else ""
     notes = (f"`{shown_path(kept_tex)}` and its `.log` are kept",)
     missing = re.search(r"File `([\w-]+\.(?:sty|cls|def))' not found", message)
-    mend = f"`{engine.name}` lacks {missing[1]}: install it, or choose another `--engine`" if missing else None
+    fix = f"`{engine.name}` lacks {missing[1]}: install it, or choose another `--engine`" if missing else None
     place = _place(tex, shown_path(kept_tex), number, before) if number else None
-    return BuildFailed(Complaint("tex", f"TeX failed{where}: {message}", place, notes, mend))
+    return BuildFailed(Complaint("tex", f"TeX failed{where}: {message}", place, notes, fix))
 
 
 def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, str]:

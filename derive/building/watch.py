@@ -15,8 +15,8 @@ from pathlib import Path
 
 from derive import FOLDER
 from derive.building.cache import folder_digest
-from derive.building.loaded import load
-from derive.building.named import check_asked
+from derive.building.preload import preload
+from derive.building.set_names import check_asked
 from derive.building.sets import Edits, Ended, Options, Report, Superseded, built_set
 from derive.building.tex import chosen_engine
 from derive.errors import BuildFailed, Complaint, DeriveError
@@ -66,7 +66,7 @@ class _Watch:
         self.own = Path(FOLDER)
         self.folders = [root / "problems", *(each / "templates" for each in (root, self.own, self.own.parent))]
         self.loaded, self.engine = folder_digest(self.own, "*.py"), seen_in([self.own])
-        load(root, derives=True, draws=True)
+        preload(root, derives=True, draws=True)
         self.files: Seen = {}
 
     def build(self) -> None:

@@ -52,6 +52,6 @@ def new_id_of(text: str) -> str:
 
 
 def warn_of_names(root: Path) -> None:
-    from derive.building.named import misnamed_sets
+    from derive.building.set_names import misnamed_sets
 
     complain(misnamed_sets(root))

@@ -10,8 +10,8 @@ from itertools import groupby
 from typing import Any
 
 from derive.building.changes import ADDED, CHANGED, EQUAL, REMOVED, Change
-from derive.building.compared import Compared
-from derive.building.compared_sets import ComparedSet
+from derive.building.diff import Diff
+from derive.building.set_diff import SetDiff
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 
@@ -46,38 +46,38 @@ _AROUND = 6  # words of a sentence that are shown on each side of a change
 _MOST_LINES = 3  # of the lines before a step's result
 
 
-def told(problem_id: str, compared: Compared, coloured: bool) -> str:
+def told(problem_id: str, diff: Diff, coloured: bool) -> str:
     """Return every change under the heading of its sort, after the number of changes."""
-    found = compared.changes
+    found = diff.changes
     if not found:
-        return f"{problem_id}: nothing has changed since {compared.since}"
+        return f"{problem_id}: nothing has changed since {diff.since}"
     shown = _Shown(coloured)
     sorts = [(sort, list(group)) for sort, group in groupby(found, key=lambda change: change.of)]
     counts = [f"{len(group)} {_SORTS[sort][1 if len(group) == 1 else 2]}" for sort, group in sorts]
-    head = textwrap.fill(f"{problem_id}: changed since {compared.since}: {', '.join(counts)}", WIDTH)
+    head = textwrap.fill(f"{problem_id}: changed since {diff.since}: {', '.join(counts)}", WIDTH)
     return "\n".join([head, *(line for sort, group in sorts for line in ["", _SORTS[sort][0], *shown.sort(group)])])
 
 
-def told_of_set(set_id: str, compared: ComparedSet, coloured: bool) -> str:
+def told_of_set(set_id: str, diff: SetDiff, coloured: bool) -> str:
     """Return the changes of the set itself, and of each problem that has changed."""
-    each = {set_id: compared.own, **compared.problems}
+    each = {set_id: diff.own, **diff.problems}
     changed = [told(name, one, coloured) for name, one in each.items() if one.changes]
-    return "\n\n".join(changed) or told(set_id, compared.own, coloured)
+    return "\n\n".join(changed) or told(set_id, diff.own, coloured)
 
 
-def as_json(problem_id: str, compared: Compared) -> str:
+def as_json(problem_id: str, diff: Diff) -> str:
     """Return the same for programs."""
-    return _json(_data("problem", problem_id, compared))
+    return _json(_data("problem", problem_id, diff))
 
 
-def set_as_json(set_id: str, compared: ComparedSet) -> str:
-    problems = [_data("problem", name, one) for name, one in compared.problems.items()]
-    return _json({**_data("set", set_id, compared.own), "changed": compared.changed, "problems": problems})
+def set_as_json(set_id: str, diff: SetDiff) -> str:
+    problems = [_data("problem", name, one) for name, one in diff.problems.items()]
+    return _json({**_data("set", set_id, diff.own), "changed": diff.changed, "problems": problems})
 
 
-def _data(sort: str, name: str, compared: Compared) -> dict[str, Any]:
-    listed = [{**asdict(change), "how": change.how} for change in compared.changes]
-    return {sort: name, "since": compared.since, "changed": bool(listed), "changes": listed}
+def _data(sort: str, name: str, diff: Diff) -> dict[str, Any]:
+    listed = [{**asdict(change), "how": change.how} for change in diff.changes]
+    return {sort: name, "since": diff.since, "changed": bool(listed), "changes": listed}
 
 
 def _json(data: Any) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterable
 
-from derive.course.names import PAPERS
+from derive.course.names import DOCUMENTS
 from derive.render.formats import TYPESET, formats
 
 DETAILS = ("brief", "standard", "full")
@@ -53,7 +53,7 @@ def _build(build: argparse.ArgumentParser) -> None:
     how = build.add_mutually_exclusive_group()
     how.add_argument("--force", action="store_true", help="do everything again")
     how.add_argument("--watch", action="store_true", help="build again at each edit, until Ctrl-C")
-    build.add_argument("--only", type=_papers, default=(), metavar="PAPERS", help=", ".join(PAPERS))
+    build.add_argument("--only", type=_documents, default=(), metavar="DOCUMENTS", help=", ".join(DOCUMENTS))
     _detail(build)
     _evidence(build)
     _engine(build)
@@ -199,12 +199,12 @@ def _count(text: str) -> int:
     return int(text)
 
 
-def _papers(text: str) -> tuple[str, ...]:
-    papers = tuple(text.split(","))
-    if odd := [paper for paper in papers if paper not in PAPERS]:
-        message = f"`{odd[0]}` is not a document: name some of {', '.join(PAPERS)}, with commas between them"
+def _documents(text: str) -> tuple[str, ...]:
+    documents = tuple(text.split(","))
+    if odd := [kind for kind in documents if kind not in DOCUMENTS]:
+        message = f"`{odd[0]}` is not a document: name some of {', '.join(DOCUMENTS)}, with commas between them"
         raise argparse.ArgumentTypeError(message)
-    return papers
+    return documents
 
 
 def _port(text: str) -> int:

@@ -10,7 +10,7 @@ import re
 from os.path import relpath
 from pathlib import Path
 
-from derive.course.names import INDEX, NAME, PAPERS
+from derive.course.names import DOCUMENTS, INDEX, NAME
 from derive.course.problem_set import mapping_in, path_of, problem_set
 from derive.course.schema import wrong_type
 from derive.course.yaml_tree import Scalar, Sequence
@@ -52,7 +52,7 @@ def _check_names(root: Path, set_id: str, name: str) -> None:
         help_line = "such as `hw10/wheel`: letters, digits, `-` and `_`"
         message = f"`{set_id}{'/' if name else ''}{name}` is not a valid name of a set and a problem"
         raise Misused(Complaint("new-name", message, help=help_line))
-    if name in (*PAPERS, INDEX, "set", "reference"):
+    if name in (*DOCUMENTS, INDEX, "set", "reference"):
         message = f"a problem cannot be called `{name}`, because another file of the set has that name"
         raise Misused(Complaint("new-name", message, help="choose another name"))
 

@@ -9,11 +9,11 @@ import re
 from enum import StrEnum
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
-SOLUTIONS, SHEET, REPORT = DOCUMENTS = ("solutions", "problems", "report")
+SOLUTIONS, SHEET, REPORT = OF_EVERY_SET = ("solutions", "problems", "report")
 # Further documents, made only on request: every line with the points of each step, hints without the answers, the
 # points alone.
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
-PAPERS = (*DOCUMENTS, *MORE)
+DOCUMENTS = (*OF_EVERY_SET, *MORE)
 ON_A_PAGE = (SHEET, *MORE)  # those that a browser shows too, each on one page
 INDEX = "index"  # the page of a set for a browser
 

@@ -81,8 +81,8 @@ class Problem:
     def inputs(self) -> tuple[str, ...]:
         """The files from which it was read."""
         modules = self.script.modules if isinstance(self.script, Script) else ()
-        beside = (module.relative_to(self.root).as_posix() for module in modules)
-        return (self.path, *filter(None, [self.script_path]), *beside)
+        own = (module.relative_to(self.root).as_posix() for module in modules)
+        return (self.path, *filter(None, [self.script_path]), *own)
 
     @property
     def asked(self) -> tuple[Word, ...]:

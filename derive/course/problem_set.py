@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.course.names import DOCUMENTS, INDEX, NAME, PAPERS, EvidenceShown
+from derive.course.names import DOCUMENTS, INDEX, NAME, OF_EVERY_SET, EvidenceShown
 from derive.course.schema import TEXT, Reader, Record, key, list_of, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
@@ -17,7 +17,7 @@ _NOT_PROBLEMS = ("set", "reference")
 
 
 # Each document with the name of its files.
-THOSE_OF_EVERY_SET = tuple((paper, paper) for paper in DOCUMENTS)
+THOSE_OF_EVERY_SET = tuple((kind, kind) for kind in OF_EVERY_SET)
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class ProblemSet:
     problems: tuple[str, ...]
     inputs: tuple[str, ...]
     evidence: EvidenceShown = EvidenceShown.NONE
-    papers: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
+    documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -40,39 +40,39 @@ class ProblemSet:
         return {full.partition("/")[2]: number for number, full in enumerate(self.problems, 1)}
 
 
-PAPERS_SCHEMA = {
+DOCUMENTS_SCHEMA = {
     "anyOf": [
-        {"type": "array", "items": {"enum": list(PAPERS)}, "minItems": 1},
+        {"type": "array", "items": {"enum": list(DOCUMENTS)}, "minItems": 1},
         {
             "type": "object",
             "additionalProperties": False,
             "minProperties": 1,
-            "properties": {paper: {"type": "string", "pattern": f"^{NAME.pattern}$"} for paper in PAPERS},
+            "properties": {kind: {"type": "string", "pattern": f"^{NAME.pattern}$"} for kind in DOCUMENTS},
         },
     ]
 }
 
 
-def _papers(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None:
+def _documents(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None:
     """Read `[solutions, hints]`, or `{solutions: hw9-solutions}`: each document with the name of its files."""
     pairs: list[tuple[Tree, Tree]] = []
     if isinstance(node, Mapping) and node.pairs:
-        pairs = [(paper, file) for paper, file in node.pairs]
+        pairs = [(kind, file) for kind, file in node.pairs]
     elif isinstance(node, Sequence) and node.items:
         pairs = [(item, item) for item in node.items]
     else:
         wrong_type(faults, f"`{name}`", "a list of documents, or a mapping of documents to names of files", node)
     found: dict[Word, Word] = {}
-    for paper, file in pairs:
-        if not isinstance(paper, Scalar) or not isinstance(file, Scalar):
-            wrong_type(faults, "a document", "a name", file if isinstance(paper, Scalar) else paper)
-        elif paper.text not in PAPERS:
-            help_line = did_you_mean(paper.text, PAPERS) or f"the documents are {', '.join(PAPERS)}"
-            faults.error("no-such-paper", f"`{paper.text}` is not a document of a set", paper.place, help=help_line)
+    for kind, file in pairs:
+        if not isinstance(kind, Scalar) or not isinstance(file, Scalar):
+            wrong_type(faults, "a document", "a name", file if isinstance(kind, Scalar) else kind)
+        elif kind.text not in DOCUMENTS:
+            help_line = did_you_mean(kind.text, DOCUMENTS) or f"the documents are {', '.join(DOCUMENTS)}"
+            faults.error("no-such-document", f"`{kind.text}` is not a document of a set", kind.place, help=help_line)
         elif not NAME.fullmatch(file.text):
-            faults.error("paper-name", f"`{file.text}` cannot be the name of a file", file.place)
+            faults.error("document-name", f"`{file.text}` cannot be the name of a file", file.place)
         else:
-            found[paper.word] = file.word
+            found[kind.word] = file.word
     return found
 
 
@@ -85,8 +85,8 @@ class SetKeys(Record):
     date: Word | None = key("the date as it is to be printed", TEXT)
     instructor: Word | None = key("who teaches the course", TEXT)
     evidence: str | None = key("how much the solutions show about how they were checked", one_of(tuple(EvidenceShown)))
-    papers: dict[Word, Word] = key(
-        "the documents that are made, or the name of each one's files", Reader(PAPERS_SCHEMA, _papers, dict)
+    documents: dict[Word, Word] = key(
+        "the documents that are made, or the name of each one's files", Reader(DOCUMENTS_SCHEMA, _documents, dict)
     )
     problems: tuple[Word, ...] = key(
         "names of the problems in order", list_of(TEXT, "a list of names", each="a problem of the set"), required=True
@@ -175,7 +175,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     faults = Faults()
     written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
     problems = _listed(written.problems, set_id, problem_ids(root), faults)
-    _clashes(written.papers, [full.partition("/")[2] for full in problems], faults)
+    _clashes(written.documents, [full.partition("/")[2] for full in problems], faults)
     faults.stop()
     evidence = EvidenceShown(written.evidence or EvidenceShown.NONE)
     return ProblemSet(
@@ -187,16 +187,16 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
         problems,
         (path,),
         evidence,
-        tuple((str(paper), str(file)) for paper, file in written.papers.items()) or THOSE_OF_EVERY_SET,
+        tuple((str(kind), str(file)) for kind, file in written.documents.items()) or THOSE_OF_EVERY_SET,
     )
 
 
-def _clashes(papers: dict[Word, Word], problems: List[str], faults: Faults) -> None:
+def _clashes(documents: dict[Word, Word], problems: List[str], faults: Faults) -> None:
     """Check that no two files of a set have the same name."""
-    for n, file in enumerate(papers.values()):
-        others = [*list(papers.values())[:n], *problems, INDEX]
+    for n, file in enumerate(documents.values()):
+        others = [*list(documents.values())[:n], *problems, INDEX]
         if file in others:
-            faults.error("paper-name", f"`{file}` is the name of another file", file.place, help="choose another")
+            faults.error("document-name", f"`{file}` is the name of another file", file.place, help="choose another")
 
 
 def mapping_in(root: Path, path: str, what: str, quickly: bool = False) -> Mapping:
@@ -211,7 +211,7 @@ def _listed(written: tuple[Word, ...], set_id: str, known: List[str], faults: Fa
     names = [full.partition("/")[2] for full in known if full.startswith(f"{set_id}/")]
     found: list[str] = []
     for item in written:
-        if item in (*PAPERS, INDEX):
+        if item in (*DOCUMENTS, INDEX):
             message = f"a problem cannot be called `{item}`, because a document of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
         elif item not in names:

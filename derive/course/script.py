@@ -22,7 +22,7 @@ from types import ModuleType
 from typing import Any
 
 from derive.algebra.kinds import ANNOTATIONS, Asked, asked_by_annotation
-from derive.course.beside import importable, modules_beside
+from derive.course.own_modules import importable, own_modules
 from derive.course.yaml_tree import Source, abridged, read_source
 from derive.errors import Complaint, DeriveError, Faults, OutOfTime, Place, Rejected, did_you_mean, nearest
 
@@ -64,7 +64,7 @@ def imported_script(file: Path, shown_as: str, name: str) -> Script:
     """Return the script with its `solve()` and what that asks for, or raise `Rejected` with the script's line."""
     source = read_source(file, shown_as)
     definition = _definition(source)
-    modules = modules_beside(file)
+    modules = own_modules(file)
     with importable(file, modules):
         module = _module(file, source, name)
     solve = getattr(module, "solve", None)

@@ -15,7 +15,7 @@ from derive.steps.rule import Theorem
 from derive.steps.step import Level, Step
 
 
-def alone(document: Document) -> Document:
+def standalone(document: Document) -> Document:
     """Return the page as a separate document: a paragraph before the sentence that uses a theorem states it."""
 
     def of_part(part: PartPage) -> PartPage:

@@ -8,8 +8,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Protocol
 
-from derive.building.named import check_asked
 from derive.building.set_document import live_page
+from derive.building.set_names import check_asked
 from derive.course.problem_set import problem_set
 from derive.errors import DeriveError
 from derive.page.template import template_folder

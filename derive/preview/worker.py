@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from derive.building.cache import engine_digest
-from derive.building.loaded import load
+from derive.building.preload import preload
 from derive.building.time_limit import limited
 from derive.building.workers import confine, job_of, told_to, too_long, trail_of
 from derive.errors import DeriveError, OutOfTime
@@ -37,7 +37,7 @@ def main(arguments: Sequence[str]) -> None:
     told = os.fdopen(answers, "w", encoding="utf-8")
     for packages in (("sympy", "mpmath"), ("matplotlib",)):
         engine_digest(*packages)  # the digest of the modules before they are loaded
-    load(root, derives=True, draws=False)
+    preload(root, derives=True, draws=False)
     for question in os.fdopen(questions, encoding="utf-8"):
         asked = json.loads(question)
         _tell(told, {"number": asked["number"], **answer(root, asked, trace)})
@@ -47,7 +47,7 @@ def main(arguments: Sequence[str]) -> None:
 @cache
 def _settle(root: Path) -> None:
     """Load what draws while the first page is read; no later search for garbage looks at what is loaded."""
-    load(root, derives=True, draws=True)
+    preload(root, derives=True, draws=True)
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
 
@@ -73,8 +73,8 @@ def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, An
 def main_part(root: Path, problem_id: str, detail: str | None) -> str:
     """Return the main part of a problem's page for a browser."""
     from derive.building.cache import Cache
-    from derive.building.named import set_folder
     from derive.building.set_document import problem_main
+    from derive.building.set_names import set_folder
     from derive.building.sets import CACHE
     from derive.building.solution import rendered
     from derive.course.problem_set import problem_set

@@ -31,7 +31,7 @@ class Rendered:
     texts                   its page by the name of each format
     latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
     html, title_html        the solution and its title, for a page in a browser
-    papers                  fragments of the other requested documents, in TeX by name and in HTML by `name.html`
+    documents               fragments of the other requested documents, in TeX by name and in HTML by `name.html`
     counts                  the counts of its checks, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
     source_faults           errata of the source and remarks on it: which of the two, line, what is printed,
@@ -57,7 +57,7 @@ class Rendered:
     compared: int
     agreed: bool
     files: Files = ()
-    papers: dict[str, str] = field(default_factory=dict)
+    documents: dict[str, str] = field(default_factory=dict)
     source_faults: tuple[SourceFault, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
@@ -80,7 +80,7 @@ class Rendered:
                 report=Tex(_text(data["report"])),
                 html=Html(_text(data["html"])),
                 title_html=Html(_text(data["title_html"])),
-                papers={_text(name): _text(page) for name, page in dict(data["papers"]).items()},
+                documents={_text(name): _text(page) for name, page in dict(data["documents"]).items()},
                 warnings=tuple(_complaint(warning) for warning in data["warnings"]),
                 inputs=tuple(_text(path) for path in data["inputs"]),
                 grades=_counts(data["grades"]),

@@ -24,7 +24,7 @@ from derive.steps.record import QUESTIONS, Call, Run, add, assume, finished_step
 class Store(Protocol):
     """The store that keeps the texts of calls."""
 
-    def recalled(self, key: str) -> str | None: ...
+    def get(self, key: str) -> str | None: ...
 
     def keep(self, key: str, text: str) -> None: ...
 
@@ -120,7 +120,7 @@ class Memory:
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
         """Read what a call added to the record; None if that is not stored or if a question has another answer now."""
-        kept = self.store.recalled(key)
+        kept = self.store.get(key)
         if kept is None:
             return None
         try:

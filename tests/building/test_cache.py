@@ -13,8 +13,8 @@ import pytest
 from fake_course import Course, stand_in_course
 
 from derive.building.cache import NO_CACHE, Cache, digest, engine_digest, file_digest, folder_digest
-from derive.building.sealed import SEAL_BYTES
 from derive.building.sets import Options, built_set
+from derive.building.signed import SIGNATURE_BYTES
 from derive.building.solution import rendered
 from tests.courses import course_in
 
@@ -78,45 +78,45 @@ def test_a_value_is_found_under_its_own_digest_alone(tmp_path: Path, cache: Cach
     data = {"value": ["1/2", None]}
     cache.keep(ONE, b"\0%PDF")
     cache.keep_data(TWO, data)
-    assert (cache.recalled(ONE), cache.recalled_data(TWO), cache.recalled(THREE)) == (b"\0%PDF", data, None)
+    assert (cache.get(ONE), cache.get_data(TWO), cache.get(THREE)) == (b"\0%PDF", data, None)
     (tmp_path / "kept" / ONE).rename(tmp_path / "kept" / THREE)
-    assert cache.recalled(THREE) is None, "nor under a name that it was given later"
+    assert cache.get(THREE) is None, "nor under a name that it was given later"
 
 
 def test_a_value_that_is_kept_again_replaces_the_first(cache: Cache) -> None:
     cache.keep(ONE, b"first")
     cache.keep(ONE, b"second")
-    assert cache.recalled(ONE) == b"second"
+    assert cache.get(ONE) == b"second"
 
 
 def test_a_fresh_cache_finds_nothing_and_keeps_for_the_next(tmp_path: Path, cache: Cache) -> None:
     cache.keep(ONE, b"before")
     fresh = Cache(tmp_path / "kept", fresh=True)
-    assert fresh.recalled(ONE) is None
+    assert fresh.get(ONE) is None
     fresh.keep(ONE, b"anew")
-    assert cache.recalled(ONE) == b"anew"
+    assert cache.get(ONE) == b"anew"
 
 
 def test_without_a_folder_nothing_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     NO_CACHE.keep(ONE, b"1")
-    assert (NO_CACHE.recalled(ONE), list(tmp_path.iterdir())) == (None, [])
+    assert (NO_CACHE.get(ONE), list(tmp_path.iterdir())) == (None, [])
 
 
 def test_what_was_altered_or_is_no_file_counts_as_none(tmp_path: Path, cache: Cache) -> None:
     cache.keep(ONE, b"12345")
     file = tmp_path / "kept" / ONE
     raw = file.read_bytes()
-    for altered in (raw[:-1], raw + b"6", raw[:SEAL_BYTES], b"", raw[:-1] + b"6"):
+    for altered in (raw[:-1], raw + b"6", raw[:SIGNATURE_BYTES], b"", raw[:-1] + b"6"):
         file.write_bytes(altered)
-        assert cache.recalled(ONE) is None
+        assert cache.get(ONE) is None
     file.unlink()
     os.mkfifo(file)
-    assert cache.recalled(ONE) is None
+    assert cache.get(ONE) is None
     cache.keep(ONE, b"12345")
-    assert cache.recalled(ONE) == b"12345", "a pipe is replaced"
+    assert cache.get(ONE) == b"12345", "a pipe is replaced"
     (tmp_path / "kept" / TWO).mkdir()
-    assert cache.recalled(TWO) is None
+    assert cache.get(TWO) is None
     cache.keep(TWO, b"1")
     (warning,) = cache.unkept
     assert (warning.code, warning.severity) == ("not-kept", "warning")
@@ -155,20 +155,20 @@ def test_a_link_is_replaced_and_what_it_leads_to_is_left_alone(tmp_path: Path, c
     os.utime(victim, (0, 0))
     cache.keep(ONE, b"1")
     (tmp_path / "kept" / TWO).symlink_to(victim)
-    assert cache.recalled(TWO) is None
+    assert cache.get(TWO) is None
     cache.keep(TWO, b"2")
-    assert (cache.recalled(TWO), victim.read_text(), victim.stat().st_mtime) == (b"2", "mine", 0)
+    assert (cache.get(TWO), victim.read_text(), victim.stat().st_mtime) == (b"2", "mine", 0)
 
 
 # --- not without end -------------------------------------------------------------------------------------------------
 
 
 def test_what_was_used_longest_ago_is_let_go(tmp_path: Path) -> None:
-    cache = Cache(tmp_path, limit=2 * (SEAL_BYTES + 10))
+    cache = Cache(tmp_path, limit=2 * (SIGNATURE_BYTES + 10))
     for age, key in enumerate((TWO, ONE)):
         cache.keep(key, bytes(10))
         os.utime(tmp_path / key, (age, age))
-    assert cache.recalled(TWO), "and is now the last that was used"
+    assert cache.get(TWO), "and is now the last that was used"
     cache.keep(THREE, bytes(10))
     cache.evict()
     assert {file.name for file in tmp_path.iterdir()} == {TWO, THREE}
@@ -179,7 +179,7 @@ def test_a_value_above_the_limit_is_not_kept_and_leaves_the_others(tmp_path: Pat
     cache.keep(ONE, b"1")
     cache.keep(TWO, bytes(200))
     cache.evict()
-    assert (cache.recalled(ONE), cache.recalled(TWO)) == (b"1", None)
+    assert (cache.get(ONE), cache.get(TWO)) == (b"1", None)
 
 
 def test_a_file_that_another_build_lets_go_meanwhile_is_no_obstacle(

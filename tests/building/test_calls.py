@@ -192,7 +192,7 @@ def test_what_was_used_last_is_kept_and_of_what_was_not_as_much_as_there_is_room
         calls = Calls(Cache(tmp_path), "one")
         before = list(calls.earlier)
         for key in keys:
-            calls.recalled(key) or calls.keep(key, key * 5)
+            calls.get(key) or calls.keep(key, key * 5)
         calls.save()
         return before
 
@@ -224,6 +224,6 @@ def test_builds_at_once_share_what_is_kept(tmp_path: Path) -> None:
     assert [each.exitcode for each in crew] == [0, 0, 0]
     cache = Cache(course / "kept")
     files = sorted(file.name for file in (course / "kept").iterdir())
-    assert all(cache.recalled(name) is not None for name in files), "each is whole, and nothing lies beside them"
+    assert all(cache.get(name) is not None for name in files), "each is whole, and nothing lies beside them"
     for name in ("block", "other"):
         assert derive(course, cache, name) == derive(course, Cache(), name)

@@ -1,4 +1,4 @@
-"""What the doctor finds: each thing that a build needs, with the mend where it is missing."""
+"""What the doctor finds: each thing that a build needs, with the fix where it is missing."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_a_machine_that_can_build_has_nothing_to_mend(course: Course) -> None:
 def test_a_package_that_is_missing_is_named(course: Course, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(doctor, "PACKAGES", ("sympy", "no-such-package"))
     finding = found(course)["packages"]
-    assert (finding.good, finding.mend) == (False, "missing: no-such-package; run `make`")
+    assert (finding.good, finding.fix) == (False, "missing: no-such-package; run `make`")
     assert finding.found.startswith("sympy 1.")
 
 
@@ -53,5 +53,5 @@ def test_a_folder_without_problems_and_one_that_cannot_be_written_are_told(cours
 
 
 def test_a_mend_is_shown_only_where_something_is_wrong() -> None:
-    assert Finding("TeX", True, "there", "mend").shown() == "ok  TeX       there"
-    assert Finding("TeX", False, "none", "mend").shown() == "no  TeX       none\n              mend"
+    assert Finding("TeX", True, "there", "fix").shown() == "ok  TeX       there"
+    assert Finding("TeX", False, "none", "fix").shown() == "no  TeX       none\n              fix"

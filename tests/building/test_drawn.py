@@ -232,7 +232,7 @@ def test_a_width_and_numbers_of_its_own_change_only_that_drawing(tmp_path: Path,
     assert same == {"block-axes.pdf", "block-axes.svg"}
 
 
-def test_a_build_writes_the_drawings_beside_the_page_and_mends_them(tmp_path: Path) -> None:
+def test_a_build_writes_the_drawings_beside_the_page_and_fixes_them(tmp_path: Path) -> None:
     course = course_in(tmp_path)
 
     def build() -> list[str]:
@@ -258,6 +258,6 @@ def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: 
     pages = {}
     for name, files in (("with", block.files), ("without", ())):
         target = tmp_path / f"{name}.pdf"
-        typeset(tex, target, chosen_engine(None), beside=files)
+        typeset(tex, target, chosen_engine(None), included=files)
         pages[name] = target.read_bytes()
     assert pages["with"] != pages["without"]

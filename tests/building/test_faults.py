@@ -11,8 +11,8 @@ import pytest
 from fake_course import Course, stand_in_course
 from pypdf import PdfReader
 
-from derive.building.named import TARGETS
 from derive.building.set_document import problem_document, set_document, sheet_document
+from derive.building.set_names import TARGETS
 from derive.building.sets import Options, Report, built_set
 from derive.building.tex import chosen_engine, typeset
 from derive.cli.options import main

@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 from fake_course import Course, stand_in_course
 
-from derive.building import sealed
+from derive.building import signed
 from derive.building.cache import digest
-from derive.building.manifest import Manifest, outputs_of, outputs_of_paper
+from derive.building.manifest import Manifest, outputs_of, outputs_of_document
 from derive.building.sets import Options, Report, built_set
 
 
@@ -25,11 +25,11 @@ def built(course: Course) -> Report:
     return built_set(course.root, "hw1", Options(), lambda _: None)
 
 
-def resealed(course: Course, **changes: Any) -> None:
+def signed_again(course: Course, **changes: Any) -> None:
     """The record as it would be if derive itself had written it."""
     record = dataclasses.asdict(Manifest.read(course.outputs)) | changes
     del record["folder"]
-    sealed.seal(course.outputs / ".manifest.json", "the record of hw1", json.dumps(record).encode())
+    signed.write_signed(course.outputs / ".manifest.json", "the record of hw1", json.dumps(record).encode())
 
 
 @pytest.mark.parametrize("name", ["../../victim.txt", "/victim.txt", ".lock", "a/b.pdf", "victim", "x.py", ""])
@@ -37,7 +37,7 @@ def test_a_record_names_plain_outputs_or_is_none(course: Course, name: str) -> N
     victim = course.root / "victim.txt"
     victim.write_text("mine")
     built(course)
-    resealed(course, drawings={"one": [name]})
+    signed_again(course, drawings={"one": [name]})
     course.problem("one", "edited")
     assert not built(course).failed
     assert victim.read_text() == "mine"
@@ -67,7 +67,7 @@ def test_a_record_with_a_field_of_another_type_counts_as_none(course: Course, fi
     Manifest(folder).save()
     if type(value) is type(getattr(Manifest(folder), field)) and isinstance(value, str):
         value = 3.5
-    resealed(course, **{field: value})
+    signed_again(course, **{field: value})
     assert Manifest.read(folder) == Manifest(folder)
 
 
@@ -157,12 +157,12 @@ def test_a_document_is_older_as_soon_as_a_file_of_any_of_its_problems_or_a_word_
     assert older(words, a="2") == older(words, set="2") == older({"templates/words": "2"}) == ["one", "solutions"]
 
 
-def test_a_paper_that_the_set_no_longer_has_is_taken_away(tmp_path: Path) -> None:
-    record = Manifest(tmp_path, papers=[["solutions", "hw1"], ["key", "key"]])
+def test_a_document_that_the_set_no_longer_has_is_taken_away(tmp_path: Path) -> None:
+    record = Manifest(tmp_path, documents=[["solutions", "hw1"], ["key", "key"]])
     for name in ("hw1.pdf", "hw1.tex", "key.pdf"):
         (tmp_path / name).write_text("ours")
         record.outputs[name] = digest("ours")
-    record.replace_papers([["solutions", "solutions"], ["key", "key"]])
+    record.replace_documents([["solutions", "solutions"], ["key", "key"]])
     assert [file.name for file in tmp_path.iterdir()] == ["key.pdf"]
     assert record.documents == ["solutions", "key", "index"]
 
@@ -187,8 +187,8 @@ def test_an_output_is_taken_away_only_as_it_was_written(tmp_path: Path) -> None:
 
 
 def test_a_document_of_the_set_has_no_text_and_no_json() -> None:
-    assert outputs_of_paper("solutions", "hw9") == ["hw9.pdf", "hw9.tex"]
-    assert outputs_of_paper("hints", "hw9-hints") == ["hw9-hints.pdf", "hw9-hints.tex", "hw9-hints.html"]
+    assert outputs_of_document("solutions", "hw9") == ["hw9.pdf", "hw9.tex"]
+    assert outputs_of_document("hints", "hw9-hints") == ["hw9-hints.pdf", "hw9-hints.tex", "hw9-hints.html"]
     own = outputs_of("block")
     assert {"block.pdf", "block.tex", "block.json", "block.txt"} <= set(own)
     assert Manifest(Path(), drawings={"block": ["block-axes.svg"]}).outputs_of("block") == [*own, "block-axes.svg"]

@@ -270,7 +270,7 @@ def test_make_is_told_nothing_by_a_build_that_failed(course: Course) -> None:
 def test_make_is_told_nothing_while_a_document_is_older_than_its_problem(course: Course) -> None:
     build(course)
     course.problem("one", "edited")
-    report = build(course, Options(papers=("key",)))
+    report = build(course, Options(documents=("key",)))
     (warning,) = report.warnings
     assert warning.message == (
         "older than the problems, but not made again: `solutions.pdf`, `problems.pdf`, `report.pdf` in `build/hw1`"
@@ -292,22 +292,22 @@ def test_a_build_of_one_problem_says_what_it_leaves_older(course: Course) -> Non
     assert not (course.outputs / ".built").exists()
 
 
-def test_a_paper_that_was_asked_for_is_made_again_by_each_later_build(course: Course) -> None:
-    build(course, Options(papers=("solutions", "key")))
+def test_a_document_that_was_asked_for_is_made_again_by_each_later_build(course: Course) -> None:
+    build(course, Options(documents=("solutions", "key")))
     course.problem("one", "edited")
     assert build(course).warnings == []
     assert "key of hw1/one" in (course.outputs / "key.pdf").read_text()
     before = course.contents()
     course.typeset()
-    assert (build(course, Options(papers=("key",))).changed, course.typeset()) == ([], [])
+    assert (build(course, Options(documents=("key",))).changed, course.typeset()) == ([], [])
     course.heading("two", "one")
     build(course)
     after = course.contents()
     assert {name for name in after if before[name] != after[name]} >= {"key.pdf", "key.html", "solutions.pdf"}
 
 
-def test_a_paper_that_was_asked_for_and_is_removed_does_not_come_back(course: Course) -> None:
-    build(course, Options(papers=("key",)))
+def test_a_document_that_was_asked_for_and_is_removed_does_not_come_back(course: Course) -> None:
+    build(course, Options(documents=("key",)))
     build(course)
     (course.outputs / "key.pdf").unlink()
     build(course)
@@ -315,27 +315,27 @@ def test_a_paper_that_was_asked_for_and_is_removed_does_not_come_back(course: Co
     assert "build/hw1/key.pdf" not in (course.outputs / ".outputs").read_text()
 
 
-def test_a_first_build_of_one_paper_leaves_the_others_for_the_next(course: Course) -> None:
-    build(course, Options(papers=("key",)))
+def test_a_first_build_of_one_document_leaves_the_others_for_the_next(course: Course) -> None:
+    build(course, Options(documents=("key",)))
     assert not (course.outputs / ".built").exists()
     assert not (course.outputs / "solutions.pdf").exists()
     build(course)
     assert {"solutions.pdf", "problems.pdf", "report.pdf", "key.pdf"} <= set(course.contents())
 
 
-def test_a_paper_that_the_set_calls_otherwise_leaves_no_older_file(course: Course) -> None:
+def test_a_document_that_the_set_calls_otherwise_leaves_no_older_file(course: Course) -> None:
     build(course)
     file = course.folder / "set.yaml"
-    file.write_text(file.read_text() + "papers: {solutions: hw1-solutions}\n")
+    file.write_text(file.read_text() + "documents: {solutions: hw1-solutions}\n")
     build(course)
     assert {name for name in course.contents() if name.endswith(".pdf")} == {"hw1-solutions.pdf", "one.pdf", "two.pdf"}
 
 
-def test_two_papers_may_not_have_one_name(course: Course) -> None:
+def test_two_documents_may_not_have_one_name(course: Course) -> None:
     file = course.folder / "set.yaml"
-    file.write_text(file.read_text() + "papers: {solutions: key}\n")
+    file.write_text(file.read_text() + "documents: {solutions: key}\n")
     with pytest.raises(Misused, match="two documents of `hw1` would be called `key`"):
-        build(course, Options(papers=("key",)))
+        build(course, Options(documents=("key",)))
 
 
 def test_the_stamp_is_as_old_as_the_beginning_of_the_build(course: Course) -> None:
@@ -380,9 +380,9 @@ def test_a_drawing_may_not_have_the_name_of_another_output(course: Course) -> No
     assert "the drawing `one-axes.pdf` of `one` would have the name of another output" in report.complaints[0].message
 
 
-def test_a_drawing_may_not_have_the_name_of_a_paper(course: Course) -> None:
+def test_a_drawing_may_not_have_the_name_of_a_document(course: Course) -> None:
     file = course.folder / "set.yaml"
-    file.write_text(file.read_text() + "papers: {solutions: one-axes}\n")
+    file.write_text(file.read_text() + "documents: {solutions: one-axes}\n")
     course.problem("one", "draws")
     report = build(course)
     assert codes(report) == ["file-clash"]

@@ -1,4 +1,4 @@
-"""Which input made an output stale, told in words with the command that mends it."""
+"""Which input made an output stale, told in words with the command that fixes it."""
 
 from __future__ import annotations
 
@@ -84,13 +84,13 @@ def of_tex(course: Course) -> None:
         (of_tex, "the program of the TeX engine pdflatex has changed"),
     ],
 )
-def test_the_input_that_changed_is_named_and_a_build_mends_it(
+def test_the_input_that_changed_is_named_and_a_build_fixes_it(
     course: Course, change: Callable[[Course], None], reason: str
 ) -> None:
     change(course)
     found = told(course, "build/hw1/one.pdf")
     assert found.reasons == (reason,)
-    assert found.mends == ("to bring it up to date: `derive build hw1/one`",)
+    assert found.fixes == ("to bring it up to date: `derive build hw1/one`",)
     built(course)
     assert told(course, "build/hw1/one.pdf").reasons == ()
 
@@ -100,16 +100,16 @@ def test_an_edit_of_one_problem_makes_the_documents_stale_and_no_other_problem(c
     assert told(course, "hw1/two").reasons == ()
     found = told(course, "build/hw1/solutions.pdf")
     assert found.reasons == ("`problems/hw1/one.yaml` has changed",)
-    assert found.mends == ("to bring it up to date: `derive build hw1`",)
+    assert found.fixes == ("to bring it up to date: `derive build hw1`",)
 
 
 def test_other_options_are_told_with_the_command_that_keeps_them(course: Course) -> None:
     built(course, detail="full")
     found = told(course, "build/hw1/one.pdf")
     assert found.reasons == ("it was made with `--detail full`, and would be with no `--detail`",)
-    assert found.mends[-1] == "to build as before: `derive build hw1/one --detail full`"
+    assert found.fixes[-1] == "to build as before: `derive build hw1/one --detail full`"
     assert told(course, "build/hw1/one.pdf", detail="full").reasons == ()
-    assert "`derive build hw1/one --evidence end`" in told(course, "hw1/one", evidence="end").mends[0]
+    assert "`derive build hw1/one --evidence end`" in told(course, "hw1/one", evidence="end").fixes[0]
 
 
 def test_another_engine_concerns_pdfs_alone(course: Course) -> None:
@@ -161,23 +161,23 @@ def test_a_page_that_tex_refused_is_stale_also_in_the_next_build_of_another(cour
 
 def carried_out(course: Course, found: Staleness) -> None:
     """The command that the answer names."""
-    command = found.mends[0].partition("`derive build ")[2].removesuffix("`").split()
+    command = found.fixes[0].partition("`derive build ")[2].removesuffix("`").split()
     what, *options = command
     only = (what.partition("/")[2],) if "/" in what else ()
-    built(course, only=only, papers=tuple(options[1].split(",")) if options[:1] == ["--only"] else ())
+    built(course, only=only, documents=tuple(options[1].split(",")) if options[:1] == ["--only"] else ())
 
 
-def test_a_paper_that_was_never_made_is_told_with_the_command_that_makes_it(course: Course) -> None:
+def test_a_document_that_was_never_made_is_told_with_the_command_that_makes_it(course: Course) -> None:
     found = told(course, "build/hw1/key.pdf")
     assert found.reasons == ("the document `key` of `hw1` has not been made",)
-    assert found.mends == ("to bring it up to date: `derive build hw1 --only key`",)
+    assert found.fixes == ("to bring it up to date: `derive build hw1 --only key`",)
     carried_out(course, found)
     assert told(course, "build/hw1/key.pdf").reasons == ()
 
 
 @pytest.mark.parametrize("name", ["key.pdf", "key.html", "solutions.pdf", "index.html", "one.pdf"])
-def test_the_command_that_is_named_works_for_papers_that_were_asked_for_before(course: Course, name: str) -> None:
-    built(course, papers=("key",))
+def test_the_command_that_is_named_works_for_documents_that_were_asked_for_before(course: Course, name: str) -> None:
+    built(course, documents=("key",))
     edited(course)
     found = told(course, f"build/hw1/{name}")
     assert found.reasons == ("`problems/hw1/one.yaml` has changed",)
@@ -185,9 +185,9 @@ def test_the_command_that_is_named_works_for_papers_that_were_asked_for_before(c
     assert told(course, f"build/hw1/{name}").reasons == ()
 
 
-def test_what_another_paper_alone_was_made_from_says_nothing_of_this_one(course: Course) -> None:
+def test_what_another_document_alone_was_made_from_says_nothing_of_this_one(course: Course) -> None:
     edited(course)
-    built(course, papers=("key",))
+    built(course, documents=("key",))
     assert told(course, "build/hw1/key.pdf").reasons == told(course, "build/hw1/one.pdf").reasons == ()
     found = told(course, "build/hw1/solutions.pdf")
     assert found.reasons == ("`problems/hw1/one.yaml` has changed",)
@@ -199,7 +199,7 @@ def test_a_problem_that_the_set_does_not_list_is_told_so(course: Course) -> None
     course.problem("three", "third")
     found = told(course, "hw1/three")
     assert found.reasons == ("the set `hw1` does not list `three`",)
-    assert found.mends == (
+    assert found.fixes == (
         "to bring it up to date: list `three` in `problems/hw1/set.yaml`, then `derive build hw1/three`",
     )
     course.heading("one", "two", "three")

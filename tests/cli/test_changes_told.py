@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 
 from derive.building.changes import ADDED, EQUAL, REMOVED, Change
-from derive.building.compared import Compared
+from derive.building.diff import Diff
 from derive.cli.changes_told import as_json, told
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 
 
 def text(*changes: Change, coloured: bool = False) -> list[str]:
-    return told("hw9/block", Compared("the last build", changes), coloured).splitlines()
+    return told("hw9/block", Diff("the last build", changes), coloured).splitlines()
 
 
 def test_nothing_changed_is_one_line() -> None:
@@ -94,8 +94,8 @@ def test_colours_take_no_room_and_are_left_out_of_plain_text() -> None:
 
 
 def test_programs_get_the_same() -> None:
-    data = json.loads(as_json("hw9/block", Compared("`HEAD`", (SENTENCE,))))
+    data = json.loads(as_json("hw9/block", Diff("`HEAD`", (SENTENCE,))))
     assert (data["problem"], data["since"], data["changed"]) == ("hw9/block", "`HEAD`", True)
     (change,) = data["changes"]
     assert (change["of"], change["how"], change["words"][1]) == ("sentence", "changed", ["removed", "back again."])
-    assert json.loads(as_json("hw9/block", Compared("`HEAD`", ())))["changed"] is False
+    assert json.loads(as_json("hw9/block", Diff("`HEAD`", ())))["changed"] is False

@@ -79,7 +79,7 @@ def test_a_step_is_shown_by_its_last_equation_with_its_own_left_side() -> None:
 
 def rubric(tmp_path: Path, said: str) -> str:
     root = course_in(tmp_path, {"    answer: inertia_tensor\n    points: 3\n": f"    answer: inertia_tensor\n{said}"})
-    return rendered(root, "hw9/block", papers=("rubric",)).papers["rubric"]
+    return rendered(root, "hw9/block", documents=("rubric",)).documents["rubric"]
 
 
 def test_what_an_instructor_says_stands_and_the_rest_is_shared(tmp_path: Path) -> None:
@@ -108,7 +108,7 @@ def test_a_rubric_that_does_not_fit_its_part_is_refused(tmp_path: Path, said: st
 def test_a_key_says_what_the_steps_are_worth(tmp_path: Path) -> None:
     root = course_in(tmp_path)
     rendered_once(root, "hw9/block")
-    key = rendered(root, "hw9/block", papers=("key",)).papers
+    key = rendered(root, "hw9/block", documents=("key",)).documents
     lines = [line for line in key["key"].splitlines() if "Points:" in line]
     assert lines and all(line.endswith(r"\par\nobreak") for line in lines)  # no page ends between it and what it is of
     assert "Points:" in key["key.html"]

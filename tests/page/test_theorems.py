@@ -12,7 +12,7 @@ from sympy import Symbol, cos, sin, symbols
 from derive.algebra.expressions import Relation
 from derive.errors import Rejected
 from derive.mechanics import Particle, System, coordinate, equation_of_motion, lagrangian, point, weight
-from derive.page.theorems import Theorems, alone
+from derive.page.theorems import Theorems, standalone
 from derive.page.tree import Folded, Paragraph, PartPage
 from derive.page.wording import Math, Text, ToldIn, ToldOnce, phrases
 from derive.steps.record import recorded
@@ -93,7 +93,7 @@ def test_a_page_alone_has_each_theorem_as_a_paragraph_before_its_sentence() -> N
     sentence = Paragraph((levers, Text("So this one does.")))
     part = PartPage("a", (), None, (sentence, Folded((sentence,)), Paragraph((levers,))))
     told = [Paragraph((Text("Levers balance."),)), Paragraph((Text("So this one does."),))]
-    paged = alone(replace(WHOLE, parts=(part,), limits=part))
+    paged = standalone(replace(WHOLE, parts=(part,), limits=part))
     assert paged.parts[0].blocks == (*told, Folded(tuple(told)), told[0])
     assert paged.limits == paged.parts[0]
-    assert alone(paged) == paged
+    assert standalone(paged) == paged

@@ -36,7 +36,7 @@ def steps_of(problem_id: str) -> tuple[Problem, Solved]:
     """Its steps; those that JSON cannot hold are derived each time."""
     rendered_once(ROOT, problem_id, only=())
     problem = load_problem(ROOT, problem_id)
-    kept_steps = Solved.from_data(kept().recalled_data(steps_key(problem)))
+    kept_steps = Solved.from_data(kept().get_data(steps_key(problem)))
     if kept_steps is None:
         derivation, values, _, run = derived(problem)
         kept_steps = Solved(derivation, values, (), tuple(run.drawings))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.building.set_document import index_page, paper_page, problem_page
+from derive.building.set_document import document_page, index_page, problem_page
 from derive.building.solution import rendered
 from derive.course.names import MORE, SHEET
 from derive.course.problem_set import problem_set
@@ -107,13 +107,13 @@ def test_the_page_of_a_set_leads_to_its_problems_and_to_what_can_be_printed(tmp_
     assert {"block.html", "solutions.pdf", "problems.pdf", "problems.html", "report.pdf"} <= set(tags.links)
 
 
-@pytest.mark.parametrize("paper", [SHEET, *MORE])
-def test_papers_are_well_formed_and_each_place_of_them_is_there_once(tmp_path: Path, paper: str) -> None:
+@pytest.mark.parametrize("kind", [SHEET, *MORE])
+def test_documents_are_well_formed_and_each_place_of_them_is_there_once(tmp_path: Path, kind: str) -> None:
     parts = []
     for problem in ("block", "top"):
         root = course_in(tmp_path / problem, problem=problem)
-        parts.append(rendered(root, f"hw9/{problem}", cache=kept(), only=(), papers=(paper,)))
-    tags = read(paper_page(root, problem_set(root, "hw9"), parts, paper))
+        parts.append(rendered(root, f"hw9/{problem}", cache=kept(), only=(), documents=(kind,)))
+    tags = read(document_page(root, problem_set(root, "hw9"), parts, kind))
     assert (tags.open, tags.faults) == ([], [])
     assert len(tags.ids) == len(set(tags.ids)) and {"block", "top"} <= set(tags.ids)
     assert {link[1:] for link in tags.links if link.startswith("#")} <= set(tags.ids)

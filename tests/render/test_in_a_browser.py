@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from derive.building.set_document import index_page, paper_page, problem_page
+from derive.building.set_document import document_page, index_page, problem_page
 from derive.building.solution import rendered
 from derive.course.names import ON_A_PAGE, RUBRIC, SHEET
 from derive.course.problem_set import problem_set
@@ -32,17 +32,19 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     solved = []
     for name in PROBLEMS:
         root = course_in(folder / name, problem=name)
-        solved.append(rendered(root, f"hw9/{name}", cache=kept(), draws=True, only=("html",), papers=papers_of(name)))
+        solved.append(
+            rendered(root, f"hw9/{name}", cache=kept(), draws=True, only=("html",), documents=documents_of(name))
+        )
         (folder / f"{name}.html").write_text(problem_page(root, solved[-1], problem_set(root, "hw9")))
     (folder / "index.html").write_text(index_page(root, problem_set(root, "hw9"), solved))
-    for paper in ON_A_PAGE:
-        having = [each for each in solved if f"{paper}.html" in each.papers]
-        (folder / f"{paper}.html").write_text(paper_page(root, problem_set(root, "hw9"), having, paper))
+    for kind in ON_A_PAGE:
+        having = [each for each in solved if f"{kind}.html" in each.documents]
+        (folder / f"{kind}.html").write_text(document_page(root, problem_set(root, "hw9"), having, kind))
     return {name: (folder / f"{name}.html").as_uri() for name in (*PROBLEMS, "index", *ON_A_PAGE)}
 
 
-def papers_of(name: str) -> tuple[str, ...]:
-    """The papers of two problems, and of one alone where every line is on it."""
+def documents_of(name: str) -> tuple[str, ...]:
+    """The documents of two problems, and of one alone where every line is on it."""
     return ON_A_PAGE if name == "block" else (SHEET, RUBRIC) if name == "top" else ()
 
 
@@ -72,7 +74,7 @@ def test_nothing_is_wider_than_a_phone(pages: dict[str, str], phone: Page, name:
 
 
 @pytest.mark.parametrize("name", ON_A_PAGE)
-def test_a_paper_has_no_fault_on_a_phone(pages: dict[str, str], phone: Page, name: str) -> None:
+def test_a_document_has_no_fault_on_a_phone(pages: dict[str, str], phone: Page, name: str) -> None:
     assert faults(phone, pages[name]) == []
 
 

@@ -11,7 +11,7 @@ import pytest
 from derive.errors import Complaint, Place
 from derive.render.rendered import Html, Rendered, Tex
 
-TOLD = Complaint("x", "y", Place("one.yaml", 1, 2, "text", 3), notes=("z",), help="mend it", severity="warning")
+TOLD = Complaint("x", "y", Place("one.yaml", 1, 2, "text", 3), notes=("z",), help="fix it", severity="warning")
 PAGE = Rendered(
     id="hw1/one",
     detail="standard",

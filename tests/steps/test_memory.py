@@ -32,9 +32,6 @@ class Texts(dict[str, str]):
     def __init__(self) -> None:
         self.made: list[str] = []
 
-    def recalled(self, key: str) -> str | None:
-        return self.get(key)
-
     def keep(self, key: str, text: str) -> None:
         self[key] = text
 

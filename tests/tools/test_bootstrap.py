@@ -166,8 +166,8 @@ def test_a_python_without_venv_is_told_with_the_mend(checkout: Checkout) -> None
     command = [sys.executable, "-P", "-c", hidden]
     run = subprocess.run(command, cwd=checkout.root, env={"PATH": "/nowhere"}, capture_output=True, text=True)
     assert run.returncode == 1
-    mend = "`apt install python3-venv`, or install uv, then `make` again"
-    assert run.stderr == f"error[venv]: python3 has no working venv module: {mend}\n"
+    fix = "`apt install python3-venv`, or install uv, then `make` again"
+    assert run.stderr == f"error[venv]: python3 has no working venv module: {fix}\n"
 
 
 def test_a_folder_that_cannot_be_written_is_one_line(checkout: Checkout) -> None:

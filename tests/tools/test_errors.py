@@ -23,9 +23,9 @@ def test_the_page_of_complaints_is_up_to_date() -> None:
 
 def test_every_code_has_a_cause_and_a_mend_and_none_is_spare() -> None:
     assert MADE["told"]().keys() == MADE["messages"]().keys()
-    for code, (cause, mend) in MADE["told"]().items():
-        assert cause.endswith(".") and mend.endswith("."), code
-        assert cause != mend, code
+    for code, (cause, fix) in MADE["told"]().items():
+        assert cause.endswith(".") and fix.endswith("."), code
+        assert cause != fix, code
 
 
 def test_every_golden_complaint_is_an_example_of_a_code_that_is_raised() -> None:

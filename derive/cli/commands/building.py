@@ -39,7 +39,7 @@ class Voice:
 
 
 def build(arguments: argparse.Namespace) -> int:
-    from derive.building.named import check_asked, set_names
+    from derive.building.set_names import check_asked, set_names
     from derive.building.sets import Options, built_set
 
     root = root_of(arguments)
@@ -52,7 +52,7 @@ def build(arguments: argparse.Namespace) -> int:
         arguments.jobs,
         arguments.time_limit,
         evidence=arguments.evidence,
-        papers=arguments.only,
+        documents=arguments.only,
     )
     asked = _sets_asked(arguments.sets or set_names(root))
     if not asked:

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 
 def check(arguments: argparse.Namespace) -> int:
-    from derive.building.alone import reports
-    from derive.building.loaded import load
-    from derive.building.named import check_asked, set_names
+    from derive.building.preload import preload
+    from derive.building.set_names import check_asked, set_names
     from derive.building.solution import rendered
+    from derive.building.standalone import reports
     from derive.building.workers import Crew, job_of, under_way
     from derive.course.problem_set import ids_in_order
 
@@ -36,7 +36,7 @@ def check(arguments: argparse.Namespace) -> int:
         check_asked(root, set_id, [name] if stroke else ())
     ids = _selected(asked, ids_in_order(root), set_names(root))
     if len(ids) > 1:
-        load(root, derives=True, draws=False)
+        preload(root, derives=True, draws=False)
     wanted = TYPESET if arguments.report else ()
     jobs = {
         job_of(root, problem, partial(rendered, root, problem, only=wanted), arguments.time_limit): problem

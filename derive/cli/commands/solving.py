@@ -59,25 +59,25 @@ def _deliver_drawings(output: str, files: Files) -> None:
 
 
 def explain(arguments: argparse.Namespace) -> int:
-    from derive.building.explained import explained
+    from derive.building.explain import explain
     from derive.building.workers import done, job_of
 
     root, problem_id = root_of(arguments), problem_id_of(arguments.id)
     with waiting(f"deriving {problem_id}"):
-        work = partial(explained, root, problem_id, arguments.key, arguments.format == "json")
+        work = partial(explain, root, problem_id, arguments.key, arguments.format == "json")
         found = done(job_of(root, problem_id, work, arguments.time_limit))
     print(found if isinstance(found, str) else table(found), flush=True)
     return 0
 
 
 def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
-    from derive.building.alone import typeset_alone
-    from derive.building.named import set_folder
+    from derive.building.set_names import set_folder
+    from derive.building.standalone import typeset_standalone
 
     set_id, _, name = problem_id.partition("/")
     suffix = f"-{arguments.detail}" if arguments.detail else ""
     outputs = set_folder(root, set_id)
     with waiting(f"typesetting {problem_id}"):
-        pdf = typeset_alone(outputs, name, tex, files, arguments.engine, arguments.time_limit)
+        pdf = typeset_standalone(outputs, name, tex, files, arguments.engine, arguments.time_limit)
     delivered(pdf, arguments.output or str(outputs / f"{name}{suffix}.pdf"))
     return 0

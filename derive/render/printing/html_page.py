@@ -16,7 +16,7 @@ from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
-from derive.page.theorems import alone
+from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
@@ -66,10 +66,10 @@ class HtmlPage:
         top: int = 1,
     ):
         """Prepare a page whose parent heading has the level `top`."""
-        self.alone = top == 1
-        self.document = alone(document) if self.alone else document
+        self.standalone = top == 1
+        self.document = standalone(document) if self.standalone else document
         self.words, self.notation, self.rubric = words, notation, rubric or {}
-        self._within = "" if self.alone else f"{document.id.rpartition('/')[2]}-"
+        self._within = "" if self.standalone else f"{document.id.rpartition('/')[2]}-"
         self._shown = {number for part in self.sections() for number in _numbers_of(part.blocks)}
         self.begin, self.end = Html(f"<h{top + 1}>"), Html(f"</h{top + 1}>")
         self._placed: set[Number] = set()
@@ -133,7 +133,7 @@ class HtmlPage:
                 return f'<a href="#{self._anchor(number)}">({number})</a>' if number in self._shown else f"({number})"
             case ProblemRef(of, text):
                 name = escape(of.rpartition("/")[2])
-                return f'<a href="{f"{name}.html" if self.alone else f"#{name}"}">{escape(text)}</a>'
+                return f'<a href="{f"{name}.html" if self.standalone else f"#{name}"}">{escape(text)}</a>'
             case ToldOnce(name, nodes, again):
                 return theorem(name, self.inline(nodes), self.inline(again))
             case ToldIn(problem):
@@ -150,7 +150,7 @@ class HtmlPage:
 
     def contents(self) -> Sequence[PartPage]:
         """Return the contents at the head of a page of several parts."""
-        return self.sections() if self.alone and len(self.document.parts_shown) >= LISTED else ()
+        return self.sections() if self.standalone and len(self.document.parts_shown) >= LISTED else ()
 
     def listed(self, part: PartPage) -> Html:
         """Return the question of a part for use in a link, without links of its formulas."""

@@ -9,7 +9,7 @@ from derive.algebra.dimensions import exponents
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.page.numbering import Number
-from derive.page.theorems import alone
+from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
@@ -23,7 +23,7 @@ FRAMED = "  * "  # marks a line with an answer
 
 def page_text(document: Document, words: Phrases, notation: Notation) -> str:
     """Return the whole page."""
-    return _Page(alone(document), words, notation).text()
+    return _Page(standalone(document), words, notation).text()
 
 
 def inline_text(nodes: Sequence[Inline], notation: Notation, numbers: Mapping[str, Number] | None = None) -> str:

@@ -8,34 +8,34 @@ from pathlib import Path
 import pytest
 from fake_course import Course
 
-import derive.building.compared
-import derive.building.compared_sets
+import derive.building.diff
+import derive.building.set_diff
 from derive.building.changes import Change
-from derive.building.compared import Compared
-from derive.building.compared_sets import ComparedSet
+from derive.building.diff import Diff
+from derive.building.set_diff import SetDiff
 from derive.cli.options import main
 from derive.errors import Complaint
 
-CHANGED = Compared("the last build", (Change("points", "the problem", "10", "12"),))
+CHANGED = Diff("the last build", (Change("points", "the problem", "10", "12"),))
 
 
-def compares(monkeypatch: pytest.MonkeyPatch, found: Compared) -> list[tuple[object, ...]]:
+def compares(monkeypatch: pytest.MonkeyPatch, found: Diff) -> list[tuple[object, ...]]:
     """The stand-in for the comparison; what it was asked."""
     asked: list[tuple[object, ...]] = []
     for name in ("since_build", "since_revision"):
 
-        def stand_in(root: Path, *how: object, name: str = name) -> Compared:
+        def stand_in(root: Path, *how: object, name: str = name) -> Diff:
             asked.append((name, *how))
             return found
 
-        monkeypatch.setattr(derive.building.compared, name, stand_in)
+        monkeypatch.setattr(derive.building.diff, name, stand_in)
     return asked
 
 
 def test_the_same_is_0_and_another_1(
     course: Course, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    asked = compares(monkeypatch, Compared("the last build", ()))
+    asked = compares(monkeypatch, Diff("the last build", ()))
     assert main(["diff", "problems/hw1/one.yaml"]) == 0
     assert capsys.readouterr() == ("hw1/one: nothing has changed since the last build\n", "")
     assert asked == [("since_build", "hw1/one", None, 120.0)]
@@ -91,7 +91,7 @@ def test_warnings_go_to_standard_error(
     course: Course, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     warning = Complaint("other-engine", "derive itself is another", severity="warning")
-    compares(monkeypatch, Compared("the last build", (), (warning,)))
+    compares(monkeypatch, Diff("the last build", (), (warning,)))
     assert main(["diff", "hw1/one"]) == 0
     assert capsys.readouterr().err == "warning[other-engine]: derive itself is another\n"
 
@@ -99,10 +99,10 @@ def test_warnings_go_to_standard_error(
 def test_of_a_set_the_set_itself_and_what_has_changed_of_its_problems(
     course: Course, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    same = Compared("the last build", ())
+    same = Diff("the last build", ())
     for own, problems, code in ((CHANGED, {"hw1/one": same}, 1), (same, {"hw1/two": CHANGED}, 1), (same, {}, 0)):
-        found = ComparedSet(own, problems)
-        monkeypatch.setattr(derive.building.compared_sets, "set_since_build", lambda *how, found=found: found)
+        found = SetDiff(own, problems)
+        monkeypatch.setattr(derive.building.set_diff, "set_since_build", lambda *how, found=found: found)
         assert main(["diff", "hw1"]) == code
         text = capsys.readouterr().out
         assert (text.count("10 -> 12"), "hw1/one" in text) == (code, False)

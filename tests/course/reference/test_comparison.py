@@ -235,7 +235,7 @@ def test_a_source_is_about_the_system_that_its_group_describes(
 class Nothing:
     """A store that recalls nothing."""
 
-    def recalled(self, key: str) -> None:
+    def get(self, key: str) -> None:
         return None
 
     def keep(self, key: str, text: str) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.building.alone import reports, typeset_alone
+from derive.building.standalone import reports, typeset_standalone
 from tests.fake_course import Course, rendered, stand_in_course
 
 
@@ -16,7 +16,7 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Course:
 
 
 def test_a_document_is_typeset_and_nothing_else_is_written(course: Course) -> None:
-    pdf = typeset_alone(course.outputs, "one", "said\n", (), None, 20)
+    pdf = typeset_standalone(course.outputs, "one", "said\n", (), None, 20)
     assert pdf.startswith(b"%PDF") and b"said" in pdf
     assert not course.outputs.exists()
 

@@ -10,7 +10,7 @@ from importlib import invalidate_caches
 from pathlib import Path
 
 
-def modules_beside(script: Path) -> tuple[Path, ...]:
+def own_modules(script: Path) -> tuple[Path, ...]:
     """Return the modules that the script imports, and those that they import; for a package, each of its files."""
     found: set[Path] = set()
     waiting = [script]

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from derive.building import explained as module
-from derive.building.explained import explained
+from derive.building import explain as module
+from derive.building.explain import explain
 from derive.building.solution import derived
 from derive.course.problem import Problem
 from derive.errors import Misused
@@ -35,7 +35,7 @@ def known() -> dict[str, Any]:
 
 
 def test_every_step_has_a_line(course: Path) -> None:
-    heading, *rows = explained(course, "hw9/body", None, False)
+    heading, *rows = explain(course, "hw9/body", None, False)
     assert heading == ("step", "part", "checked", "value")
     assert ("about_x", "a", "proved", "I_1 = 2/5 M R²") in rows
     assert ("first_tensor", "a", "proved", "I⃡") in rows
@@ -43,7 +43,7 @@ def test_every_step_has_a_line(course: Path) -> None:
 
 
 def test_a_step_is_told_under_headings(course: Path) -> None:
-    text = explained(course, "hw9/body", "about_x", False)
+    text = explain(course, "hw9/body", "about_x", False)
     assert isinstance(text, str)
     assert [line.split()[0] for line in text.splitlines()[2:] if line[:1].strip()] == [
         "why",
@@ -57,8 +57,8 @@ def test_a_step_is_told_under_headings(course: Path) -> None:
 
 
 def test_the_json_has_the_facts(course: Path) -> None:
-    one = explained(course, "hw9/body", "about_x", True)
-    every = explained(course, "hw9/body", None, True)
+    one = explain(course, "hw9/body", "about_x", True)
+    every = explain(course, "hw9/body", None, True)
     assert isinstance(one, str)
     assert isinstance(every, str)
     assert json.loads(one) in json.loads(every)
@@ -66,4 +66,4 @@ def test_the_json_has_the_facts(course: Path) -> None:
 
 def test_an_unknown_step_is_met_with_the_nearest(course: Path) -> None:
     with pytest.raises(Misused, match="did you mean `about_x`"):
-        explained(course, "hw9/body", "abuot_x", False)
+        explain(course, "hw9/body", "abuot_x", False)

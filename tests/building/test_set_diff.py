@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-import derive.building.compared_sets
+import derive.building.set_diff
 from derive.building.changes import Change
-from derive.building.compared import Compared
-from derive.building.compared_sets import ComparedSet, set_since_build, set_since_revision
+from derive.building.diff import Diff
 from derive.building.manifest import Manifest
+from derive.building.set_diff import SetDiff, set_since_build, set_since_revision
 from derive.errors import DeriveError, Misused
 from tests.building.repository import committed
 
@@ -23,7 +23,7 @@ statement: It falls.
 parts:
 - {{ask: How fast does it fall., answer: acceleration, points: {points}}}
 """
-OTHER = Compared("then", (Change("answer", "acceleration", "g", "2 g"),))
+OTHER = Diff("then", (Change("answer", "acceleration", "g", "2 g"),))
 
 
 @pytest.fixture(autouse=True)
@@ -31,10 +31,10 @@ def derived(monkeypatch: pytest.MonkeyPatch) -> None:
     """A stand-in for the comparison of each problem: `two` has another answer."""
     for name in ("since_build", "since_revision"):
 
-        def stand_in(root: Path, problem_id: str, *how: object, **more: object) -> Compared:
-            return OTHER if problem_id == "hw1/two" else Compared("then", ())
+        def stand_in(root: Path, problem_id: str, *how: object, **more: object) -> Diff:
+            return OTHER if problem_id == "hw1/two" else Diff("then", ())
 
-        monkeypatch.setattr(derive.building.compared_sets, name, stand_in)
+        monkeypatch.setattr(derive.building.set_diff, name, stand_in)
 
 
 def course(root: Path, **points: str) -> Path:
@@ -57,7 +57,7 @@ def built(root: Path, **points: float | None) -> Path:
     return root
 
 
-def own(compared: ComparedSet) -> list[tuple[str, str, str, str]]:
+def own(compared: SetDiff) -> list[tuple[str, str, str, str]]:
     return [(each.of, each.where, each.before, each.after) for each in compared.own.changes]
 
 
@@ -65,7 +65,7 @@ def test_the_sum_is_told_and_each_problem_that_was_built(tmp_path: Path) -> None
     root = course(built(tmp_path, one=3, two=2.5), one="4", two="2.5")
     found = set_since_build(root, "hw1", None, 60)
     assert own(found) == [("points", "the set", "5.5", "6.5")]
-    assert found.changed and found.problems == {"hw1/one": Compared("then", ()), "hw1/two": OTHER}
+    assert found.changed and found.problems == {"hw1/one": Diff("then", ()), "hw1/two": OTHER}
 
 
 def test_problems_that_come_and_go_and_change_places(tmp_path: Path) -> None:

@@ -11,9 +11,9 @@ from tests.courses import ROOT, course_in
 CODE = """
 import sys
 from pathlib import Path
-from derive.building.loaded import load
+from derive.building.preload import preload
 from derive.render.formats import formats
-load(Path("."), derives=True, draws=True), formats()
+preload(Path("."), derives=True, draws=True), formats()
 before = set(sys.modules)
 from derive.building.solution import rendered
 assert rendered(Path("."), "hw9/block", draws=True).files

@@ -21,7 +21,7 @@ from derive.render.rendered import Files
 Credits = Mapping[str, tuple[Credit, ...]]
 
 
-def paper_fragments(
+def document_fragments(
     wanted: Collection[str],
     pages: Callable[[str], Document],
     rubric: Credits,
@@ -32,18 +32,18 @@ def paper_fragments(
 ) -> dict[str, str]:
     """Return each document by its name, and as HTML by `name.html`; `pages` returns the page for a document."""
     found: dict[str, str] = {}
-    for paper in wanted:
-        if paper == SHEET:
-            questions = HtmlQuestions(pages(paper), words, notation, drawings, top=2)
-            found[f"{paper}.html"] = filled_html(folder, "questions.html.j2", {"page": questions})
-        if paper not in TEMPLATES:
+    for kind in wanted:
+        if kind == SHEET:
+            questions = HtmlQuestions(pages(kind), words, notation, drawings, top=2)
+            found[f"{kind}.html"] = filled_html(folder, "questions.html.j2", {"page": questions})
+        if kind not in TEMPLATES:
             continue
-        document, template = pages(paper), TEMPLATES[paper]
-        credited = rubric if paper != HINTS else {}
+        document, template = pages(kind), TEMPLATES[kind]
+        credited = rubric if kind != HINTS else {}
         tex = LatexPage(document, words, notation, credited)
         html = HtmlPage(document, words, notation, drawings, credited, top=2)
-        found[paper] = filled_template(folder, f"{template}.tex.j2", {"page": tex})
-        found[f"{paper}.html"] = filled_html(folder, f"{template}.html.j2", {"page": html})
+        found[kind] = filled_template(folder, f"{template}.tex.j2", {"page": tex})
+        found[f"{kind}.html"] = filled_html(folder, f"{template}.html.j2", {"page": html})
     return found
 
 

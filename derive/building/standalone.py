@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
-from derive.building.named import set_folder
 from derive.building.scratch import Scratch
+from derive.building.set_names import set_folder
 from derive.building.tex import by_the_clock, chosen_engine, typeset
 from derive.building.workers import Job, done
 from derive.course.names import REPORT
@@ -15,11 +15,11 @@ from derive.course.problem_set import ProblemSet, problem_set
 from derive.render.rendered import Files, Rendered
 
 
-def typeset_alone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
+def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
     """Return the PDF of a document; if it fails, its log is kept next to the set's outputs."""
     with Scratch() as folder:
         target = Path(folder) / f"{name}.pdf"
-        work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", beside=files)
+        work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", included=files)
         done(Job(f"the pages of `{outputs.name}/{name}`", work, by_the_clock(limit)))
         return target.read_bytes()
 
@@ -34,9 +34,9 @@ def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limi
         listed = [solved[problem] for problem in heading.problems if problem in solved]
         if not listed:
             continue
-        alone = len(listed) == 1 < len(heading.problems)
-        name = f"{listed[0].id.rpartition('/')[2]}-{REPORT}" if alone else REPORT
+        is_single = len(listed) == 1 < len(heading.problems)
+        name = f"{listed[0].id.rpartition('/')[2]}-{REPORT}" if is_single else REPORT
         outputs = set_folder(root, set_id)
         tex = report_document(root, heading, listed)
-        found[str(outputs / f"{name}.pdf")] = typeset_alone(outputs, name, tex, (), engine, limit)
+        found[str(outputs / f"{name}.pdf")] = typeset_standalone(outputs, name, tex, (), engine, limit)
     return found

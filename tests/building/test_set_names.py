@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.building.named import check_asked, misnamed_sets, set_folder, set_names, wrong_set_name
+from derive.building.set_names import check_asked, misnamed_sets, set_folder, set_names, wrong_set_name
 from derive.errors import Misused
 from tests.courses import course_in
 

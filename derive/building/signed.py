@@ -1,8 +1,8 @@
-"""Data kept between builds, sealed with a key of this machine's own: only what derive itself wrote is trusted.
+"""Data kept between builds, signed with a key of this machine: only data that derive itself wrote are trusted.
 
 Everything kept is read as data. The key is in the user's state folder, outside every course: a person who can only
-write a course's `build` cannot seal. If no key can be kept, this process has a key of its own, so that nothing that
-another process kept is trusted and everything is derived.
+write in the `build` folder of a course cannot sign. If no key can be kept, each process has a key of its own. Then
+nothing that another process kept is trusted, and everything is derived.
 """
 
 from __future__ import annotations
@@ -20,27 +20,27 @@ from typing import Any
 
 from derive.building.files import write
 
-KEY_BYTES = SEAL_BYTES = 32
+KEY_BYTES = SIGNATURE_BYTES = 32
 MAX_BYTES = 64 * 1024 * 1024
 
 
-def seal(file: Path, what: str, content: bytes) -> None:
-    """Write content with a seal that derive wrote it, and that it is `what`."""
-    write(file, _seal(what, content) + content)
+def write_signed(file: Path, what: str, content: bytes) -> None:
+    """Write content after a signature, which states that derive wrote this content as `what`."""
+    write(file, _signature(what, content) + content)
 
 
-def unsealed(file: Path, what: str) -> bytes | None:
-    """Return the content that was sealed as this; nothing if it is something else, was altered, or cannot be read."""
+def read_signed(file: Path, what: str) -> bytes | None:
+    """Return the content that was signed as `what`; None if it was signed as something else, altered or unreadable."""
     try:
         raw = regular_content(file)
     except OSError:
         return None
-    content = raw[SEAL_BYTES:]
-    return content if hmac.compare_digest(raw[:SEAL_BYTES], _seal(what, content)) else None
+    content = raw[SIGNATURE_BYTES:]
+    return content if hmac.compare_digest(raw[:SIGNATURE_BYTES], _signature(what, content)) else None
 
 
 def data_of(content: bytes | None) -> Any:
-    """Return the data of JSON that were sealed; nothing if the content is missing or not JSON."""
+    """Return the data of signed JSON; None if the content is missing or not JSON."""
     try:
         return json.loads(content or b"null")
     except (ValueError, RecursionError):
@@ -56,7 +56,7 @@ def regular_content(file: Path, limit: int = MAX_BYTES) -> bytes:
         return opened.read(limit + 1)
 
 
-def _seal(what: str, content: bytes) -> bytes:
+def _signature(what: str, content: bytes) -> bytes:
     return hmac.digest(_key(), b"%d:%s" % (len(what.encode()), what.encode()) + content, "sha256")
 
 
@@ -96,7 +96,7 @@ def _make_key(file: Path) -> None:
     """Put a new key there, whole or not at all; if another process was first, its key stays."""
     with suppress(OSError):  # no key is kept, or another process was first
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if os.path.lexists(file):  # damaged, or open to others: whatever it sealed is derived again
+        if os.path.lexists(file):  # damaged, or open to others: whatever it signed is derived again
             file.unlink()
         with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # for its owner alone
             temporary.write(secrets.token_bytes(KEY_BYTES))

@@ -27,7 +27,7 @@ WIDTH, INDENT = 100, 10
 Rows = list[tuple[str, ...]]
 
 
-def explained(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
+def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
     """Return the explanation of the step of that key; without a key, a row for each step after the heading, or JSON."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     derivation, values, *_ = derived(problem)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from derive.course.beside import importable, modules_beside
+from derive.course.own_modules import importable, own_modules
 
 
 def folder(at: Path, **files: str) -> Path:
@@ -19,15 +19,15 @@ def folder(at: Path, **files: str) -> Path:
 def test_what_is_imported_is_found_wherever_it_is_imported(tmp_path: Path) -> None:
     text = "import sympy, one.two\n\n\ndef solve():\n    from two import x\n    from . import three\n"
     script = folder(tmp_path, script=text, one="import four, script", two="(", three="", four="", five="", six__in="")
-    assert [file.stem for file in modules_beside(script)] == ["four", "one", "two"]
+    assert [file.stem for file in own_modules(script)] == ["four", "one", "two"]
     script.write_text("import six")
-    assert modules_beside(script) == (tmp_path / "six" / "in.py",)
-    assert modules_beside(tmp_path / "none.py") == ()
+    assert own_modules(script) == (tmp_path / "six" / "in.py",)
+    assert own_modules(tmp_path / "none.py") == ()
 
 
 def test_each_time_it_is_read_anew_and_nothing_is_left(tmp_path: Path) -> None:
     script = folder(tmp_path, script="import helper_of_a_test", helper_of_a_test="X = 1")
-    modules, path = modules_beside(script), [*sys.path]
+    modules, path = own_modules(script), [*sys.path]
     for x in (1, 2):
         folder(tmp_path, helper_of_a_test=f"X = {x}")
         with importable(script, modules):
@@ -40,5 +40,5 @@ def test_each_time_it_is_read_anew_and_nothing_is_left(tmp_path: Path) -> None:
 def test_a_problem_called_as_a_package_does_not_stand_for_it(tmp_path: Path) -> None:
     script = folder(tmp_path, script="import wave", wave="X = 1")
     sys.modules.pop("wave", None)
-    with importable(script, modules_beside(script)):
+    with importable(script, own_modules(script)):
         assert not hasattr(__import__("wave"), "X")

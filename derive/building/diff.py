@@ -13,8 +13,8 @@ from derive.building.cache import PACKAGES, Cache, engine_digest
 from derive.building.changes import Change, changes
 from derive.building.files import shown_path
 from derive.building.manifest import Manifest
-from derive.building.named import set_folder
 from derive.building.revision import TEMPLATES, course_at
+from derive.building.set_names import set_folder
 from derive.building.sets import CACHE
 from derive.building.workers import Bug, Job, done, job_of
 from derive.course.problem_set import path_of, problem_paths
@@ -25,7 +25,7 @@ Page = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
-class Compared:
+class Diff:
     """The changes, the state since which they are listed, and warnings about the comparison itself."""
 
     since: str
@@ -33,7 +33,7 @@ class Compared:
     warnings: tuple[Complaint, ...] = ()
 
 
-def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -> Compared:
+def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -> Diff:
     """Return what has changed since the last build, at the level of detail of that build."""
     path_of(root, problem_id)
     before = built_page(root, problem_id)
@@ -45,10 +45,10 @@ def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -
     after = done(_job(root, root, problem_id, before["detail"], limit))
     recorded = Manifest.read(set_folder(root, problem_id.partition("/")[0])).engine
     warnings = [_other_engine()] if recorded and recorded != engine_digest(*PACKAGES) else []
-    return Compared("the last build", tuple(changes(before, after)), tuple(warnings))
+    return Diff("the last build", tuple(changes(before, after)), tuple(warnings))
 
 
-def since_revision(root: Path, problem_id: str, revision: str, detail: str | None, limit: float) -> Compared:
+def since_revision(root: Path, problem_id: str, revision: str, detail: str | None, limit: float) -> Diff:
     """Return what has changed since a revision, which is derived with the present derive."""
     path_of(root, problem_id)
     with course_at(root, revision, problem_id.partition("/")[0]) as old_root:
@@ -58,25 +58,25 @@ def since_revision(root: Path, problem_id: str, revision: str, detail: str | Non
         before, warnings = _derived_at(
             revision, root, old_root, lambda: _job(root, old_root, problem_id, detail, limit)
         )
-    return Compared(f"`{revision}`", tuple(changes(before, after)), warnings)
+    return Diff(f"`{revision}`", tuple(changes(before, after)), warnings)
 
 
 def built_page(root: Path, problem_id: str) -> Page:
     """Return the page that the last build wrote."""
     set_id, _, name = problem_id.partition("/")
     file = set_folder(root, set_id) / f"{name}.json"
-    mend = f"`derive build {problem_id}` builds it; `--rev HEAD` compares with what git has"
+    fix = f"`derive build {problem_id}` builds it; `--rev HEAD` compares with what git has"
     try:
         page = json.loads(file.read_text(encoding="utf-8"))
     except FileNotFoundError:
         message = f"`{problem_id}` has not been built: there is no `{shown_path(file)}` to compare with"
-        raise Misused(Complaint("not-built", message, help=mend)) from None
+        raise Misused(Complaint("not-built", message, help=fix)) from None
     except (OSError, ValueError):
         message = f"`{shown_path(file)}` is not a file that a build wrote"
-        raise Misused(Complaint("not-built", message, help=mend)) from None
+        raise Misused(Complaint("not-built", message, help=fix)) from None
     if not isinstance(page, dict) or any(key not in page for key in _SAYS):
         message = f"`{shown_path(file)}` was written by an earlier derive, which kept no sentences"
-        raise Misused(Complaint("not-built", message, help=mend))
+        raise Misused(Complaint("not-built", message, help=fix))
     return page
 
 

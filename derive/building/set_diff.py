@@ -9,10 +9,10 @@ from functools import partial
 from pathlib import Path
 
 from derive.building.changes import Change
-from derive.building.compared import Compared, built_page, since_build, since_revision
+from derive.building.diff import Diff, built_page, since_build, since_revision
 from derive.building.manifest import Manifest
-from derive.building.named import check_asked, set_folder
 from derive.building.revision import course_at
+from derive.building.set_names import check_asked, set_folder
 from derive.course.parts import points_text
 from derive.course.problem_set import problem_set
 from derive.course.written import written_problem
@@ -22,18 +22,18 @@ Points = Mapping[str, Fraction | None]  # of each problem of a set, in their ord
 
 
 @dataclass(frozen=True)
-class ComparedSet:
+class SetDiff:
     """The changes of the set itself, and of each problem that was there and still is."""
 
-    own: Compared
-    problems: Mapping[str, Compared]
+    own: Diff
+    problems: Mapping[str, Diff]
 
     @property
     def changed(self) -> bool:
         return bool(self.own.changes) or any(each.changes for each in self.problems.values())
 
 
-def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -> ComparedSet:
+def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -> SetDiff:
     """Return what has changed since the last build of the set."""
     after, folder = _written(root, set_id), set_folder(root, set_id)
     built = [f"{set_id}/{name}" for name in Manifest.read(folder).problems]
@@ -44,17 +44,17 @@ def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -
     pages = {name: built_page(root, name)["points"] for name in built}
     before = {name: None if points is None else Fraction(str(points)) for name, points in pages.items()}
     problems = {name: since_build(root, name, detail, limit) for name in after if name in before}
-    return ComparedSet(Compared("the last build", tuple(_changes(before, after))), problems)
+    return SetDiff(Diff("the last build", tuple(_changes(before, after))), problems)
 
 
-def set_since_revision(root: Path, set_id: str, revision: str, detail: str | None, limit: float) -> ComparedSet:
+def set_since_revision(root: Path, set_id: str, revision: str, detail: str | None, limit: float) -> SetDiff:
     """Return what has changed since a revision, which is derived with the present derive."""
     after = _written(root, set_id)
     with course_at(root, revision, set_id) as old_root:
         before = _written(old_root, set_id)
     since = partial(since_revision, root, revision=revision, detail=detail, limit=limit)
     problems = {name: since(name) for name in after if name in before}
-    return ComparedSet(Compared(f"`{revision}`", tuple(_changes(before, after))), problems)
+    return SetDiff(Diff(f"`{revision}`", tuple(_changes(before, after))), problems)
 
 
 def _written(root: Path, set_id: str) -> Points:

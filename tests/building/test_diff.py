@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import derive.building.solution
-from derive.building.compared import Compared, since_build, since_revision
+from derive.building.diff import Diff, since_build, since_revision
 from derive.errors import DeriveError, Misused, Rejected
 from tests.building.repository import committed
 from tests.courses import course_in, kept, rendered_once
@@ -45,7 +45,7 @@ def edited(root: Path, old: str, new: str) -> Path:
     return root
 
 
-def where(compared: Compared) -> list[tuple[str, str]]:
+def where(compared: Diff) -> list[tuple[str, str]]:
     return [(change.of, change.where) for change in compared.changes]
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from derive.errors import DeriveError
 
-__all__ = ["load"]
+__all__ = ["preload"]
 
 PRINTING = ("derive.building.set_document", "derive.building.solution", "derive.render.printing.contract")
 DERIVING = (
@@ -24,7 +24,7 @@ DERIVING = (
 DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 
 
-def load(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
+def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
     """Load the modules that print a problem, its phrases and templates; those that derive it; and those that draw.
 
     The reference of a set is read once for all of its problems.

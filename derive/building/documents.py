@@ -1,0 +1,44 @@
+"""The documents of a set: those that its file names, and those that `--only` has asked for.
+
+A document that was asked for once is made again by each later build of the whole set, so that it is never older than
+the problems. To stop this, remove its PDF.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING
+
+from derive.building.manifest import Documents, Manifest
+from derive.errors import Complaint, Misused
+
+if TYPE_CHECKING:
+    from derive.course.problem_set import ProblemSet
+
+
+def with_asked(documents: Documents, asked: Collection[str]) -> list[list[str]]:
+    """Return these documents, and also those that are asked for."""
+    named = [kind for kind, _ in documents]
+    return [*map(list, documents), *([kind, kind] for kind in asked if kind not in named)]
+
+
+def still_there(documents: Documents, record: Manifest, asked: Collection[str]) -> list[list[str]]:
+    """Return the documents without those that an earlier `--only` asked for and whose PDF was removed since."""
+    earlier = {*record.asked} - {*asked}
+    return [list(pair) for pair in documents if pair[0] not in earlier or (record.folder / f"{pair[1]}.pdf").exists()]
+
+
+def named_documents(heading: ProblemSet, record: Manifest, asked: Collection[str]) -> list[list[str]]:
+    """Return the documents of the set from now on; remove the files of those that it no longer has."""
+    own = [kind for kind, _ in heading.documents]
+    requested = [kind for kind in dict.fromkeys([*record.asked, *asked]) if kind not in own]
+    named = with_asked(heading.documents, requested)
+    files = [file for _, file in named]
+    if twice := [file for file in files if files.count(file) > 1]:
+        message = f"two documents of `{heading.id}` would be called `{twice[0]}`"
+        help_line = f"choose another name in `documents:` of `{heading.inputs[0]}`"
+        raise Misused(Complaint("document-name", message, help=help_line))
+    documents = [*map(list, heading.documents), *still_there(named[len(own) :], record, asked)]
+    record.replace_documents(documents)
+    record.asked = [kind for kind in requested if [kind, kind] in documents]
+    return documents
