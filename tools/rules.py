@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import textwrap
 from collections.abc import Iterable
@@ -43,9 +44,15 @@ def verbs() -> str:
     lines = ["\n## Verbs\n\n| verb | under `results:` | yields |\n|---|---|---|\n"]
     for name, each in sorted(public.items()):
         if "Quantity" in str(signature(each).return_annotation):
-            yields = " ".join((getdoc(each) or "").partition("\n\n")[0].split())
+            yields = summary(getdoc(each) or "")
             lines.append(f"| `{name}` | {f'`{asked[name]}`' if name in asked else ''} | {yields} |\n")
     return "".join(lines)
+
+
+def summary(text: str) -> str:
+    """Return the first paragraph of a docstring, without the lines on arguments, outcomes and sources below it."""
+    below = r"\n\n|\n(?:Outcomes|Errors|Source|Check|Second route)s?:|\n\w+  +\w"
+    return " ".join(re.split(below, text)[0].split())
 
 
 def document() -> str:
