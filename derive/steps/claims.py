@@ -21,7 +21,7 @@ from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Doubt, Judged, Naming, Predicate
 from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
-from derive.steps.trial_numbers import just_where, sign_at, signs_of
+from derive.steps.trial_numbers import just_where, sign_at, sign_found, signs_of
 
 Asked = ParamSpec("Asked")
 
@@ -105,12 +105,17 @@ def never_vanishes(v: Any) -> bool:
 
 
 def same_equation(value: Expr, other: Expr) -> bool:
-    """Whether the two vanish at the same places: they differ by a factor whose sign is known."""
-    return is_zero(value) if is_zero(other) else sign_known(tidied(value / other)) in (1, -1)
+    """Whether the two vanish at the same places: they differ by a factor that has one sign."""
+    return is_zero(value) if is_zero(other) else sign_found(tidied(value / other)) in (1, -1)
 
 
 def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
-    return lambda facts: sign_known(of(facts)) == wanted
+    return lambda facts: has_sign(of(facts), wanted)
+
+
+def has_sign(value: Expr, wanted: int | None) -> bool:
+    """Whether a value has this sign at the trial numbers; for None, whether verbs cannot decide its sign."""
+    return sign_known(value) is None if wanted is None else sign_found(value) == wanted
 
 
 def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
@@ -158,7 +163,7 @@ def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
     """Whether the sentence excludes every factor of the denominator that might vanish; the first of several solutions
     does it for all."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
-    unsure = [f for f in Mul.make_args(factor(below)) if sign_known(f) is None and not f.as_base_exp()[0].is_nonzero]
+    unsure = [f for f in Mul.make_args(factor(below)) if sign_found(f) is None and not f.as_base_exp()[0].is_nonzero]
     return not unsure or outcome == "following" or "excluded" in facts.inputs
 
 
@@ -178,7 +183,7 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
 def not_negative(facts: Judged, outcome: str) -> bool:
     """Whether a period, a frequency or an amplitude is not negative; where its sign depends on the letters, the page
     states the condition."""
-    return sign_known(facts.result) != -1
+    return sign_found(facts.result) != -1
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:

@@ -115,6 +115,16 @@ def signs_of(value: Expr, *conditions: Relation) -> set[int | None]:
     return signs(value, trial_points(letters_of(explicit(value)), *conditions))
 
 
+def sign_found(value: Expr) -> int | None:
+    """Return the sign that a value has at all trial numbers which the assumptions allow; None if it has several.
+
+    The numbers that the problem gives are substituted. No rule by which a verb decides a sign is used.
+    """
+    known = with_numbers(explicit(value))
+    found = signs_of(known, *assumptions_about(letters_of(known)))
+    return next(iter(found)) if len(found) == 1 else None
+
+
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
     """Whether a statement is true at each point where it has a meaning, and has one at some point.
 

@@ -34,6 +34,7 @@ from derive.solving.root_of_factor import RootOf
 from derive.steps.claims import (
     MARK_OF,
     both,
+    has_sign,
     is_a_root_just_where_told,
     letters_in,
     negated,
@@ -56,6 +57,7 @@ from derive.steps.trial_numbers import (
     holds_at,
     real_at,
     roots_of,
+    sign_found,
     signs_of,
     trial_points,
 )
@@ -132,14 +134,14 @@ def where_the_coefficients_last(predicate: Predicate) -> Predicate:
         told = [each.left for each in known if each.operator in ("!=", ">")]
         factors = {f for each in told for f, _ in factor_list(each)[1]}
         common = factor_list(gcd_list(_polynomial(facts).coeffs()))[1]
-        open_ = [f for f, _ in common if sign_known(f) is None and not f.is_nonzero]
+        open_ = [f for f, _ in common if sign_found(f) is None and not f.is_nonzero]
         return bool(predicate(facts)) and all(f in factors or -f in factors for f in open_)
 
     return is_so
 
 
 def absent(facts: Judged) -> bool:
-    return isinstance(facts.result, Relation) and sign_known(facts.result.left) in ALLOWED[facts.result.operator]
+    return isinstance(facts.result, Relation) and sign_found(facts.result.left) in ALLOWED[facts.result.operator]
 
 
 def beyond_one(facts: Judged) -> bool:
@@ -335,9 +337,9 @@ def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
-        if is_zero(q.a) or sign_known((q.b / q.a) ** 2 - 4 * q.c / q.a) != discriminant:
+        if is_zero(q.a) or not has_sign((q.b / q.a) ** 2 - 4 * q.c / q.a, discriminant):
             return False
-        opposite = sign_known(q.c / q.a) == -1
+        opposite = sign_found(q.c / q.a) == -1
         return discriminant != 1 or opposite == (product == -1)
 
     return is_so

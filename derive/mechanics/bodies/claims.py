@@ -21,8 +21,8 @@ from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.mapping import inside
 from derive.steps.claims import both, lasts, negated, vanishes
 from derive.steps.rule import Judged, Predicate, handed_on_by
-from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
+from derive.steps.trial_numbers import sign_found
 
 
 def dimensions_of_filling(n: int) -> Predicate:
@@ -100,7 +100,7 @@ def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
     """The size is not negative, and its square is the determinant in the result."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
-    return is_zero(explicit(size) ** 2 - square) and sign_known(explicit(size)) != -1
+    return is_zero(explicit(size) ** 2 - square) and sign_found(explicit(size)) != -1
 
 
 def mapped_to(facts: Judged, place: Any) -> bool:

@@ -33,6 +33,7 @@ from derive.mechanics.vibrations.facts import Linear, Mode, SquareOf
 from derive.steps.claims import (
     always_sign,
     both,
+    has_sign,
     is_a_root_just_where_told,
     lasts,
     negated,
@@ -56,6 +57,7 @@ from derive.steps.trial_numbers import (
     just_where,
     roots_of,
     sign_at,
+    sign_found,
     signs,
     signs_of,
     trial_points,
@@ -99,7 +101,7 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
 
 
 def _unless_it_grows(word: str, rate: Expr) -> str:
-    return "runs_away" if sign_known(rate) == -1 else word
+    return "runs_away" if sign_found(rate) == -1 else word
 
 
 def loses(wanted: bool) -> Predicate:
@@ -112,7 +114,7 @@ def dies_away(manner: str) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         mass, loss, stiff = (facts.inputs[role] for role in ("mass", "loss", "stiff"))
-        return sign_known(loss**2 - 4 * mass * stiff) == signs[manner]
+        return has_sign(loss**2 - 4 * mass * stiff, signs[manner])
 
     return is_so
 
