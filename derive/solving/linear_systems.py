@@ -226,30 +226,10 @@ class LinearSystem:
             raise Rejected(Complaint("no-closed-form", "the determinant is not a polynomial that can be factored"))
         return [(part, times) for part, times in found]
 
-    def _ratios(self, s: Expr, root: Symbol, factor: Factor) -> list[Expr]:
-        """A column of the null space, divided by its first entry, where the root is one of this factor: a column of the
-        adjugate matrix. Empty if all these columns vanish."""
-        adjugate, size, modulus = self.at(s).adjugate(), range(self.mass.shape[0]), Poly(factor.at(root), root)
-        for k in size:
-            entries = [_remainder(adjugate[j, k], modulus) for j in size]
-            first = next((entry for entry in entries if not is_zero(entry)), None)
-            if first is not None:
-                return [ZERO if is_zero(entry) else entry / first for entry in entries]
-        return []
 
-
-def _remainder(entry: Expr, modulus: Poly) -> Expr:
-    """A polynomial in the root, its real and its imaginary part reduced modulo the polynomial of this root."""
-    root, entry = modulus.gen, entry.expand()
-    parts = [Poly(part.expand(), root) for part in (entry.as_real_imag() if entry.has(I) else (entry,))]
-    field, _ = construct_domain([c for each in (modulus, *parts) for c in each.all_coeffs()], field=True)
-    over = Poly(modulus.as_expr(), root, domain=field)
-    reduced = [Poly(part.as_expr(), root, domain=field).rem(over).as_expr() for part in parts]
-    return Add(*(I**n * part for n, part in enumerate(reduced)))
-
-
-def _in_order(root: CharacteristicRoot) -> tuple[bool, float]:
-    return not root.has_formula, size_of(root.value)
+def _in_order(root: CharacteristicRoot) -> tuple[bool, float, str]:
+    size = size_of(root.value)
+    return not root.has_formula, size, str(root.value) if size else ""
 
 
 def _check_size(size: int, fits: bool, what: str, help: str | None = None) -> None:
@@ -395,7 +375,7 @@ def _entry_at(entry: Expr, value: Expr) -> Expr:
         inner = entry.as_poly(LAMBDA)
         slope, constant = inner.coeff_monomial(LAMBDA), inner.coeff_monomial(1)
         return _with_root(constant + slope * plain, slope * before, roots[0])
-    if not value.has(sin):
+    if value.free_symbols or not value.has(sin):
         return tidied(entry.xreplace({LAMBDA: value}))
     angle = next(iter(value.atoms(sin))).args[0]
     return TR8(entry.xreplace({LAMBDA: 2 - 2 * cos(2 * angle)}).expand()).expand()
@@ -403,14 +383,14 @@ def _entry_at(entry: Expr, value: Expr) -> Expr:
 
 def _null_columns(matrix: MatrixBase, part: Poly) -> list[MatrixBase]:
     """A basis of the null space of the matrix, where lambda is a root of the irreducible polynomial."""
-    size = matrix.shape[0]
+    size, root = matrix.shape[0], part.gen
 
     def reduced(entry: Expr) -> Poly:
-        return Poly(entry, LAMBDA, domain=field).rem(modulus)
+        return Poly(entry, root, domain=field).rem(modulus)
 
-    polynomials = [part, *(Poly(entry, LAMBDA) for entry in matrix)]
+    polynomials = [part, *(Poly(entry, root) for entry in matrix)]
     field, _ = construct_domain([c for each in polynomials for c in each.all_coeffs()], field=True)
-    modulus = Poly(part.as_expr(), LAMBDA, domain=field)
+    modulus = Poly(part.as_expr(), root, domain=field)
     rows = [[reduced(matrix[i, j]) for j in range(size)] for i in range(size)]
     pivots: list[int] = []
     for j in range(size):
@@ -429,7 +409,7 @@ def _null_columns(matrix: MatrixBase, part: Poly) -> list[MatrixBase]:
     free = [j for j in range(size) if j not in pivots]
     columns = []
     for j in free:
-        entries = [Poly(1 if i == j else 0, LAMBDA, domain=field) for i in range(size)]
+        entries = [Poly(1 if i == j else 0, root, domain=field) for i in range(size)]
         for row, pivot in enumerate(pivots):
             entries[pivot] = -rows[row][j]
         columns.append(_first_is_one(entries, modulus))
@@ -561,7 +541,15 @@ class Gyroscopic(LinearSystem):
         """
         if root.times > 1 or root.sign == 0 or not root.turn:
             return None
-        ratios = self._ratios(I * OMEGA, OMEGA, root.factor)
+        modulus, adjugate, size = (
+            Poly(root.factor.at(OMEGA), OMEGA),
+            self.at(I * OMEGA).adjugate(),
+            len(self.mass[:, 0]),
+        )
+        columns = ([_remainder(adjugate[j, k], modulus) for j in range(size)] for k in range(size))
+        entries = next((column for column in columns if not is_zero(ImmutableDenseMatrix(column))), [])
+        first = next((entry for entry in entries if not is_zero(entry)), None)
+        ratios = [ZERO if is_zero(entry) else entry / first for entry in entries]
         if root.sign == -1:
             ratios = [ratio.subs(OMEGA, -I * OMEGA) for ratio in ratios]
         if not is_irrational(value := explicit(root.value)):
@@ -569,6 +557,15 @@ class Gyroscopic(LinearSystem):
         tidy = tuple(map(_tidy_ratio, ratios))
         is_mixed = any(r.has(I) and (r / I).has(I) or r.has(Abs) for r in tidy)
         return tidy if tidy and not is_mixed else None
+
+
+def _remainder(entry: Expr, modulus: Poly) -> Expr:
+    """A polynomial in the root, its real and its imaginary part reduced modulo the polynomial of this root."""
+    parts = [Poly(part.expand(), OMEGA) for part in entry.expand().as_real_imag()]
+    field, _ = construct_domain([c for each in (modulus, *parts) for c in each.all_coeffs()], field=True)
+    over = Poly(modulus.as_expr(), OMEGA, domain=field)
+    real, imaginary = (Poly(part.as_expr(), OMEGA, domain=field).rem(over).as_expr() for part in parts)
+    return real + I * imaginary
 
 
 def _tidy_ratio(ratio: Expr) -> Expr:
@@ -617,11 +614,8 @@ class Damped(LinearSystem):
     def column(self, root: CharacteristicRoot) -> MatrixBase | None:
         """The amplitudes, if they are the same for both exponents of a factor, and so real; None if they are not, or if
         there is not exactly one column."""
-        ratios = self._ratios(S, S, root.factor) if root.times == 1 else []
-        if root.factor.degree == 1:
-            ratios = [ratio.subs(S, -root.value) for ratio in ratios]
-        column = [tidied(cancel(ratio)) for ratio in ratios]
-        return ImmutableDenseMatrix(column) if column and not any(each.has(S) for each in column) else None
+        columns = _null_columns(self.at(S), Poly(root.factor.at(S), S)) if root.times == 1 else []
+        return None if len(columns) != 1 or columns[0].has(S) else ImmutableDenseMatrix(columns[0].applyfunc(tidied))
 
 
 # --- how roots are written --------------------------------------------------------------------------------------------

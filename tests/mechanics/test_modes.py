@@ -157,6 +157,18 @@ def test_the_frequencies_of_a_uniform_chain(size: int) -> None:
         assert all(abs(entry.subs({k: 1, m: 1}).evalf(20)) < Rational(1, 10**15) for entry in residual)
 
 
+def test_a_given_angle_in_the_stiffness_is_no_angle_of_a_chain() -> None:
+    """A sine in lambda once meant a uniform chain, so this shape was wrong and its second route refused it."""
+    alpha = symbols("alpha", real=True)
+    a, b = coordinate("x", "length"), coordinate("y", "length")
+    energy = k * ((1 + sin(alpha) ** 2) * a.symbol**2 - 2 * cos(alpha) * a.symbol * b.symbol + b.symbol**2) / 2
+    linear = linearised(motion(Particle(m, point(a, 0)), Particle(M, point(b, 0)), potential(energy)))
+    found = normal_modes(linear)
+    (first, second), both = (q.value**2 for q in found[:2]), (2 - cos(alpha) ** 2) / m + 1 / M
+    assert equal(first + second, k * both)
+    assert equal(first * second, 2 * k**2 * sin(alpha) ** 2 / (m * M))
+
+
 def test_three_equal_masses_joined_in_a_triangle_have_a_repeated_frequency() -> None:
     """K = k ((2, -1, -1), ...): 0, 3k/m, 3k/m, with shapes orthogonal to each other."""
     stiffness = ImmutableDenseMatrix([[2 * k, -k, -k], [-k, 2 * k, -k], [-k, -k, 2 * k]])

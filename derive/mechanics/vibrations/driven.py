@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, atan, cos, diff, expand, integrate, pi, sin, sqrt, tan
+from sympy import Abs, Add, Expr, Integer, Pow, Rational, atan, cos, diff, expand, integrate, pi, sin, sqrt, tan
 
-from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar, stand_in
+from derive.algebra.expressions import TIME, Factors, Ratio, Root, Terms, scalar, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import in_results
@@ -15,12 +15,11 @@ from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.linear_motion import LinearCoefficients, is_linear_in_time, linear_equation, put_back
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
-from derive.solving.relations import positive
+from derive.solving.relations import conditions_told, positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import with_numbers
-from derive.steps.record import assume
 from derive.steps.rule import CHECK, ROUTE, Rule
-from derive.steps.signs import sign_known
+from derive.steps.signs import sign_known, taken_positive
 from derive.steps.step import Level, Quantity
 
 __all__ = ["quality_factor", "steady_amplitude"]
@@ -68,8 +67,7 @@ def steady_amplitude(
     """
     linear = linear_equation(equation, q)
     force, angle = _one_swing(linear, equation)
-    if sign_known(force) is None:
-        assume(Relation(_of_unknown_sign(force), ">", Integer(0)))
+    taken_positive(force)
     w = diff(angle, TIME)
     stiff, loss = linear.c - linear.a * w**2, linear.b * w
     damped = "damped" if linear.b != 0 else "undamped"
@@ -112,7 +110,7 @@ def steady_amplitude(
         phrase_data=PhraseData(
             formulas={
                 "motion": (Factors(size, cos(Terms(angle, -lag))), size * cos(angle - lag)),
-                **({} if excluded is None else {"excluded": (excluded, _written_out(excluded))}),
+                **conditions_told(excluded=excluded),
             },
             outcome_data={"loss": loss},
         ),
@@ -133,15 +131,11 @@ def steady_amplitude(
         key=f"{key}_lag",
         kind="number" if damped == "damped" else "angle",
         phrase_data=PhraseData(
-            formulas={} if in_phase is None else {"in_step": (in_phase, _written_out(in_phase))},
+            formulas=conditions_told(in_step=in_phase),
             outcome_data={"loss": loss, "stiff": stiff},
         ),
     )
     return amplitude, lags
-
-
-def _written_out(condition: Relation) -> Relation:
-    return Relation(tidied(condition.left), condition.operator, tidied(condition.right))
 
 
 def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
@@ -151,10 +145,6 @@ def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
     if common.is_positive:
         force, stiff, loss = (tidied(each / common) for each in (force, stiff, loss))
     return force / sqrt(Add(stiff**2, presented(loss**2)))
-
-
-def _of_unknown_sign(value: Expr) -> Expr:
-    return Mul(*(f for f in Mul.make_args(tidied(value)) if not f.is_positive))
 
 
 def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:

@@ -453,7 +453,7 @@ def _without_squares(value: Expr, square: Symbol) -> Expr:
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """Return the remainder of the value where both sides of a condition are equal."""
-    residual = condition.residual.as_numer_denom()[0].expand()
-    letter = min(residual.free_symbols, key=str)
-    return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual, letter)).as_expr()
+    """Return the remainder of the value where both sides of a condition are equal, by a letter or a sine in it."""
+    residual = Poly(condition.residual.as_numer_denom()[0].expand())
+    letter = min(residual.gens, key=lambda each: (not each.is_Symbol, str(each)))
+    return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual.as_expr(), letter)).as_expr()

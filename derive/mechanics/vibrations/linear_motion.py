@@ -45,6 +45,7 @@ from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
+from derive.solving.relations import conditions_told
 from derive.solving.unknowns import coordinates_of, is_number, residual_of
 from derive.steps.claims import as_told
 from derive.steps.establish import Lines, PhraseData, establish
@@ -163,7 +164,7 @@ def solution(
         key=key or f"{q.symbol.name}_of_t",
         kind=q.kind,
         phrase_data=PhraseData(
-            formulas=_told(linear, condition),
+            formulas=conditions_told(excluded=_excluded(linear), condition=condition),
             named=_start(q, first, initial),
             outcome_data={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
@@ -187,17 +188,6 @@ def free_motion(linear: LinearCoefficients, first: Expr, initial: Expr, case: st
         assume(condition)
     basis = _basis(linear, sort)
     return _free(basis, _constants(basis, ZERO, first, initial), linear, sort)
-
-
-def _told(linear: LinearCoefficients, condition: Relation | None) -> dict[str, tuple[Any, Any]]:
-    """Return the condition of the case, and the factors that must not vanish."""
-    told: dict[str, tuple[Any, Any]] = {}
-    excluded = _excluded(linear)
-    if excluded is not None:
-        told["excluded"] = (excluded, Relation(tidied(excluded.left), "!=", tidied(excluded.right)))
-    if condition is not None:
-        told["condition"] = (condition, Relation(tidied(condition.left), condition.operator, tidied(condition.right)))
-    return told
 
 
 def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relation]:
