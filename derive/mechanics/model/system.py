@@ -279,53 +279,26 @@ class System:
         known = dict(_known_by(condition) for condition in self.conditions)
         self.known: Mapping[Symbol, Expr] = known
         self.eliminated = tuple(known)
-        self._described = tuple(_as_part(part) for part in parts if not isinstance(part, Quantity))
+        made = (_as_part(part) for part in parts if not isinstance(part, Quantity))
+        self._described = tuple(
+            sorted(made, key=lambda part: isinstance(part, MovingBody))
+        )  # sums begin with particles
         self.put_in = tuple(c for c in self.conditions if _is_put_into(c, self._described))
         self.parts = tuple(part.moved(known) for part in self._described) if known else self._described
+        self.particles = self._of(Particle)
+        self.bodies = tuple(part.placed for part in self._of(MovingBody))
+        self.weights, self.between, self.charges = self._of(Weight), self._of(Central), self._of(Charge)
+        in_fields = tuple(each.stored for each in self.charges if each.stored is not None)
+        self.stored: tuple[StoredEnergy, ...] = (*self._of(StoredEnergy), *in_fields)
+        given = self._of(GivenForce)
+        self.given_forces = (*given, *(each.opposite for each in given if each.opposite is not None))
+        self.dampers, self.constraints = self._of(Damper), self._of(Constraint)
         self._check()
         self.parts = _with_branches(self)
+        self.between = self._of(Central)
 
     def _of(self, sort: type[Sort]) -> tuple[Sort, ...]:
         return tuple(part for part in self.parts if isinstance(part, sort))
-
-    @property
-    def particles(self) -> tuple[Particle, ...]:
-        return self._of(Particle)
-
-    @property
-    def bodies(self) -> tuple[PlacedBody, ...]:
-        return tuple(part.placed for part in self._of(MovingBody))
-
-    @property
-    def weights(self) -> tuple[Weight, ...]:
-        return self._of(Weight)
-
-    @property
-    def between(self) -> tuple[Central, ...]:
-        return self._of(Central)
-
-    @property
-    def charges(self) -> tuple[Charge, ...]:
-        return self._of(Charge)
-
-    @property
-    def stored(self) -> tuple[StoredEnergy, ...]:
-        """The potential energies of the coordinates, and after them those of charges in electric fields."""
-        return *self._of(StoredEnergy), *(each.stored for each in self.charges if each.stored is not None)
-
-    @property
-    def given_forces(self) -> tuple[GivenForce, ...]:
-        """The given forces, and after them the reactions."""
-        given = self._of(GivenForce)
-        return *given, *(each.opposite for each in given if each.opposite is not None)
-
-    @property
-    def dampers(self) -> tuple[Damper, ...]:
-        return self._of(Damper)
-
-    @property
-    def constraints(self) -> tuple[Constraint, ...]:
-        return self._of(Constraint)
 
     def _check(self) -> None:
         if not self.particles and not self.bodies:
