@@ -16,13 +16,13 @@ from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_
 from derive.course.stock import InLetters, each
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
-from derive.errors import Place, did_you_mean, rejected
+from derive.errors import Place, rejected
 from derive.mechanics import angular_impulse, collision, impulse
 from derive.mechanics.impacts.impact import Collision, Impulse
 from derive.mechanics.kinematics.coordinates import kind_of_rate
 from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.parts import components_of, list_of_parts
-from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, check_known, is_letter
 
 RATE = "_dot"
 
@@ -172,11 +172,7 @@ def _value(
     """Return a coordinate and its value; for a rate, named with `ending`, its coordinate and the value of the rate."""
     q = str(name).removesuffix(ending)
     known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
-    if name not in known:
-        what = "rate" if ending else "coordinate"
-        rejected(
-            "no-such-coordinate", f"`{name}` is not a {what} of this system", name.place, did_you_mean(name, known)
-        )
+    check_known(name, known, "rate" if ending else "coordinate")
     kind = coordinates[q].kind
     return q, letters.of_kind(node, str(name), kind_of_rate(kind) if ending else kind)
 
