@@ -53,6 +53,7 @@ from derive.stock.keys.outlines import drawn_free, drawn_turning
 from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
+VECTORS = ("spin", "angular_momentum", "torque")
 CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their symbols
 MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # for a rotation that changes
 KINDS_OF_COMPONENTS = {
@@ -344,17 +345,10 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
 
     # -- components -------------------------------------------------------------------------------------------------
 
-    @answer_for_each("spin_{}", lambda self: AXES)
-    def spin_component(self, axis: str) -> Quantity:
-        return vector_component(self.spin, axis, key=f"spin_{axis}")
-
-    @answer_for_each("angular_momentum_{}", lambda self: AXES)
-    def momentum_component(self, axis: str) -> Quantity:
-        return vector_component(self.angular_momentum, axis, key=f"angular_momentum_{axis}")
-
-    @answer_for_each("torque_{}", lambda self: AXES)
-    def torque_component(self, axis: str) -> Quantity:
-        return vector_component(self.torque, axis, key=f"torque_{axis}")
+    @answer_for_each("{}", lambda self: [f"{vector}_{axis}" for axis in AXES for vector in VECTORS])
+    def component(self, name: str) -> Quantity:
+        vector, _, axis = name.rpartition("_")
+        return vector_component(getattr(self, vector), axis, key=name)
 
     # -- a free symmetric body ------------------------------------------------------------------------------------
 

@@ -173,7 +173,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     kept = attempted(faults, _kept, written.conserved, letters, known) or ()
     forces = _multipliers([*parts["acting"], *parts["rolling"]])
     own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
-    impact = attempted(faults, written.impact.read, letters, forces, places, known) if written.impact else None
+    names = [*map(str, (*written.bodies, *written.particles))]
+    impact = attempted(faults, written.impact.read, letters, forces, names, places, known) if written.impact else None
     own |= impact.letters if impact else {}
     own |= attempted(faults, _steady_rates, written, letters, known) or {}
     momenta = _momenta(written.coordinates, letters, given[1] if given is not None else "energy")
