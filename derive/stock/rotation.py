@@ -14,7 +14,7 @@ from derive.algebra.kinds import Asked
 from derive.course.expression import Declared
 from derive.course.given import Given
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
-from derive.course.stock import Described, InLetters, Stock, each, told_at
+from derive.course.stock import Described, InLetters, Stock, attempted, each, told_at
 from derive.course.yaml_tree import Tree, Word
 from derive.errors import Faults, Place, rejected
 from derive.mechanics import (
@@ -53,6 +53,7 @@ from derive.stock.keys.outlines import drawn_free, drawn_turning
 from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
+VECTORS = ("spin", "angular_momentum", "torque")
 CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their symbols
 MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # for a rotation that changes
 KINDS_OF_COMPONENTS = {
@@ -61,6 +62,14 @@ KINDS_OF_COMPONENTS = {
     "start": "angular speed",
     "torque": "torque",
 }
+EXCLUDE_EACH_OTHER = (
+    ("body", "moments"),
+    ("rates", "rate"),
+    ("rates", "along"),
+    ("start", "rates"),
+    ("start", "along"),
+    ("start", "torque"),
+)
 CENTRE_OF_MASS, FIXED_POINT = "centre_of_mass", "fixed_point"
 
 
@@ -96,7 +105,7 @@ class DescribedRotation(Described):
     """A rotation in symbols."""
 
     body: DescribedBody | None = None
-    moments: tuple[Expr, Expr, Expr] | None = None
+    moments: tuple[Expr, ...] = ()
     about: str = "centre"
     rate: Expr | None = None
     along: Axis | None = None
@@ -109,60 +118,58 @@ class DescribedRotation(Described):
 def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedRotation:
     """Return the description in the declared symbols."""
     known = InLetters(symbols)
-    found: dict[str, Any] = {}
-    with faults:
-        _one_way(written, "body", "moments", required=True)
-    with faults:
-        _one_way(written, "rates", "rate")
-    with faults:
-        _one_way(written, "rates", "along")
-    for other in ("rates", "along", "torque"):
-        with faults:
-            _one_way(written, "start", other)
-    for steady in ("rates", "along"):
-        with faults:
-            if written.torque and steady in written.values_at:
-                message = (
-                    f"`torque` has no effect with `{steady}`: the torque that maintains a given rotation is derived"
-                )
-                rejected("unused-key", message, written.places["torque"], f"leave it or `{steady}` out")
-    with faults:
-        if written.along is not None and written.rate is None:
-            message = "a rotation along an axis needs its `rate`"
-            rejected("missing-key", message, written.places["along"], "write `rate: omega`")
-    with faults:
-        found["body"] = Bodies(known).body(written.body) if written.body else None
-    for name, kind in KINDS_OF_COMPONENTS.items():
-        with faults:
-            read_one = known.value if name == "moments" else known.of_kind
-            nodes = getattr(written, name)
-            found[name] = tuple(each([partial(read_one, node, f"each of {name}", kind, 3) for node in nodes]))
-    with faults:
-        found["rate"] = known.of_kind(written.rate, "rate", "angular speed") if written.rate else None
-    with faults:
-        found["along"] = Directions(known).axis(written.along, "along") if written.along else None
-    with faults:
-        found["about"] = _point(written, found.get("body"))
-    with faults:
-        if found.get("moments"):
-            with told_at(written.places["moments"]):
-                RigidBody(moments=found["moments"])
-    found["moments"] = found.get("moments") or None
-    components = {name: Declared(name, letter, "angular speed") for name, letter in MOVING}
-    with_components = known.also({**components, **symbols})
-    found["results"] = read_results(written.results, with_components, faults)
+    _check_together(written, faults)
+    body = attempted(faults, Bodies(known).body, written.body) if written.body else None
+    found: dict[str, Any] = {
+        name: attempted(faults, _components, written, name, kind, known) or ()
+        for name, kind in KINDS_OF_COMPONENTS.items()
+    }
+    if written.rate is not None:
+        found["rate"] = attempted(faults, known.of_kind, written.rate, "rate", "angular speed")
+    along = attempted(faults, Directions(known).axis, written.along, "along") if written.along else None
+    about = attempted(faults, _point, written, body) or CENTRE_OF_MASS
+    told = ((name, kind) for name, kind in {"rate": "angular speed", **KINDS_OF_COMPONENTS}.items() if found.get(name))
+    moving = {name: Declared(name, letter, "angular speed") for name, letter in MOVING}
     return DescribedRotation(
+        results=read_results(written.results, known.also({**moving, **symbols}), faults),
         without=_without(written),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
-        told=tuple(
-            Given(name, Asked(kind), found[name])
-            for name, kind in {"rate": "angular speed", **KINDS_OF_COMPONENTS}.items()
-            if found.get(name)
-        ),
+        told=tuple(Given(name, Asked(kind), found[name]) for name, kind in told),
         place=written.places[""],
+        body=body,
+        along=along,
+        about=about,
         **found,
     )
+
+
+def _check_together(written: RotationKeys, faults: Faults) -> None:
+    """Report keys that exclude each other, and a key that is missing."""
+    there = written.values_at.keys()
+    for first, second in EXCLUDE_EACH_OTHER:
+        if {first, second} <= there:
+            message = f"`{second}` and `{first}` are both given"
+            faults.error("unknown-key", message, written.places[first], help="leave one of them out")
+    for steady in ("rates", "along"):
+        if written.torque and steady in there:
+            message = f"`torque` has no effect with `{steady}`: the torque that maintains a given rotation is derived"
+            faults.error("unused-key", message, written.places["torque"], help=f"leave it or `{steady}` out")
+    if not {"body", "moments"} & there:
+        faults.error("missing-key", "`given` needs `body` or `moments`", written.places[""])
+    if written.along is not None and written.rate is None:
+        message = "a rotation along an axis needs its `rate`"
+        faults.error("missing-key", message, written.places["along"], help="write `rate: omega`")
+
+
+def _components(written: RotationKeys, name: str, kind: str, known: InLetters) -> tuple[Expr, ...]:
+    """Return the three components of a key; moments of inertia must be possible for a body."""
+    reading = known.value if name == "moments" else known.of_kind
+    found = tuple(each([partial(reading, node, f"each of {name}", kind, 3) for node in getattr(written, name)]))
+    if found and name == "moments":
+        with told_at(written.places["moments"]):
+            RigidBody(moments=found)
+    return found
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
@@ -175,15 +182,6 @@ def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
         "torque": {name for name in asks if name.startswith(without_torque)},
     }
     return tuple((Word.at(name, written.places[name]), found[name]) for name in found if name in written.values_at)
-
-
-def _one_way(written: RotationKeys, first: str, second: str, required: bool = False) -> None:
-    both = [name for name in (first, second) if name in written.values_at]
-    if len(both) == 2:
-        message = f"`{second}` and `{first}` are both given"
-        rejected("unknown-key", message, written.places[first], "leave one of them out")
-    if required and not both:
-        rejected("missing-key", f"`given` needs `{first}` or `{second}`", written.places[""])
 
 
 def _point(written: RotationKeys, body: DescribedBody | None) -> str:
@@ -227,7 +225,6 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     def inertia_tensor(self) -> Quantity:
         if self.body is not None:
             return inertia_tensor(self.body, self.about)
-        assert self.described.moments is not None
         with told_at(self.described.place):
             return RigidBody(moments=self.described.moments, about=self.about).tensor
 
@@ -348,17 +345,10 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
 
     # -- components -------------------------------------------------------------------------------------------------
 
-    @answer_for_each("spin_{}", lambda self: AXES)
-    def spin_component(self, axis: str) -> Quantity:
-        return vector_component(self.spin, axis, key=f"spin_{axis}")
-
-    @answer_for_each("angular_momentum_{}", lambda self: AXES)
-    def momentum_component(self, axis: str) -> Quantity:
-        return vector_component(self.angular_momentum, axis, key=f"angular_momentum_{axis}")
-
-    @answer_for_each("torque_{}", lambda self: AXES)
-    def torque_component(self, axis: str) -> Quantity:
-        return vector_component(self.torque, axis, key=f"torque_{axis}")
+    @answer_for_each("{}", lambda self: [f"{vector}_{axis}" for axis in AXES for vector in VECTORS])
+    def component(self, name: str) -> Quantity:
+        vector, _, axis = name.rpartition("_")
+        return vector_component(getattr(self, vector), axis, key=name)
 
     # -- a free symmetric body ------------------------------------------------------------------------------------
 

@@ -25,7 +25,7 @@ class Deferred(Generic[N]):
     make    the class or the verb that makes it
     of      its arguments
     named   its arguments by name
-    bodies  argument -> the names of the bodies or particles that it needs; another name is passed on as a word
+    bodies  argument -> the names of bodies or particles, or none; another name is passed on as a word
     place   where it was described
     """
 
@@ -37,7 +37,8 @@ class Deferred(Generic[N]):
 
     def made(self, known: Mapping[str, Any]) -> N:
         """Make it; `known` are the bodies and particles of the system by name."""
-        meant = {argument: [known.get(name, name) for name in names] for argument, names in self.bodies.items()}
+        there = {argument: names for argument, names in self.bodies.items() if names}
+        meant = {argument: [known.get(name, name) for name in names] for argument, names in there.items()}
         bodies = {argument: found[0] if len(found) == 1 else tuple(found) for argument, found in meant.items()}
         with told_at(self.place):
             return self.make(*self.of, **self.named, **bodies)

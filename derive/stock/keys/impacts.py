@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
@@ -16,13 +16,14 @@ from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_
 from derive.course.stock import InLetters, each
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
-from derive.errors import Place, did_you_mean, rejected
+from derive.errors import Place, rejected
 from derive.mechanics import angular_impulse, collision, impulse
 from derive.mechanics.impacts.impact import Collision, Impulse
 from derive.mechanics.kinematics.coordinates import kind_of_rate
+from derive.mechanics.model.material import MASSLESS
 from derive.stock.keys.deferred import Deferred
-from derive.stock.keys.parts import components_of, list_of_parts
-from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
+from derive.stock.keys.parts import components_of, list_of_parts, named_bodies
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, check_known, is_letter
 
 RATE = "_dot"
 
@@ -37,11 +38,11 @@ class ImpulseKeys(Record):
     angular: Tree | None = key("in place of `components` and `at`, an angular impulse", SCALAR)
     on: Tree | None = key("the angle whose rate it changes", SCALAR)
 
-    def act(self, places: Places, letters: InLetters) -> Deferred[Impulse]:
+    def act(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Impulse]:
         if self.components and self.at and not (self.angular or self.on):
             of = (components_of(self.components, "momentum", letters), places.at(self.at, "at"))
-            bodies = {"of": (str(self.of),)} if self.of is not None else {}
-            return Deferred(impulse, of, bodies=bodies, place=self.places[""])
+            named = {"of": named_bodies("of", [self.of], bodies, MASSLESS)}
+            return Deferred(impulse, of, bodies=named, place=self.places[""])
         if self.angular and self.on and not (self.components or self.at):
             amount = letters.of_kind(self.angular, "angular", "angular momentum")
             return Deferred(angular_impulse, (amount, letters.of_kind(self.on, "on", "angle")), place=self.places[""])
@@ -73,7 +74,7 @@ class CollisionKeys(Record):
         called="impulse",
     )
 
-    def act(self, places: Places, letters: InLetters) -> Deferred[Collision]:
+    def act(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Collision]:
         if (self.at is None) == (self.start is None and self.end is None) or (self.start is None) != (self.end is None):
             rejected("missing-key", "a collision needs `from` and `to`, or `at`", self.places[""])
         if self.along and self.restitution is None:
@@ -94,16 +95,16 @@ class CollisionKeys(Record):
         start = found.pop(0) if self.start else None
         end, *along = found
         of = (start, end, tuple(along), part, self.name)
-        return Deferred(collision, of, bodies=self._bodies(), place=self.places[""])
+        return Deferred(collision, of, bodies={"of": self._bodies(bodies)}, place=self.places[""])
 
-    def _bodies(self) -> dict[str, tuple[str, ...]]:
+    def _bodies(self, bodies: Collection[str]) -> tuple[str, ...]:
         written = self.of.items if isinstance(self.of, Listed) else [self.of] if self.of is not None else []
-        found = tuple(" ".join(name.text.split()) for name in written if isinstance(name, Scalar))
+        names = [name.word for name in written if isinstance(name, Scalar)]
         count = 2 if self.start is not None else 1
-        if found and len(found) != count:
+        if names and len(names) != count:
             wanted = "two names, for `from` and for `to`" if count == 2 else "one name"
-            rejected("wrong-length", f"`of` needs {wanted}, not {len(found)}", self.places["of"])
-        return {"of": found} if found else {}
+            rejected("wrong-length", f"`of` needs {wanted}, not {len(names)}", self.places["of"])
+        return named_bodies("of", names, bodies, MASSLESS)
 
     @property
     def name(self) -> str:
@@ -136,7 +137,12 @@ class ImpactKeys(Record):
     collisions: Sequence[CollisionKeys] = key("places that collide", list_of_parts(CollisionKeys, "a collision"))
 
     def read(
-        self, coordinates: Mapping[str, Declared], forces: Mapping[str, Declared], places: Places, letters: InLetters
+        self,
+        coordinates: Mapping[str, Declared],
+        forces: Mapping[str, Declared],
+        bodies: Collection[str],
+        places: Places,
+        letters: InLetters,
     ) -> DescribedImpact:
         """Return the impact in symbols; `forces` are those that keep constraints."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
@@ -145,7 +151,7 @@ class ImpactKeys(Record):
         values = [(q, node, ending) for ending, of in (("", self.at), (RATE, self.before)) for q, node in of.items()]
         found: list[Any] = each(
             [
-                *(partial(one.act, places, letters) for one in both),
+                *(partial(one.act, places, letters, bodies) for one in both),
                 *(partial(_value, q, node, ending, coordinates, letters) for q, node, ending in values),
             ]
         )
@@ -172,11 +178,7 @@ def _value(
     """Return a coordinate and its value; for a rate, named with `ending`, its coordinate and the value of the rate."""
     q = str(name).removesuffix(ending)
     known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
-    if name not in known:
-        what = "rate" if ending else "coordinate"
-        rejected(
-            "no-such-coordinate", f"`{name}` is not a {what} of this system", name.place, did_you_mean(name, known)
-        )
+    check_known(name, known, "rate" if ending else "coordinate")
     kind = coordinates[q].kind
     return q, letters.of_kind(node, str(name), kind_of_rate(kind) if ending else kind)
 

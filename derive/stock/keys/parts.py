@@ -110,7 +110,10 @@ class ForceKeys(Record):
     def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
         if self.components and self.at and not (self.torque or self.on):
             components = components_of(self.components, "force", letters)
-            named = {**named_body("of", self.of, bodies, MASSLESS), **named_body("by", self.by, bodies, GROUND)}
+            named = {
+                "of": named_bodies("of", [self.of], bodies, MASSLESS),
+                "by": named_bodies("by", [self.by], bodies, GROUND),
+            }
             return Deferred(force, (components, places.at(self.at, "at")), bodies=named, place=self.places[""])
         if beside := self.of or self.by:
             message = "`of` and `by` belong to a force at a place, but this is a torque"
@@ -133,7 +136,8 @@ class DampingKeys(Record):
     def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
         if self.at is not None and self.on is None:
             of = (letters.value(self.constant, "constant", "damping constant"), places.at(self.at, "at"))
-            return Deferred(damping, of, bodies=named_body("of", self.of, bodies, MASSLESS), place=self.places[""])
+            named = {"of": named_bodies("of", [self.of], bodies, MASSLESS)}
+            return Deferred(damping, of, bodies=named, place=self.places[""])
         if self.at is not None or self.on is None:
             rejected("missing-key", "damping needs either `at` or `on`", self.places[""])
         if self.of is not None:
@@ -204,14 +208,16 @@ def force_letter(name: Word | None, letters: InLetters) -> str:
     return letters.unused(name, "leave it out of `symbols`, or give the force another symbol")
 
 
-def named_body(key_name: str, name: Word | None, bodies: Collection[str], otherwise: str) -> dict[str, tuple[str, ...]]:
-    """Return the body or particle that a key names, or the word for none."""
-    if name is None:
-        return {}
-    if name not in bodies and name != otherwise:
-        help_line = did_you_mean(name, [*bodies, otherwise]) or f"or write `{key_name}: {otherwise}`"
-        rejected("no-such-body", f"`{name}` is not a body or particle of this system", name.place, help_line)
-    return {key_name: (str(name),)}
+def named_bodies(
+    key_name: str, names: Collection[Word | None], bodies: Collection[str], otherwise: str
+) -> tuple[str, ...]:
+    """Return the bodies or particles that a key names, or the word for none; no name if the key is missing."""
+    there = [name for name in names if name is not None]
+    for name in there:
+        if name not in bodies and name != otherwise:
+            help_line = did_you_mean(name, [*bodies, otherwise]) or f"or write `{key_name}: {otherwise}`"
+            rejected("no-such-body", f"`{name}` is not a body or particle of this system", name.place, help_line)
+    return tuple(map(str, there))
 
 
 def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:

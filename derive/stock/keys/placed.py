@@ -12,13 +12,13 @@ from sympy import Expr
 from derive.course.schema import SCALAR, TEXT, Record, as_written, key, list_of, mapping_of, one_of, record_of
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
-from derive.errors import Faults, did_you_mean, rejected
+from derive.errors import Faults, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.parts import force_letter, list_of_parts
-from derive.stock.keys.places import PLACE, Places, WrittenPlace
+from derive.stock.keys.places import PLACE, Places, WrittenPlace, check_known
 
 POINT = as_written(
     {"anyOf": [TEXT.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3}]},
@@ -132,9 +132,7 @@ class RollingKeys(Record):
     force: Word | None = key("the symbol of the force that prevents slipping, if you need that force", TEXT)
 
     def part(self, places: Places, letters: InLetters, names: Collection[str]) -> Deferred[tuple[Any, ...]]:
-        if self.body not in names:
-            message, help_line = f"`{self.body}` is not a body of this system", did_you_mean(self.body, names)
-            rejected("no-such-body", message, self.body.place, help_line)
+        check_known(self.body, names, "body")
         named: dict[str, Any] = {"ground": _ground(self.ground, places) if self.ground else None}
         if self.force:
             named["force"] = force_letter(self.force, letters)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -94,6 +94,13 @@ def is_letter(name: str) -> bool:
     """Return whether a description may introduce it as a symbol."""
     is_name = name.isascii() and name.replace("_", "").isalnum() and name[0].isalpha()
     return is_name and name not in RESERVED and name != TIME.name
+
+
+def check_known(name: Word, known: Collection[str], what: str) -> None:
+    """Reject a name that is not one of a system's coordinates, rates, or bodies."""
+    if name not in known:
+        code = "no-such-body" if what == "body" else "no-such-coordinate"
+        rejected(code, f"`{name}` is not a {what} of this system", name.place, did_you_mean(name, known))
 
 
 def coordinate_letters(

@@ -11,6 +11,7 @@ from typing import Any
 from sympy import Expr, Symbol
 
 from derive.algebra.expressions import scalar
+from derive.algebra.kinds import kind_of_dimension
 from derive.algebra.ranges import Range
 from derive.course.assumed import Assumed, read_assumed
 from derive.course.expression import Declared
@@ -19,7 +20,7 @@ from derive.course.stock import Described, InLetters, attempted, each
 from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
-from derive.errors import Faults, Place, did_you_mean, rejected
+from derive.errors import Faults, Place, rejected
 from derive.mechanics import potential
 from derive.mechanics.kinematics.coordinates import kind_of_rate
 from derive.mechanics.kinematics.places import Location
@@ -27,7 +28,6 @@ from derive.mechanics.lagrange.momenta import kind_of_momentum
 from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.formulas import FoundLetter
 from derive.stock.keys.impacts import IMPACT, DescribedImpact, ImpactKeys
-from derive.stock.keys.lagrangians import read_lagrangian
 from derive.stock.keys.parts import (
     CENTRAL,
     CHARGES,
@@ -51,6 +51,7 @@ from derive.stock.keys.places import (
     TURNS,
     Places,
     WrittenPlace,
+    check_known,
     coordinate_letters,
     is_letter,
 )
@@ -63,6 +64,10 @@ INDIFFERENT_TO_STATES = (
     "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
     "energy_function_rate", "hamiltonian", "hamilton_equations", "no_slip", "angular_velocity", "accelerations",
     "multipliers",
+)  # fmt: skip
+REPLACED_BY_LAGRANGIAN = (
+    "axes", "places", "particles", "bodies", "rolling", "gravity", "springs", "central", "potential", "charges",
+    "constraints", "impact",
 )  # fmt: skip
 OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
 
@@ -158,17 +163,18 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     places = Places(written.points, written.axes, known, {name: one.at for name, one in written.particles.items()})
     named = attempted(faults, places.all_named) or {}
     parts = _parts(written, places, known, faults)
-    given = attempted(faults, read_lagrangian, written, known)
+    given = attempted(faults, _lagrangian, written, known)
     gravity = attempted(faults, _value, known.value, written.gravity, "gravity", "acceleration")
     energy = attempted(faults, _value, known.of_kind, written.potential, "potential", "energy")
     if energy is not None:
         parts["acting"] += (Deferred(potential, (energy,), place=written.values_at["potential"]),)
-    brought = letters_at(written)
+    brought = _brought(written)
     attempted(faults, _check_different, brought)
     kept = attempted(faults, _kept, written.conserved, letters, known) or ()
     forces = _multipliers([*parts["acting"], *parts["rolling"]])
     own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
-    impact = attempted(faults, written.impact.read, letters, forces, places, known) if written.impact else None
+    names = [*map(str, (*written.bodies, *written.particles))]
+    impact = attempted(faults, written.impact.read, letters, forces, names, places, known) if written.impact else None
     own |= impact.letters if impact else {}
     own |= attempted(faults, _steady_rates, written, letters, known) or {}
     momenta = _momenta(written.coordinates, letters, given[1] if given is not None else "energy")
@@ -188,13 +194,9 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         ),
         **parts,
         gravity=gravity,
-        conserved=tuple(
-            (str(q), own[name].symbol)
-            for q, word in _words(written.conserved).items()
-            if (name := _letter(word)[0]) in own
-        ),
+        conserved=tuple((str(q), own[name].symbol) for q, (name, _) in _symbols(written.conserved).items() if q in own),
         kept=kept,
-        at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
+        at=_state(None if rest else written.at, letters, with_own, faults),
         at_rest=rest,
         results=results,
         impact=impact,
@@ -224,6 +226,18 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)
     return {"particles": particles, "bodies": bodies, "rolling": tuple(rolling), "acting": tuple(acting)}
+
+
+def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | None] | None:
+    """Return the formula of a given Lagrangian, and the kind of quantity that it is, if that has a name."""
+    if written.lagrangian is None:
+        return None
+    beside = next((name for name in REPLACED_BY_LAGRANGIAN if name in written.places), None)
+    if beside is not None:
+        message = f"`{beside}` cannot be combined with `lagrangian`, which replaces bodies and forces"
+        rejected("given-lagrangian", message, written.places[beside], "include it in the formula")
+    value, dimension = letters.read(written.lagrangian, "lagrangian", "a formula of coordinates and rates")
+    return value, kind_of_dimension(dimension)
 
 
 def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
@@ -269,15 +283,21 @@ def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
 
-def letters_at(written: SystemKeys) -> list[Word]:
+def _brought(written: SystemKeys) -> list[Word]:
     """Return the symbols that the description introduces in addition to its coordinates, with their places."""
     forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
-    momenta = [Word.at(_letter(word)[0], word.place) for word in _words(written.conserved).values()]
-    return [*(force for force in forces if force), *(letter for letter in momenta if is_letter(letter))]
+    return [*(force for force in forces if force), *(symbol for symbol, _ in _symbols(written.conserved).values())]
 
 
-def _words(written: Mapping[Word, Tree]) -> dict[Word, Word]:
-    return {q: node.word for q, node in written.items() if isinstance(node, Scalar)}
+def _symbols(written: Mapping[Word, Tree]) -> dict[Word, tuple[Word, bool]]:
+    """Return the symbols of constant momenta, and whether each is declared positive; other entries are values."""
+    found = {}
+    for q, node in written.items():
+        word = node.word if isinstance(node, Scalar) else ""
+        name = word.removeprefix(f"{POSITIVE_CONSTANT} ").strip()
+        if is_letter(name):
+            found[q] = (Word.at(name, node.place), name != word)
+    return found
 
 
 def _check_different(brought: Sequence[Word]) -> None:
@@ -312,18 +332,12 @@ def _constants(
 ) -> dict[str, Declared]:
     """Return the symbols of constant momenta."""
     found = {}
-    for q in (q for q in written if q not in letters):
-        faults.error(
-            "no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=did_you_mean(q, letters)
-        )
-    for q, word in _words(written).items():
-        name, is_positive = _letter(word)
-        if q not in letters or not is_letter(name):
-            continue  # an expression is the value of the momentum, see `_kept`
-        with faults:
-            known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another symbol")
-        kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
-        found[name] = Declared(name, constant(name, positive=is_positive), kind)
+    for q in written:
+        attempted(faults, check_known, q, letters, "coordinate")
+    for q, (name, is_positive) in _symbols(written).items():
+        if q in letters:
+            attempted(faults, known.unused, name, "leave it out of `symbols`, or give the momentum another symbol")
+            found[str(name)] = Declared(str(name), constant(name, positive=is_positive), _momentum(letters[q]))
     return found
 
 
@@ -331,39 +345,28 @@ def _kept(
     written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters
 ) -> tuple[tuple[str, Expr], ...]:
     """Return the values of constant momenta that are given by an expression, `psi: C*s`."""
-    found = []
-    for q, node in written.items():
-        if q not in letters or isinstance(node, Scalar) and is_letter(_letter(node.word)[0]):
-            continue
-        kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
-        found.append((str(q), known.of_kind(node, f"the momentum of {q}", kind)))
-    return tuple(found)
+    values = {q: node for q, node in written.items() if q in letters and q not in _symbols(written)}
+    of_each = {q: (node, f"the momentum of {q}", _momentum(letters[q])) for q, node in values.items()}
+    return tuple((str(q), known.of_kind(*of)) for q, of in of_each.items())
 
 
-def _letter(word: Word) -> tuple[str, bool]:
-    """Return the symbol of a constant, and whether it is declared positive."""
-    name = word.removeprefix(f"{POSITIVE_CONSTANT} ").strip()
-    return name, name != word
-
-
-def _values(written: Tree | None, faults: Faults) -> Mapping[Word, Tree]:
-    return STATE.read(written, "at", faults) or {} if written else {}
+def _momentum(q: Declared) -> str:
+    return "angular momentum" if q.kind == "angle" else "momentum"
 
 
 def _state(
-    written: Mapping[Word, Tree], coordinates: Mapping[str, Declared], letters: InLetters, faults: Faults
+    written: Tree | None, coordinates: Mapping[str, Declared], letters: InLetters, faults: Faults
 ) -> tuple[tuple[str, Expr], ...]:
-    found = []
-    for q, node in written.items():
-        if q not in coordinates:
-            help_line = did_you_mean(q, coordinates)
-            faults.error("no-such-coordinate", f"`{q}` is not a coordinate of this system", q.place, help=help_line)
-            continue
-        with faults:
-            value = letters.of_kind(node, str(q), coordinates[q].kind)
-            _check_range(q, value, coordinates[q].lies)
-            found.append((str(q), value))
-    return tuple(found)
+    """Return the values of coordinates in a state."""
+
+    def one(q: Word, node: Tree) -> tuple[str, Expr]:
+        check_known(q, coordinates, "coordinate")
+        value = letters.of_kind(node, str(q), coordinates[q].kind)
+        _check_range(q, value, coordinates[q].lies)
+        return str(q), value
+
+    values = (STATE.read(written, "at", faults) or {}) if written else {}
+    return tuple(attempted(faults, each, [partial(one, q, node) for q, node in values.items()]) or ())
 
 
 def _check_range(q: Word, value: Expr, lies: Range | None) -> None:

@@ -42,6 +42,8 @@ ALONG = "collisions: {from: B, to: A, along: [1, 0]"
         ((HIT, "collisions: {from: B, to: A, impulse: '2'}"), "12: `2` is not a valid symbol for an impulse"),
         ((HIT, "impulses: {components: [J, 0]}"), "12: an impulse needs `components` and `at`, or `angular` and `on`"),
         ((HIT, "impulses: {components: [v, 0], at: A}"), "12: `a component` must be a momentum, but `v` is a speed"),
+        ((HIT, "impulses: {components: [J, 0], at: A, of: x}"), "12: `x` is not a body or particle of this system"),
+        ((HIT, "collisions: {at: A, of: x}"), "12: `x` is not a body or particle of this system"),
         (("{x_dot: v}", "{x: v}"), "11: `x` is not a rate of this system"),
         (("{x: 0, theta: 0}", "{y: 0, theta: 0}"), "10: `y` is not a coordinate of this system"),
         (("{x_dot: v}", "{x_dot: b}"), "11: `x_dot` must be a speed, but `b` is a length"),
