@@ -11,7 +11,7 @@ of files, the schema for editors, the manual and the errors follow from these tw
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum, auto
 from functools import cached_property
 from inspect import Parameter, signature
@@ -85,7 +85,7 @@ class ResultVerb:
 
     name: str
     yields: str
-    function: Callable[..., Any]
+    function: Callable[..., Any] = field(repr=False)  # whose address differs in each process
     called: Mapping[str, str]
     one_of: tuple[str, ...] = ()
     excludes: tuple[tuple[str, str], ...] = ()

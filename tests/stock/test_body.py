@@ -10,7 +10,7 @@ from sympy import ImmutableDenseMatrix, Rational, cos, pi, sin, sqrt, symbols
 from derive.algebra.equality import equal
 from derive.building.solution import rendered
 from tests.stock.bodies import CONE, CONE_IS
-from tests.stock.described import complaints, course_with, edited, messages, solved
+from tests.stock.described import complaints, course_with, edited, loaded, messages, solved
 
 R, h, M, m = symbols("R h M m", positive=True)
 alpha = symbols("alpha", real=True)
@@ -248,3 +248,9 @@ def test_what_cannot_be_asked_about_another_point_is_told(made: str, said: str, 
     text = edited(text, ("  about: apex\n", "  about: apex\n" + ELSEWHERE.replace("MADE", made)))
     found = messages(tmp_path, text)
     assert any(said in message for message in found), found
+
+
+def test_the_description_of_a_position_map_reads_the_same_in_each_process(tmp_path: Path) -> None:
+    by_map = "{position: [x, y, 0], limits: {x: [0, R], y: [0, h]}, mass: M}"
+    text = repr(loaded(tmp_path, edited(CONE, ("  about: apex\n", ""), (CONE_IS, by_map))).described)
+    assert "Sheet" in text and " at 0x" not in text

@@ -94,6 +94,11 @@ class GeneralBody(Body):
             require_positive(self.name, "mass", mass)
         check_map(type(self).__name__, self._position, self._limits, given.xreplace(fresh), mass is None)
 
+    def __repr__(self) -> str:
+        """Return the same text in each process: the digest of a problem depends on it."""
+        given = (self._position, self._limits, self._profile, self.given_mass, self.given_density, self.called)
+        return f"{type(self).__name__}{given}"
+
     @property
     def is_uniform(self) -> bool:
         return bool(self._profile == 1)

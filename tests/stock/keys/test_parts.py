@@ -86,8 +86,9 @@ def test_a_number_in_the_energy_of_a_central_force_is_kept(tmp_path: Path) -> No
 
 def test_a_description_reads_the_same_in_each_process(tmp_path: Path) -> None:
     """The digest of a problem is that of its text, so an address in it would lose every kept step."""
-    text = repr(loaded(tmp_path, edited(SLIDER, ("MORE", "forces: [{components: [F, 0], at: A}]"))).described)
-    assert "force(" in text and " at 0x" not in text
+    more = "forces: [{components: [F, 0], at: A}]\n  results: {slow: {limit: lagrangian, for: m, to: 0}}"
+    text = repr(loaded(tmp_path, edited(SLIDER, ("MORE", more))).described)
+    assert "force(" in text and "slow" in text and " at 0x" not in text
 
 
 @pytest.mark.parametrize(
