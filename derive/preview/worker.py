@@ -15,17 +15,14 @@ import gc
 import json
 import os
 import sys
-import traceback
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import IO, Any
 
 from derive.building.cache import engine_digest
 from derive.building.preload import preload
-from derive.building.time_limit import limited
-from derive.building.workers import confine, job_of, told_to, too_long, trail_of
-from derive.errors import DeriveError, OutOfTime
+from derive.building.workers import TIME, Bug, attempt, confine, job_of
 
 
 def main(arguments: Sequence[str]) -> None:
@@ -53,21 +50,21 @@ def _settle(root: Path) -> None:
 
 
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
-    """Return the page of a problem, or what is wrong with it, as plain data; a limit and the place where it stopped are
-    reported as by a build's worker."""
-    problem, limit = question["problem"], question["limit"]
-    try:
-        with limited(limit, trace):
-            return {"main": main_part(root, problem, question["detail"])}
-    except DeriveError as error:
-        return {"complaints": [each.shown() for each in error.complaints]}
-    except OutOfTime as late:
-        stopped = too_long(job_of(root, problem, lambda: None, limit), trail_of(late), late)
-        return {"complaints": [each.shown() for each in stopped.complaints], "ends": True}
-    except (MemoryError, RecursionError) as short:
-        return {"limit": told_to(trace, short)}
-    except BaseException as bug:  # also of a script, which may end its program
-        return {"complaints": [f"internal error: {type(bug).__name__}: {bug}"], "trace": traceback.format_exc()}
+    """Return the page of a problem, or its errors, as plain data; limits are those of a build's worker.
+
+    At the limit of time the work may stop anywhere, so the process ends after this answer.
+    """
+    problem = question["problem"]
+    work = partial(main_part, root, problem, question["detail"])
+    main, error = attempt(job_of(root, problem, work, question["limit"]), trace)
+    if error is None:
+        return {"main": main}
+    if isinstance(error, str):
+        return {"limit": error}
+    if isinstance(error, Bug):
+        return {"complaints": [f"internal error: {error}"], "trace": error.trace}
+    ends = any(each.code == TIME for each in error.complaints)
+    return {"complaints": [each.shown() for each in error.complaints], "ends": ends}
 
 
 def main_part(root: Path, problem_id: str, detail: str | None) -> str:
