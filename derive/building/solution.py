@@ -76,7 +76,7 @@ def rendered(
 def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[Complaint, ...]]:
     """Return the steps, as they were kept or derived now, and what disagrees with the reference.
 
-    They are kept under a digest of its files; not if one of these has been edited since the problem was read.
+    They are kept under a digest of the problem's files, unless one of these was edited after it was read.
     """
     key = steps_key(problem)
     with suppress(KeyError):
@@ -196,8 +196,10 @@ def _value(
     amounts: Mapping[Symbol, Amount] | None = None,
     case: str = "",
 ) -> Quantity | None:
-    """Return the number of an answer, in the unit and to the figures that the part asks for, by the key that it asks
-    for; in a case of the part, with the numbers of that case."""
+    """Return the number of an answer, in the unit and to the figures that the part asks for.
+
+    amounts, case   the numbers of one case of the part, and its label; by default the numbers of the problem
+    """
     key = f"{answer.key}_in_case_{case}" if case else None
     numbers = problem.amounts if amounts is None else amounts
     form = part.form_of(asked)

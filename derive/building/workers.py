@@ -186,7 +186,7 @@ def _pipe() -> tuple[int, int]:
 
 @contextlib.contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Delay signals during a fork, because Python would lose them in its work before and after a fork."""
+    """Delay signals during a fork: Python would lose a signal that arrives in its own code around the fork."""
     signals = (signal.SIGINT, signal.SIGTERM)
     before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
     try:
@@ -235,7 +235,7 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker that gave no answer, at the line of the script that it was in."""
+    """Return the error about a worker that gave no answer, at the line of the script that was running."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what it states about {job.name}"

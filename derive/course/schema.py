@@ -2,7 +2,7 @@
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
-A reader gives editors a JSON schema of what a key allows, and makes a checked value of what is written there.
+A reader gives editors a JSON schema of what a key allows, and turns what is written there into a checked value.
 """
 
 from __future__ import annotations
@@ -37,16 +37,21 @@ class Reader(Generic[T]):
 
 @dataclass(frozen=True)
 class Key:
-    """One key: its meaning, the contents that it allows, and whether it is required."""
+    """One key: its meaning, the contents that it allows, whether it is required, and its name in earlier versions."""
 
     meaning: str
     reader: Reader[Any]
     required: bool = False
+    earlier: str = ""
 
 
-def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "") -> Any:
-    """Declare a field of a record that is a key of a file; `called` is its name there, if Python does not allow it."""
-    return field(default_factory=reader.absent, metadata={"called": called, "key": Key(meaning, reader, required)})
+def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "", earlier: str = "") -> Any:
+    """Declare a field of a record that is a key of a file; `called` is its name there, if Python does not allow it.
+
+    If a file has the `earlier` name of the key, the error names the present one.
+    """
+    known = Key(meaning, reader, required, earlier)
+    return field(default_factory=reader.absent, metadata={"called": called, "key": known})
 
 
 @dataclass(frozen=True)
@@ -81,12 +86,15 @@ def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
 def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) -> None:
     """Report unknown and missing keys of a mapping; a mistyped key is one error, not two."""
     missing = [name for name, wanted in keys.items() if wanted.required and node.get(name) is None]
+    renamed = {known.earlier: name for name, known in keys.items() if known.earlier}
     for name, _ in node.pairs:
         if name.text not in keys:
             close = nearest(name.text, [known for known in keys if node.get(known) is None])
             if close in missing:
                 missing.remove(close)
             help_line = f"did you mean `{close}`?" if close else "the keys are " + ", ".join(f"`{k}`" for k in keys)
+            if name.text in renamed:
+                help_line = f"it is now called `{renamed[name.text]}`"
             faults.error("unknown-key", f"{what} has no key `{abridged(name.text)}`", name.place, help=help_line)
     for wanted in missing:
         faults.error("missing-key", f"{what} needs `{wanted}`: {keys[wanted].meaning}", node.place)
@@ -230,7 +238,7 @@ def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = 
 
 
 def record_of(record: type[R], what: str, wanted: str, called: str = "") -> Reader[R]:
-    """Read a mapping with keys of ours; `called` names it, with its own name, in the error that it is not a mapping."""
+    """Read a mapping with the keys of a record; `called` names the value in the error that it is not a mapping."""
 
     def read(node: Tree, name: str, faults: Faults) -> R | None:
         if isinstance(node, Mapping):

@@ -1,4 +1,4 @@
-"""The explanation of one step: why it is there, how it was checked, in what words, and where its law is in the code."""
+"""The explanation of one step: why the page needs it, how it was checked, its sentence, and its law in the code."""
 
 from __future__ import annotations
 

@@ -92,7 +92,7 @@ AFTER = " after "  # between the outcome of a phrase and the outcome or rule tha
 
 JOINED = "<<chain>>"  # a phrase of a step that only continues with lines after the step before
 VALUE = "value_"  # the prefix of roles that give the values of symbols
-# words on which a phrase may branch
+# words of steps that phrases compare with `==` and never print
 ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case", "between"}
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the symbol of the time
@@ -151,7 +151,7 @@ class Phrases:
         return self.rules.get(step.rule, {}).get(f"{step.outcome}{AND}{following.rule}", "")
 
     def setup(self, step: Step) -> str:
-        """Return the part of its sentence that is stated without its lines: the axes, the coordinates."""
+        """Return what the sentence of a step introduces, such as axes and coordinates, for a step without lines."""
         return self.setups.get(step.rule, {}).get(step.outcome, "")
 
     def reason(self, step: Step, because: str, before: str) -> str:
@@ -163,7 +163,7 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return a note that the answer is only a definition, or that an earlier equation already states it."""
+        """Return a note next to an answer that is only a definition, or that an earlier equation already states."""
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
@@ -198,7 +198,7 @@ _TOKEN = re.compile("\x00(\\d+)\x00")
 
 
 class _Nodes:
-    """Collects what a template prints: a node leaves a token in the text, and `split` restores the node."""
+    """Nodes that a template prints: each leaves a token in the text, and `split` puts the node in its place."""
 
     def __init__(self) -> None:
         self.found: list[Inline | tuple[Inline, ...]] = []

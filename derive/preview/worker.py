@@ -1,7 +1,7 @@
-"""The process that derives the pages of a preview: it stays, and is asked for one page after another.
+"""The process that derives the pages of a preview: it keeps running, and answers one question after another.
 
-It keeps what it has loaded and printed, so that an edit of words costs little more than the words. It can be killed at
-any instant, because it writes only what builds keep of their work.
+It keeps everything that it has loaded and laid out, so that an edit of words needs little work. It can be killed at any
+instant, because it writes only into the cache of the builds.
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 
@@ -28,7 +28,7 @@ from derive.building.workers import TIME, Bug, attempt, confine, job_of
 def main(arguments: Sequence[str]) -> None:
     root, (memory, questions, answers, trace, lifeline) = Path(arguments[0]), map(int, arguments[1:])
     for descriptor in (questions, answers, trace, lifeline):
-        os.set_inheritable(descriptor, False)  # no program that a script starts has them
+        os.set_inheritable(descriptor, False)  # programs that a script starts do not inherit them
     confine(lifeline, trace, memory)
     os.dup2(2, 1)  # output of a script is for the user at the terminal, not an answer
     told = os.fdopen(answers, "w", encoding="utf-8")
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str]) -> None:
 
 @cache
 def _settle(root: Path) -> None:
-    """Load what draws while the first page is read; no later search for garbage looks at what is loaded."""
+    """Load the drawing code while you read the first page; exclude loaded objects from the search for garbage."""
     preload(root, derives=True, draws=True)
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
