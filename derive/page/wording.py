@@ -15,6 +15,7 @@ from typing import Any
 
 from jinja2 import Template, UndefinedError
 from jinja2.meta import find_undeclared_variables
+from jinja2.nodes import Compare, Name
 from sympy.core.symbol import Str, Symbol
 
 from derive.algebra.dimensions import Dimension
@@ -92,8 +93,6 @@ AFTER = " after "  # between the outcome of a phrase and the outcome or rule tha
 
 JOINED = "<<chain>>"  # a phrase of a step that only continues with lines after the step before
 VALUE = "value_"  # the prefix of roles that give the values of symbols
-# words of steps that phrases compare with `==` and never print
-ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case", "between"}
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the symbol of the time
 
@@ -175,6 +174,11 @@ class Phrases:
         one, many = self.labels["points"]
         return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
 
+    def compared(self, rule: str) -> set[str]:
+        """Return the names of words that the phrases of a rule compare: these words are no text for a reader."""
+        tables = (self.rules, self.setups, self.clauses)
+        return {name for table in tables for phrase in table.get(rule, {}).values() for name in names_compared(phrase)}
+
     def term(self, word: str) -> tuple[Inline, ...]:
         """Return the words for a word of a step or of an input: `diagonal` is "the long diagonal"."""
         return filled(self.terms.get(word, word), AXIS_NAMES)
@@ -250,6 +254,13 @@ def names_asked(template: str) -> frozenset[str]:
     return frozenset(find_undeclared_variables(_IN_PROSE.parse(template)))
 
 
+@lru_cache(maxsize=2048)
+def names_compared(template: str) -> frozenset[str]:
+    """Return the names that a phrase compares, as `seen` in `<% if seen == "kept" %>`."""
+    sides = (side for each in _IN_PROSE.parse(template).find_all(Compare) for side in (each.expr, each.ops[0].expr))
+    return frozenset(side.name for side in sides if isinstance(side, Name))
+
+
 def _place_of(template: str) -> Place:
     return template.place if isinstance(template, Phrase) else Place(f"{SHOWN_AS}/{OF_EVERY_PAGE}", 1)
 
@@ -306,7 +317,8 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     }
     roles = letters_put_equal(step.roles)
     names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in roles})
-    names.update({name: word if name in ASKED else words.term(word) for name, word in step.words})
+    compared = words.compared(step.rule)
+    names.update({name: word if name in compared else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
     if dimension is not None:
         names["dimension"] = DimensionMark(dimension)
