@@ -6,8 +6,8 @@
     ├── BuildFailed             TeX, the disk, a time limit: the outside world
     └── Misused                 the command line itself was wrong (exit code 2)
 
-A `Complaint` carries data; `shown()` is the only place where it becomes text. `OutOfTime` is not a
-`DeriveError`: code that handles refusals must not catch it and go on.
+A `Complaint` is one error as data; only `shown()` turns it into text. `OutOfTime` is not a `DeriveError`, so that code
+which handles rejected input does not catch it and continue.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Place:
 
 
 class Spelled(str):
-    """A help line in the spelling of a script; `in_file` is its spelling in a file that calls the verb by its keys."""
+    """A help line for a script; `in_file` is the same help for a YAML file that calls the verb by its keys."""
 
     in_file: str | None
 
@@ -110,19 +110,19 @@ class BuildFailed(DeriveError):
 
 
 class Misused(DeriveError):
-    """The command line asks for something that does not exist or make sense."""
+    """The command line asks for something that does not exist or has no meaning."""
 
     exit_code = 2
 
 
 class OutOfTime(BaseException):
-    """The time limit, raised in the middle of the work, and what the work was doing then.
+    """The time limit, raised in the middle of the work, with a description of that work.
 
     waited    whether the work only waited
     doing     what the work was doing, innermost first
     answers   the names of the answers that it was deriving, innermost first
     finished  the keys of the steps that are established
-    kept      whether these steps are kept, so that the next attempt begins with them
+    kept      whether these steps are kept for the next attempt
     """
 
     def __init__(self, waited: bool = False):
@@ -136,7 +136,7 @@ class OutOfTime(BaseException):
 
 @contextmanager
 def during(what: Callable[[], str]) -> Iterator[None]:
-    """Describe work that may take long; the description is asked for only if the time ends during the work."""
+    """Describe work that may take long; the description is made only if the time limit is reached during the work."""
     try:
         yield
     except OutOfTime as late:
@@ -207,7 +207,7 @@ class Faults:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> bool:
-        """Keep what was rejected inside `with faults:`, and continue after it."""
+        """Collect the errors of a `Rejected` inside `with faults:`, and continue after the block."""
         if isinstance(error, Rejected):
             for complaint in error.complaints:
                 self.add(complaint)
@@ -226,5 +226,5 @@ def _reading_order(complaint: Complaint) -> tuple[str, int, int]:
 
 
 def rejected(code: str, message: str, place: Place | None, help: str | None = None, *notes: str) -> NoReturn:
-    """Stop one reading with one error; `with faults:` collects it."""
+    """Stop reading one value with one error, which `with faults:` collects."""
     raise Rejected(Complaint(code, message, place, notes, help))

@@ -12,7 +12,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from derive.building.solution import derived, printed
+from derive.building.printed import Wanted, printed
+from derive.building.solution import derived
 from derive.building.solved import Solved
 from derive.cli.asked import found_root, problem_id_of
 from derive.course.problem import Problem, load_problem
@@ -124,7 +125,7 @@ class Opened:
 
     @cached_property
     def _drawings(self) -> dict[str, bytes]:
-        files = printed(self._problem, self._solved, draws=True, only=()).files
+        files = printed(self._problem, self._solved, Wanted(draws=True, only=())).files
         return {name: content for name, content in files if name.endswith(".svg")}
 
     @cached_property

@@ -1,1 +1,1 @@
-"""Makes again what changed: derivations, sheets and PDFs, in workers of their own."""
+"""Builds what has changed: derivations, sheets and PDFs, in worker processes."""

@@ -25,8 +25,8 @@ Rows = list[tuple[str, ...]]
 
 
 def answers_of(root: Path, problem_id: str) -> Rows:
-    """Return a line for each name, the heading first: the answers that its description offers or its script returns,
-    its results, and then the steps on which these depend."""
+    """Return a row for each name, after a row of headings: first the answers that the description offers or the script
+    returns, with the problem's results, then the steps on which they depend."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     record = Run()
     with solving(problem, record):

@@ -1,7 +1,8 @@
-"""The work that builds keep: each value under a digest of everything that it depends on.
+"""The results that builds keep: each value under a digest of everything that it depends on.
 
-Steps, pages, drawings and PDFs are kept in one folder, signed. A value under its digest is valid for as long as the
-folder exists, so nothing in it is ever out of date; when there is too much, what was used longest ago is removed.
+Steps, pages, drawings and PDFs are kept in one folder, signed. A value is never out of
+date, because a change of an input gives another digest. If the folder is too large, the values that were used longest
+ago are removed.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ NOT_KEPT = "not-kept"
 
 
 def digest(*parts: str | bytes) -> str:
-    """Return the digest of the parts and of where each of them ends."""
+    """Return the digest of the parts; the same text divided in another way has another digest."""
     sha = sha256()
     for part in parts:
         raw = part.encode() if isinstance(part, str) else part
@@ -45,7 +46,7 @@ def file_digest(path: Path) -> str:
 
 @functools.cache
 def engine_digest(*packages: str) -> str:
-    """Return the digest of derive's own modules, and of the packages that decide a result with them."""
+    """Return the digest of derive's own modules and of the versions of these packages."""
     versions = [f"{name}=={package_version(name)}" for name in packages]
     return digest(_own_modules(), *versions)
 
@@ -77,17 +78,17 @@ def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
 
 @dataclass(frozen=True)
 class Cache:
-    """The values kept in a folder, if there is one; with `fresh` none is read, and all are made and kept again."""
+    """The values kept in a folder, if there is one; with `fresh` none is read, but new ones are kept."""
 
     folder: Path | None = None
     fresh: bool = False
     limit: int = LIMIT
     unkept: list[Complaint] = field(
         default_factory=list, compare=False, repr=False
-    )  # warnings about what the disk refused
+    )  # warnings about values that could not be written
 
     def get(self, key: str) -> bytes | None:
-        """Return what was kept under that digest; nothing if it is missing or was changed."""
+        """Return the content kept under that digest; None if it is missing or was changed."""
         if self.folder is None or self.fresh:
             return None
         content = signed.read_signed(self.folder / key, key)
@@ -97,7 +98,7 @@ class Cache:
         return content
 
     def get_data(self, key: str) -> Any:
-        """Return data of JSON that was kept under that digest, like `get`."""
+        """Return the JSON data kept under that digest; None as in `get`."""
         return signed.data_of(self.get(key))
 
     def keep(self, key: str, content: bytes) -> None:
@@ -108,7 +109,7 @@ class Cache:
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def evict(self) -> None:
-        """Remove what was used longest ago, if there is too much; once for a build, as it lists the whole folder."""
+        """Remove the values used longest ago, if there is too much; once in a build, since it lists the folder."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit

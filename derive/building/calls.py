@@ -1,7 +1,7 @@
-"""The calls of verbs that builds keep of a problem: many small texts in one value, which each build replaces.
+"""The calls of verbs that builds keep for a problem: many small texts in one value, which each build replaces.
 
-Only a build that derives opens it. The calls of the last build are kept, and as many earlier ones as there is room for:
-if you undo an edit, the calls from before it are still there.
+Only a build that derives reads it. It holds the calls of the last build, and as many earlier ones as there is room for,
+so that the calls from before an edit are still there if you undo the edit.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from functools import cached_property
 from derive.building.cache import Cache, digest, engine_digest
 from derive.steps.memory import Memory
 
-BETWEEN = "\n\n"  # between calls, which have no empty line
+BETWEEN = "\n\n"  # between calls, whose texts have no empty line
 ROOM = 2 * 1024 * 1024  # characters of calls that were not used last
 
 
@@ -29,7 +29,7 @@ class Calls:
 
     @cached_property
     def earlier(self) -> dict[str, str]:
-        """The calls kept before, the ones used last first."""
+        """The calls kept by earlier builds, those that were used last first."""
         blocks = (self.cache.get(self.key) or b"").decode().split(BETWEEN)
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 

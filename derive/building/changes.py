@@ -11,7 +11,7 @@ from typing import Any
 
 ADDED, REMOVED, CHANGED = "added", "removed", "changed"
 EQUAL = "equal"
-_ALIKE = 0.4  # the share of words by which two sentences are one that was edited
+_ALIKE = 0.4  # two sentences with this share of equal words are one edited sentence
 _NO_PART: Mapping[str, Any] = {"answers": [], "ask": "", "says": [], "points": None, "extra": False}
 
 Run = tuple[str, str]
@@ -46,7 +46,7 @@ class Change:
 
 
 def changes(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Change]:
-    """Return every difference, in the order of a reader's questions: the input, the questions, results, words."""
+    """Return every difference, in the order in which a reader asks: input, questions, results, words."""
     parts = list(_paired(before["parts"], after["parts"]))
     return [
         *_table("given", _given(before), _given(after)),
@@ -123,7 +123,7 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
-    """Pair each part with its earlier form, by what it asks for, because one more part changes all letters after it."""
+    """Pair each part with its earlier form, by what it asks for: its letter changes if a part is added before it."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
     )
@@ -158,7 +158,7 @@ def _worth(page: Mapping[str, Any]) -> str:
 
 
 def _asked(parts: Iterable[tuple[Any, Any]]) -> Iterator[Change]:
-    """Return changes in what parts ask for, in which parts there are, and in their letters."""
+    """Return the parts that are new, gone or have another letter, and changes in what a part asks for."""
     for old, new in parts:
         name = _name(old, new)
         if old is _NO_PART or new is _NO_PART:
@@ -218,7 +218,7 @@ def _left_side(step: Mapping[str, Any]) -> str:
 
 
 def _grades(step: Mapping[str, Any]) -> str:
-    """Return the grades of its claims, without their number, which depends on the lines."""
+    """Return the grades of its claims, but not how many claims have each: this depends on the number of lines."""
     return ", ".join(Counter(each["grade"] for each in step["evidence"]))
 
 
@@ -278,7 +278,7 @@ def _sentence_of(block: Mapping[str, Any]) -> _Sentence:
 
 
 def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> Iterator[Change]:
-    """Return the paragraphs that have changed, each with the one that it was."""
+    """Return the paragraphs that have changed, each with its earlier form."""
     matcher = SequenceMatcher(None, [each.keys for each in old], [each.keys for each in new], autojunk=False)
     for how, a, b, c, d in matcher.get_opcodes():
         if how == EQUAL:

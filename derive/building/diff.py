@@ -20,7 +20,7 @@ from derive.building.workers import Bug, Job, done, job_of
 from derive.course.problem_set import path_of, problem_paths
 from derive.errors import Complaint, DeriveError, Misused
 
-_SAYS = ("detail", "statement", "limits_say", "note", "warnings")  # builds of an earlier derive did not keep these
+_SAYS = ("detail", "statement", "limits_say", "note", "warnings")  # keys that builds of an earlier derive did not write
 Page = Mapping[str, Any]
 
 
@@ -49,7 +49,7 @@ def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -
 
 
 def since_revision(root: Path, problem_id: str, revision: str, detail: str | None, limit: float) -> Diff:
-    """Return what has changed since a revision, which is derived with the present derive."""
+    """Return what has changed since a revision, which is derived with the installed derive."""
     path_of(root, problem_id)
     with course_at(root, revision, problem_id.partition("/")[0]) as old_root:
         if problem_id not in problem_paths(old_root):
@@ -81,7 +81,7 @@ def built_page(root: Path, problem_id: str) -> Page:
 
 
 def _job(root: Path, of: Path, problem_id: str, detail: str | None, limit: float) -> Job:
-    """Return the job for a page of the course `of`; earlier derivations are kept with the builds of `root`."""
+    """Return the job for a page of the course in `of`; its derivations are kept with the builds of `root`."""
     return job_of(of, problem_id, partial(_page, root, of, problem_id, detail), limit)
 
 
@@ -97,7 +97,7 @@ def _page(root: Path, of: Path, problem_id: str, detail: str | None) -> Page:
 def _derived_at(
     revision: str, root: Path, old_root: Path, job: Callable[[], Job]
 ) -> tuple[Page, tuple[Complaint, ...]]:
-    """Return the page at a revision; if its templates lack the words for today's steps, use today's templates."""
+    """Return the page at a revision; if its templates lack phrases that the steps need, use the present templates."""
     try:
         return done(job()), ()
     except (DeriveError, Bug) as error:

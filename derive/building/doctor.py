@@ -1,4 +1,4 @@
-"""`derive doctor`: what a build needs, which of it is there, and how to fix the rest."""
+"""`derive doctor`: what a build needs, what is missing, and how to fix that."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def _tex(name: str | None) -> list[Finding]:
 
 
 def _test_page(name: str | None) -> Finding:
-    """Check that the engine really makes a PDF here: an installed program need not run."""
+    """Check that the engine makes a PDF here: a program may be installed and still not run."""
     started = time.monotonic()
     try:
         with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""The drawings of a page as files, drawn again only when their contents have changed.
+"""The drawings of a page as files, drawn again only if something in them has changed.
 
 The bytes of a drawing depend on its description, what is known about the letters in it, its size, its words,
 derive's modules and matplotlib.
@@ -61,7 +61,7 @@ def drawing_files(
 def _files(
     problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, cache: Cache
 ) -> tuple[bytes, bytes]:
-    """Return the files as they were kept, or draw them now. An SVG has no zero byte, so both are kept as one value."""
+    """Return the kept files, or draw them now. A zero byte, which no SVG has, separates the two in one value."""
     placement = placement_of(problem, drawing.key)
     width = placement.width if placement else None
     alt = inline_text(shown.alt, notation)
@@ -89,7 +89,7 @@ def _files(
 
 
 def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
-    """Return what is known about the letters that occur in a drawing; other letters then change nothing in it."""
+    """Return the data of the letters that occur in a drawing, so that other letters do not change its digest."""
     return [
         (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
     ]

@@ -1,4 +1,4 @@
-"""The explanation of one step of a problem, or of all its steps in a line each, as text or as JSON."""
+"""The explanation of one step of a problem, or one line about each step, as text or as JSON."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Rows = list[tuple[str, ...]]
 
 
 def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
-    """Return the explanation of the step of that key; without a key, a row for each step after the heading, or JSON."""
+    """Return the explanation of the step with that key; without a key, a heading and a row for each step, or JSON."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
@@ -45,7 +45,7 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Return every step; or the step of that key or for which it stands, or the first that a verb of that name made."""
+    """Return all steps, or one: with that key, standing for that key, or the first of the verb of that name."""
     if key is None:
         return steps
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}

@@ -1,7 +1,7 @@
 """Files that derive writes: whole or not at all, and only when their content has changed.
 
-A file appears under its name by one rename, so a reader, a second build and a kill at any instant see the old content
-or the new. A refusal of the disk becomes one error.
+A file gets its name by one rename, so a reader, a second build and a kill at any instant find the old content or the
+new content. If the disk refuses, the user sees one error.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def cannot_write(path: Path, error: OSError) -> BuildFailed:
 
 
 def of_system(error: OSError, what: str = "the system refuses") -> BuildFailed | None:
-    """Return the error that the system is short of something; nothing if the error says something else."""
+    """Return the error that the system lacks a resource; None for any other error."""
     reason = _SHORT.get(error.errno or 0)
     return BuildFailed(Complaint("system", f"{what}: {reason}")) if reason else None
 
@@ -104,7 +104,7 @@ def _unfinished(path: Path) -> tuple[int, str]:
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=UNFINISHED, dir=path.parent)
         if is_held(handle, Path(name)):
             return handle, name
-        os.close(handle)  # just now a build took it for a file that no process holds
+        os.close(handle)  # another build removed it before it was locked
 
 
 def is_held(handle: int, path: Path) -> bool:

@@ -19,14 +19,14 @@ _OF_POINTS = ("points", "extra", "rubric")
 def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     """Return a problem's points and title; a step that the title mentions is named by its key.
 
-    If the file is at that path and has all its keys, only these are read. The rest is read, and mathematics loaded,
-    only for a title that mentions something, and to report what is wrong with a file before that.
+    If the file is at that path and has both keys, only these are read. The rest of the file is read, and mathematics is
+    loaded, only if the title mentions something or the file has an error.
     """
     return _at_a_glance(root, path or path_of(root, problem_id)) or _in_full(root, problem_id)
 
 
 def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
-    """Return a plain title and the points; nothing if there is more to read, or anything is wrong."""
+    """Return a title without mentions, and the points; None if the title has mentions or anything is wrong."""
     faults = Faults()
     try:
         node = mapping_in(root, path, "a problem", quickly=True)

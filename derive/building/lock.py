@@ -1,4 +1,4 @@
-"""One build of a set at a time."""
+"""A lock, so that only one build of a set runs at a time."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from derive.errors import BuildFailed, Complaint
 
 @contextmanager
 def locked(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
-    """Hold the folder of a set. A lock of this kind is not inherited by workers, and ends with its process."""
+    """Hold the lock of a set's folder; it is not inherited by workers, and ends with its process."""
     path = outputs / ".lock"
     with writing(path):  # do not follow a link, and do not wait for a pipe
         lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)

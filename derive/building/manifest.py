@@ -1,4 +1,4 @@
-"""The record of what a set's outputs were made from; it shows which of them must be made again.
+"""The record of what each output of a set was made from; it decides which outputs must be made again.
 
 A problem is current while the content of every file it was derived from, the engine and the options are unchanged; an
 output is current while its own content is unchanged. Only content is compared, never times.
@@ -39,7 +39,7 @@ class Manifest:
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
     documents: list[list[str]] = field(default_factory=list)  # each document with the name of its files
     asked: list[str] = field(default_factory=list)  # documents that the set does not name, but `--only` did
-    evidence: str = ""  # how much, by the set's file, solutions show of their checks
+    evidence: str = ""  # how much solutions show of their checks, as the file of the set says
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
     typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its files
     typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe
@@ -47,7 +47,7 @@ class Manifest:
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
-        """Return what was recorded here; an empty record if nothing was, or if it is not as it was written."""
+        """Return the record of this folder; an empty one if there is none, or if it was altered."""
         recorded = signed.data_of(signed.read_signed(folder / ".manifest.json", _record_of(folder)))
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 
@@ -58,21 +58,21 @@ class Manifest:
         signed.write_signed(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
 
     def remove(self, output: str) -> None:
-        """Remove an output if it is a file of this folder and still as it was written."""
+        """Remove an output if it is a file of this folder and unchanged since the build wrote it."""
         file = self.folder / output
         if _is_plain(output) and not file.is_symlink() and self.holds(output):
             file.unlink(missing_ok=True)
         self.outputs.pop(output, None)
 
     def forget(self, name: str) -> None:
-        """Remove what was made of a problem, or the document, that the set no longer has."""
+        """Remove the outputs of a problem or document that the set no longer has."""
         for output in self.outputs_of(name):
             self.remove(output)
         for table in (self.pages, self.inputs, self.drawings, self.made_by, self.typeset_from, self.typeset_by):
             table.pop(name, None)
 
     def replace_documents(self, documents: list[list[str]]) -> None:
-        """Remove the documents that are not among these, which the set has from now on."""
+        """Set the documents of the set, and remove the files of those that it no longer has."""
         files = {file for _, file in documents}
         for kind, file in self.documents:
             if [kind, file] not in documents and file not in files:
@@ -80,7 +80,7 @@ class Manifest:
         self.documents = documents
 
     def page_key(self, problem: str, recipe: str, read: Callable[[str], str]) -> str:
-        """Return the key of its page: a digest of how it was made, and of what `read` gives for each of its inputs."""
+        """Return the key of a problem's page: a digest of the recipe and of each input, as `read` gives it."""
         inputs = self.inputs.get(problem, {})
         return digest("page", problem, recipe, *(part for path in inputs for part in (path, read(path))))
 
@@ -103,7 +103,7 @@ class Manifest:
             self.typeset_from[name] |= self.inputs[problem]
 
     def is_current(self, recipe: Recipe, engine: str, read: Callable[[str], str], documents: Documents) -> bool:
-        """Return whether nothing need be done for the problems of the set and for these documents."""
+        """Return whether the outputs of all problems and of these documents are up to date."""
         page, document = recipe_digest(recipe), recipe_digest(of_documents(recipe, engine))
         names = [*self.problems, *(file for _, file in documents), INDEX]
         of_set = [output for kind, file in documents for output in outputs_of_document(kind, file)]
@@ -116,12 +116,14 @@ class Manifest:
         )
 
     def _reads_so(self, document: str, read: Callable[[str], str]) -> bool:
-        """Return whether every file that a document was made from is as it was then."""
+        """Return whether every file that a document was made from is unchanged since then."""
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether a document exists that was made from other files, words or modules than those of now; its
-        options are not compared."""
+        """Return whether a document exists that was made from files, words or modules that have changed since.
+
+        Its options are not compared.
+        """
         before = self.recipes.get(self.typeset_by.get(document, ""), {})
         was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
         return (self.folder / f"{document}.pdf").is_file() and not (was == is_now and self._reads_so(document, read))
@@ -148,7 +150,7 @@ class Manifest:
         return [*outputs_of(name), *self.drawings.get(name, [])]
 
     def holds(self, output: str) -> bool:
-        """Return whether that output is there and as it was written."""
+        """Return whether that output exists and is unchanged since the build wrote it."""
         return self.outputs.get(output, "") != "" and file_digest(self.folder / output) == self.outputs[output]
 
 

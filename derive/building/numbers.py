@@ -53,7 +53,7 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place where a form asks for its number; figures alone do not ask if none of its letters has a number."""
+        """The place where a form asks for its number; `figures` alone ask only if some letter has a number."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place
@@ -63,8 +63,8 @@ class _Answer:
 def faults_of_numbers(
     problem: Problem, derivation: Derivation, values: Mapping[str, Step], drawings: Iterable[Recorded]
 ) -> list[Complaint]:
-    """Return an error for each form that asks for a number that does not exist; a warning where numbers that nothing
-    else needs do not suffice for an answer, and for each number that the sheet does not state.
+    """Return errors for forms that ask for a number that does not exist, and warnings for answers that lack a number
+    although numbers are given that only they use, and for numbers that the sheet does not state.
 
     values     the numbers of answers, by key
     drawings   the drawings of the problem: a plot needs numbers too
@@ -72,7 +72,7 @@ def faults_of_numbers(
     if not problem.every_amount:
         return []
     answers = list(_answers(problem, derivation, values))
-    served = [answer.part for answer in answers if answer.has_number]  # a form for several may be meant for these
+    served = [answer.part for answer in answers if answer.has_number]  # their forms may be meant for these answers
     wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
     said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}
     return [

@@ -1,4 +1,4 @@
-"""The common beginning of all documents of a set, read by TeX once: its classes, packages and commands as a format.
+"""The common beginning of all documents of a set as a TeX format: its classes, packages and commands are read once.
 
 A line of the template marks where documents begin to differ; the lines above it depend on nothing but the level of
 `detail`. TeX loads them and dumps a format, which is kept with everything else that a build keeps. It is kept unpacked,
@@ -28,8 +28,8 @@ __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 DIFFERS = "%% derive: from here on documents differ\n"
 NAME = "preamble"  # the format's name in the folder where TeX runs
 PACKED = b"\x1f\x8b"
-ROOM = 64 * 1024 * 1024  # a format takes a third of it
-CANNOT = b""  # instead of a format: this engine cannot dump this preamble, and is not asked again
+ROOM = 64 * 1024 * 1024  # bytes free on the disk; a format takes a third of this
+CANNOT = b""  # kept in place of a format if the engine cannot dump this preamble, so that it is not tried again
 
 Environment = Mapping[str, str]
 

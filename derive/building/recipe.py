@@ -1,4 +1,4 @@
-"""How pages are made, apart from their own files: by which modules, packages, words and templates, and how detailed.
+"""How pages are made, in addition to their own files: with which modules, packages, words, templates and options.
 
 Each ingredient has a name that the author recognizes, and a digest or a value.
 """
@@ -27,7 +27,7 @@ def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
-    """Return the recipe of a document of the set: typeset by this engine, whatever else is made of the problems."""
+    """Return the recipe of a document of the set: with this engine, and whatever other documents are made."""
     return {**recipe, ONLY: "", ENGINE: engine}
 
 

@@ -1,6 +1,6 @@
-"""A course at a revision of git: the files of one set and the templates, in a folder of their own.
+"""A course at a revision of git: the files of one set and the templates, in a temporary folder.
 
-Files are read as git stores them, not as it would check them out: a repository may name programs that do that.
+Files are read as git stores them and not checked out, because a repository may name programs that run at checkout.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Folders for work that leaves nothing behind; the next build removes what a killed process left.
+"""Temporary folders that leave nothing behind; the next build removes those that a killed process left.
 
-A lock ends with its process: a locked folder is in use, one without a lock was left behind.
+A lock ends with its process, so a locked folder is in use and a folder without a lock was left behind.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -
 
 
 def set_since_revision(root: Path, set_id: str, revision: str, detail: str | None, limit: float) -> SetDiff:
-    """Return what has changed since a revision, which is derived with the present derive."""
+    """Return what has changed since a revision, which is derived with the installed derive."""
     after = _written(root, set_id)
     with course_at(root, revision, set_id) as old_root:
         before = _written(old_root, set_id)

@@ -1,7 +1,8 @@
-"""The build of a set of problems: derive what changed, typeset what reads differently, leave the rest unchanged.
+"""The build of a set of problems: derive what changed, typeset documents whose text changed, leave the rest unchanged.
 
-Problems are derived and documents typeset by one crew of workers, so that one is typeset while another is derived. A
-problem that fails keeps its earlier outputs and stops no other; the document of the whole set is then unchanged.
+One crew of workers derives problems and typesets documents, so that one problem is typeset while another is derived. If
+a problem fails, its earlier outputs stay, the other problems are built, and the documents of the whole set stay
+unchanged.
 """
 
 from __future__ import annotations
@@ -56,7 +57,7 @@ class Options:
 
 
 class Superseded(Exception):
-    """The files have been edited during their build, and unfinished work is not worth finishing."""
+    """Files were edited during their build, so its unfinished work is useless."""
 
 
 @dataclass(frozen=True)
@@ -161,7 +162,7 @@ class _Build:
         return result
 
     def _keep(self, saved: Callable[[], None]) -> None:
-        """Save what only spares the next build some work; if that fails, this build is still good."""
+        """Save data that only the next build uses; if that fails, this build is still good."""
         try:
             saved()
         except DeriveError as error:
@@ -175,9 +176,9 @@ class _Build:
         from derive.course.problem_set import problem_set
 
         self.manifest.complete = False
-        with writing(self.outputs):  # until all outputs are right, `make` has work to do
+        with writing(self.outputs):  # until all outputs are up to date, `make` has work to do
             (self.outputs / ".built").unlink(missing_ok=True)
-        self.prepares = not os.listdir(at_hand().name)  # all workers have these from here
+        self.prepares = not os.listdir(at_hand().name)  # all workers share the formats of this folder
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.manifest.evidence = heading.evidence
@@ -218,7 +219,7 @@ class _Build:
                 self.cache.evict()
 
     def _kinds_of_each_problem(self) -> str:
-        """Return the documents that are made of each problem in addition to its solution."""
+        """Return the documents that each problem contributes to in addition to the solutions."""
         return ",".join(sorted(kind for kind, _ in self.documents if kind in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:
@@ -241,7 +242,7 @@ class _Build:
         self.crew.put(job)
 
     def _took(self, outcome: Outcome) -> bool:
-        """Return whether it went well; if not, keep its errors."""
+        """Return whether the job succeeded; if not, add its error to the report."""
         if isinstance(outcome.error, DeriveError):
             self.result.complaints += outcome.error.complaints
         elif outcome.error:
@@ -249,7 +250,7 @@ class _Build:
         return outcome.error is None
 
     def _pages(self, keys: Mapping[str, str]) -> None:
-        """Take pages of problems by name and key: those that an earlier build kept, while the others are derived."""
+        """Take the pages of problems, by name and key: use those that an earlier build kept, and derive the others."""
         kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.get_data(key)))}
         self._derive([name for name in keys if name not in kept])
         for name, page in kept.items():
@@ -323,7 +324,7 @@ class _Build:
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _recipe(self) -> Recipe:
-        """Return how pages are made; if templates or modules were edited since the build began, that is not known."""
+        """Return the recipe of pages, marked if a module or a template was edited since the build began."""
         if edited_since(self.root, self.started):
             self.made_by[MODULES] = EDITED
         return self.made_by

@@ -1,12 +1,9 @@
-"""From a problem's id to its solution in every format: load, derive, number, word, print.
-
-Everything that leaves this module is plain text and numbers, so that it can cross from a worker to its parent.
-"""
+"""From a problem's id to its solution: load the problem, derive its steps and the numbers of its answers, print it."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
@@ -20,38 +17,22 @@ from derive.algebra.expressions import IN_DEGREES, Amount, Relation
 from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_kind
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.calls import calls_of
-from derive.building.drawn import drawing_files
-from derive.building.numbers import faults_of_numbers
+from derive.building.printed import Wanted, printed
 from derive.building.solved import Solved, steps_key
-from derive.course.names import HINTS, KEY, EvidenceShown
-from derive.course.parts import Question, points_text
+from derive.course.names import EvidenceShown
+from derive.course.parts import Question
 from derive.course.problem import Problem, load_problem, run_solve
-from derive.course.problem_set import problem_set
-from derive.course.prose import PROBLEM
-from derive.course.reference.comparison import Told, comparisons
+from derive.course.reference.comparison import comparisons
 from derive.course.reference.statements import reference_path
 from derive.course.stock import told_at
 from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
-from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
-from derive.page.document import document_of
-from derive.page.folding import with_details
-from derive.page.hints import with_hints
-from derive.page.rubric import credits_of, faults_of_rubric
+from derive.errors import Complaint, OutOfTime, Rejected, did_you_mean, during
 from derive.page.template import template_folder
-from derive.page.theorems import standalone
-from derive.page.tree import Document
 from derive.page.wording import phrases
-from derive.render.formats import HTML, TYPESET, Solution, built_formats, formats
 from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
-from derive.render.notation.notation import Notation
-from derive.render.notation.text import in_one_line
-from derive.render.printing.documents import document_fragments
-from derive.render.printing.html_page import NO_HTML, problem_html
-from derive.render.printing.latex_page import NOT_TYPESET, problem_latex
-from derive.render.printing.text_page import inline_text
-from derive.render.rendered import Rendered, SourceFault
+from derive.render.rendered import Rendered
 from derive.steps import record
 from derive.steps.derivation import (
     Derivation,
@@ -64,7 +45,7 @@ from derive.steps.derivation import (
 from derive.steps.homogeneity import dimension_table
 from derive.steps.memory import Memory
 from derive.steps.numeric import COMPARISON, coefficient_of, comparison_of, is_plain, value_of
-from derive.steps.step import Level, Quantity, Step
+from derive.steps.step import Quantity, Step
 from derive.stock.keys.limits import limits_of
 
 
@@ -78,111 +59,24 @@ def rendered(
     evidence: EvidenceShown = EvidenceShown.NONE,
     documents: Collection[str] = (),
 ) -> Rendered:
-    """Derive a problem and print it; raise `DeriveError` with everything that is wrong.
+    """Derive a problem and print it; raise `DeriveError` with every error found.
 
-    Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time. `draws`
-    says whether the files of its drawings are wanted too, `only` which formats are wanted (default: all of a build),
-    `evidence` how much it shows about its checks, and `documents` which other documents: the key, hints, a rubric.
+    cache   the steps and drawings of earlier builds, which are used and extended
+    The others are those of `Wanted`.
     """
     begun = time.time_ns()
     problem = load_problem(root, problem_id)
     _check_characters(problem)
-    phrases(template_folder(root))  # raises what is wrong with them, before anything is derived
+    phrases(template_folder(root))  # raises their errors before anything is derived
     solved, failures = _solved(problem, cache, begun)
-    page = printed(problem, solved, failures, detail, cache, draws, only, evidence, documents)
+    page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents), cache, failures)
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
-
-
-def printed(
-    problem: Problem,
-    solved: Solved,
-    failures: tuple[Complaint, ...] = (),
-    detail: str | None = None,
-    cache: Cache = NO_CACHE,
-    draws: bool = False,
-    only: Collection[str] | None = None,
-    evidence: EvidenceShown = EvidenceShown.NONE,
-    documents: Collection[str] = (),
-) -> Rendered:
-    """Return the page of a derived problem, as `rendered` does; the `failures` are reported with its warnings."""
-    root, words = problem.root, phrases(template_folder(problem.root))
-    derivation, values = solved.derivation, solved.values
-    heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
-    others = heading.numbers if heading else {}
-    level = Level(detail or "standard")
-    known = problem, derivation, values, words
-
-    def page_at(level: Level, like: Document | None = None) -> Document:
-        document, faults = document_of(*known, level, solved.compared, others, solved.drawings, evidence, like)
-        Faults(faults).stop()
-        return document
-
-    document = page_at(level, page_at(Level.STANDARD) if level is Level.FULL else None)
-
-    @lru_cache(maxsize=1)
-    def full() -> Document:
-        return document if level is Level.FULL else page_at(Level.FULL, document)
-
-    notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
-    of_numbers = faults_of_numbers(problem, derivation, values, solved.drawings)
-    Faults(fault for fault in of_numbers if fault.severity == "error").stop()
-    warnings = (*problem.warnings, *document.warnings, *of_numbers, *failures)
-    solution = Solution(
-        standalone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
-    )
-    wanted = {*built_formats(), *TYPESET, HTML} if only is None else {*only}
-    typeset = not wanted.isdisjoint(TYPESET)
-    files = drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else ()
-    rubric = {chr(ord("a") + i): part.rubric for i, part in enumerate(problem.parts)}
-    Faults(faults_of_rubric(document, rubric)).stop()
-
-    def page_of(kind: str) -> Document:
-        if kind == HINTS:
-            return with_hints(document, problem, derivation, values, words)
-        return full() if kind == KEY else document
-
-    page = NO_HTML
-    if HTML in wanted:
-        whole = document if level is Level.FULL else with_details(document, full())
-        page = problem_html(whole, words, notation, template_folder(root), files)
-    fragments = problem_latex(document, words, notation, template_folder(root)) if typeset else NOT_TYPESET
-    return Rendered(
-        id=problem.id,
-        detail=level.value,
-        title=inline_text(document.title, notation),
-        points="" if problem.points is None else points_text(problem.points),
-        latex=fragments.solution,
-        title_latex=fragments.title,
-        sheet=fragments.sheet,
-        report=fragments.report,
-        html=page.solution,
-        title_html=page.title,
-        documents=document_fragments(
-            documents,
-            page_of,
-            credits_of(document, rubric, values.values()),
-            words,
-            notation,
-            template_folder(root),
-            files,
-        ),
-        texts={name: form.render(solution) for name, form in formats().items() if name in wanted},
-        warnings=warnings,
-        inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
-        grades=_grades(derivation, values),
-        counts=document.checks.counts(),
-        steps=len(derivation.steps) + len(values),
-        compared=len(solved.compared),
-        agreed=not failures,
-        source_faults=_source_faults(solved.compared, notation),
-        files=files,
-    )
 
 
 def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[Complaint, ...]]:
     """Return the steps, as they were kept or derived now, and what disagrees with the reference.
 
-    They are kept under a digest of its files; not if one of these has been edited since the problem was read.
+    They are kept under a digest of the problem's files, unless one of these was edited after it was read.
     """
     key = steps_key(problem)
     with suppress(KeyError):
@@ -213,34 +107,6 @@ def _kept(cache: Cache, key: str) -> Solved:
     return kept
 
 
-@lru_cache(maxsize=4)
-def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
-    """Return the notation with everything that it has laid out before."""
-    return Notation(dict(dimensions), flat=flat)
-
-
-def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:
-    """Return the errata of the source and the remarks on it, in the order of its lines."""
-    if not any(told.erratum or told.remark for told in compared):
-        return ()
-    from derive.render.notation.from_latex import in_plain_text  # needed by few problems
-
-    found: list[tuple[int, SourceFault]] = []
-    for told in compared:
-        if told.erratum:
-            of = told.erratum
-            printed, right = (
-                in_plain_text(quote) if quote else in_one_line(notation.result(value))
-                for quote, value in ((of.quote, of.printed), (of.instead, of.right))
-            )
-            found.append((of.line or 0, ("erratum", str(of.line or ""), printed, right, in_plain_text(of.why))))
-        if told.remark:
-            note = told.remark
-            told_in_words = (in_plain_text(note.quote), "", in_plain_text(note.why))
-            found.append((note.line or 0, ("remark", str(note.line or ""), *told_in_words)))
-    return tuple(fault for _, fault in sorted(found, key=lambda each: each[0]))
-
-
 def _check_characters(problem: Problem) -> None:
     """Check that prose has only characters that can be printed."""
     faults = []
@@ -252,10 +118,6 @@ def _check_characters(problem: Problem) -> None:
             faults.append(Complaint("character", message, prose.place_within(at, 1), help=help_line))
     if faults:
         raise Rejected(faults)
-
-
-def _refers_to_problems(problem: Problem) -> bool:
-    return any(mention.of == PROBLEM for prose in problem.texts for mention in prose.mentions)
 
 
 def derived(
@@ -334,8 +196,10 @@ def _value(
     amounts: Mapping[Symbol, Amount] | None = None,
     case: str = "",
 ) -> Quantity | None:
-    """Return the number of an answer, in the unit and to the figures that the part asks for, by the key that it asks
-    for; in a case of the part, with the numbers of that case."""
+    """Return the number of an answer, in the unit and to the figures that the part asks for.
+
+    amounts, case   the numbers of one case of the part, and its label; by default the numbers of the problem
+    """
     key = f"{answer.key}_in_case_{case}" if case else None
     numbers = problem.amounts if amounts is None else amounts
     form = part.form_of(asked)
@@ -376,11 +240,3 @@ def _kind_of(
         letter = problem.symbols.get(str(symbol))
         kind = next(named, None) or answer.coordinates.get(symbol) or (letter.kind if letter else None)
     return kind, dimension_of_kind(kind) if kind else dimensions.get(symbol) or NUMBER
-
-
-def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int]:
-    counts = derivation.grades()
-    for step in values.values():
-        for evidence in step.evidence:
-            counts[evidence.grade.value] += 1
-    return counts

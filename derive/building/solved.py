@@ -1,7 +1,7 @@
 """A derivation as it is kept from one build to the next, so that a reworded page is not derived again.
 
-It depends on derive's own modules and SymPy, the script and the modules next to it that it imports, the givens, which
-steps answer the parts and in what form, and the reference; not on words, points and templates.
+It depends on derive's own modules and SymPy, on the script and its modules, the given values, the answers that parts
+ask for with their forms, and the reference. It does not depend on words, points and templates.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The reasons why an output would be made again: each input it was made from is compared with that of now.
+"""The reasons why an output would be made again: each of its inputs is compared with its state at the last build.
 
 For this, nothing is derived, and nothing that derives is loaded.
 """
@@ -89,7 +89,7 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
 
 
 def _below_build(root: Path, what: str) -> tuple[str, str, str] | None:
-    """Return set, stroke, file of a path below build/, as named from here or from the root."""
+    """Return set, "/" and file of a path below build/, relative to the working folder or to the root."""
     found = [Path(os.path.relpath(os.path.normpath(base / what), root / "build")) for base in (Path.cwd(), root)]
     below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 2]
     of_a_set = [parts for parts in below if parts and parts[0] in set_names(root)]

@@ -1,4 +1,4 @@
-"""Documents typeset apart from a build, which keeps nothing of them: one solution, or the reports of a check."""
+"""Documents that are typeset outside a build: one solution, or the reports of a check."""
 
 from __future__ import annotations
 

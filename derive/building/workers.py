@@ -39,7 +39,7 @@ from derive.errors import BuildFailed, Complaint, DeriveError, Misused, OutOfTim
 TIME_LIMIT = 120.0
 GIB = 2**30
 MEMORY_LIMIT, SMALLEST_MEMORY = 4.0, 0.25  # GiB
-MEMORY, TOO_DEEP = "memory-limit", "too-deep"
+TIME, MEMORY, TOO_DEEP = "time-limit", "memory-limit", "too-deep"  # codes of the errors at a limit
 _TICK = 0.1
 _NAMED = 5  # at most so many steps are named
 
@@ -186,7 +186,7 @@ def _pipe() -> tuple[int, int]:
 
 @contextlib.contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Delay signals during a fork, because Python would lose them in its work before and after a fork."""
+    """Delay signals during a fork: Python would lose a signal that arrives in its own code around the fork."""
     signals = (signal.SIGINT, signal.SIGTERM)
     before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
     try:
@@ -235,7 +235,7 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker that gave no answer, at the line of the script that it was in."""
+    """Return the error about a worker that gave no answer, at the line of the script that was running."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what it states about {job.name}"
@@ -264,7 +264,7 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
         notes.append(f"{kept}: {last}{before}")
     in_script = not late.doing and not late.answers
     help_ = "look for an endless loop in its script" if in_script else "ask for less, describe it with fewer letters"
-    return _stopped(job, "time-limit", message, f"{help_}, or raise `--time-limit`", trace, notes)
+    return _stopped(job, TIME, message, f"{help_}, or raise `--time-limit`", trace, notes)
 
 
 def died(job: Job, code: int, trace: str) -> BuildFailed:
@@ -331,21 +331,7 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
     # What a script prints is for the person at the terminal, not part of the answer.
     os.dup2(2, 1)
     sys.stdout = sys.stderr
-    value: Any = None
-    error: DeriveError | Bug | str | None = None
-    try:
-        with limited(job.limit, trace):
-            value = job.work()
-    except DeriveError as stopped:
-        error = stopped
-    except OutOfTime as late:
-        error = too_long(job, trail_of(late), late)
-    except (MemoryError, RecursionError) as short:
-        error = told_to(trace, short)
-    except OSError as refused:
-        error = of_system(refused) or Bug(f"{type(refused).__name__}: {refused}", _short_trace(refused))
-    except BaseException as bug:
-        error = Bug(f"{type(bug).__name__}: {bug}", _short_trace(bug))
+    value, error = attempt(job, trace)
     with contextlib.suppress(OSError, ValueError):
         sys.stdout.flush()
     try:
@@ -353,8 +339,33 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
     except MemoryError:
         pipe.send((None, MEMORY))
     except Exception as bug:  # a value that cannot be sent to the parent
-        pipe.send((None, Bug(f"{type(bug).__name__}: {bug}", _short_trace(bug))))
+        pipe.send((None, _bug(bug)))
     pipe.close()
+
+
+def attempt(job: Job, trace: int) -> tuple[Any, DeriveError | Bug | str | None]:
+    """Do the work of a job within its time, and return its value or its error.
+
+    At the limit of memory or of nesting the error is only the code of that limit: the parent process makes the error
+    from it, and from what was written to `trace`.
+    """
+    try:
+        with limited(job.limit, trace):
+            return job.work(), None
+    except DeriveError as stopped:
+        return None, stopped
+    except OutOfTime as late:
+        return None, too_long(job, _trail(late), late)
+    except (MemoryError, RecursionError) as short:
+        return None, _limit_reached(trace, short)
+    except OSError as refused:
+        return None, of_system(refused) or _bug(refused)
+    except BaseException as bug:  # also of a script, which may end its program
+        return None, _bug(bug)
+
+
+def _bug(error: BaseException) -> Bug:
+    return Bug(f"{type(error).__name__}: {error}", _short_trace(error))
 
 
 def confine(lifeline: int, trace: int, limit: int) -> None:
@@ -380,14 +391,14 @@ def _limit_memory(limit: int) -> None:
         resource.setrlimit(resource.RLIMIT_DATA, (min(known), hard))
 
 
-def told_to(trace: int, error: MemoryError | RecursionError) -> str:
-    """Write the lines that the error came through, and return which limit it is."""
+def _limit_reached(trace: int, error: MemoryError | RecursionError) -> str:
+    """Write the lines that the error came through, and return the code of the limit."""
     with contextlib.suppress(OSError):
-        os.write(trace, trail_of(error).encode()[: select.PIPE_BUF * 8])
+        os.write(trace, _trail(error).encode()[: select.PIPE_BUF * 8])
     return MEMORY if isinstance(error, MemoryError) else TOO_DEEP
 
 
-def trail_of(error: BaseException) -> str:
+def _trail(error: BaseException) -> str:
     """Return the lines that an error came through, innermost first, as `faulthandler` does; of many only the ends."""
     trail, lines = error.__traceback__, []
     while trail:

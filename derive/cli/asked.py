@@ -13,7 +13,7 @@ from derive.errors import Complaint, Misused
 
 
 def found_root(named: str | None) -> Path | None:
-    """Return the folder that has `problems`: as named, or here or above, or where derive is developed."""
+    """Return the folder with `problems`: the named one; else the present one, one above it, or derive's checkout."""
     asked = named or os.environ.get("DERIVE_ROOT")
     try:
         here = Path.cwd()
@@ -42,7 +42,7 @@ def root_of(arguments: argparse.Namespace) -> Path:
 
 
 def problem_id_of(text: str) -> str:
-    """Return the id, also of a path that the shell completed: problems/hw9/block.yaml, with or without a topic."""
+    """Return the id of a problem, also from a path such as problems/hw9/block.yaml, with or without a topic."""
     return re.sub(r"^([^/]+)/[^/]+/([^/]+)$", r"\1/\2", new_id_of(text))
 
 

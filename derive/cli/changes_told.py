@@ -1,4 +1,4 @@
-"""The changes of `derive diff` in words: in colour on a terminal, and always with marks that need no colour."""
+"""The changes of `derive diff` in words, with marks, and on a terminal also in colour."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # of the lines before a step's result
+_MOST_LINES = 3  # most lines that are shown before the result of a step
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:

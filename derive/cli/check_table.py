@@ -1,4 +1,4 @@
-"""The table of `derive check`: how many steps each problem has, how many claims were checked for them, and how sure."""
+"""The table of `derive check`: the steps of each problem, the claims that were checked for them, and the grades."""
 
 from __future__ import annotations
 

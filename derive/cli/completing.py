@@ -1,7 +1,7 @@
-"""The names that a shell completes: sets, problems, topics and pages by their file names, and steps as built.
+"""The names that a shell completes: sets, problems, topics and pages from file names, and steps from the last build.
 
-A shell asks each time that you press Tab, so nothing that derives is loaded here, and only the page of the problem
-whose steps are wanted is read.
+A shell asks each time that you press Tab. So no module that derives is loaded here, and only the page whose steps are
+wanted is read.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _PAGES = (".html", ".json", ".pdf", ".svg", ".tex", ".txt")
 
 
 def offer(parser: argparse.ArgumentParser) -> None:
-    """Answer the shell that asks, and end; options are offered if the word begins with `-`."""
+    """Print the completions for the shell that asks, and exit; options complete a word that begins with `-`."""
     from argcomplete import autocomplete
 
     autocomplete(parser, always_complete_options=False)

@@ -39,7 +39,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         from derive.cli.completing import offer
 
         offer(parser_of_commands())
-    gc.set_threshold(300_000)  # modules stay: the search for garbage in them took an eighth of their loading time
+    gc.set_threshold(300_000)  # searching the loaded modules for garbage would take an eighth of their loading time
     try:
         from derive.cli.streams import read
 
@@ -52,7 +52,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 class _Screen(argparse.RawDescriptionHelpFormatter):
-    """Help that fits a screen: each option on one line if possible, and commands without a heading of their own."""
+    """Help that fits a screen: each option on one line if possible, and no heading before the commands."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=34)

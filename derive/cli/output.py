@@ -29,7 +29,7 @@ def check_output(output: str | None, root: Path) -> None:
 
 
 def _kept_from(path: Path, root: Path) -> str:
-    """Return why nothing may be written to that path; empty if it is allowed."""
+    """Return the reason why a path must not be written to; empty if it may be."""
     if os.path.islink(path):
         return f"`{path}` is a link, and its target is not replaced"
     by_hand = path.suffix in _WRITTEN_BY_HAND and not _is_ours(path)

@@ -1,4 +1,4 @@
-"""The run of a command; what stops it is reported in a few lines, not as a traceback."""
+"""The run of a command: an error that stops it is reported in a few lines and without a traceback."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ COMMANDS = {
 
 
 def exit_code(arguments: argparse.Namespace) -> int:
-    """Run a command; what stops it is reported in a few lines, not as a traceback."""
+    """Run a command and return its exit code; report an error in a few lines, without a traceback."""
     try:
         for number in (signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:  # as `nohup` sets it
@@ -89,8 +89,8 @@ def _told(error: DeriveError) -> int:
 
 
 class Ending:
-    """Whether this process was asked to end, and by which signal: an exception raised in the middle of the code of a
-    library may be lost there."""
+    """Whether a signal asked this process to end, and which one: an exception raised in a signal handler may be lost in
+    the code of a library."""
 
     number = 0
 
@@ -103,7 +103,7 @@ ending = Ending()
 
 def _terminated(number: int, _: FrameType | None) -> NoReturn:
     ending.number = number
-    raise SystemExit(128 + number)  # unwinds, so that no worker is left behind
+    raise SystemExit(128 + number)  # this unwinds the stack, so that no worker is left behind
 
 
 def internal(summary: str, trace: str) -> None:

@@ -1,4 +1,4 @@
-"""The standard streams as a command finds them, and the output before any command is run."""
+"""The standard streams of a command, and output that is printed before a command runs."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from io import StringIO, TextIOWrapper
 
 
 def read(parse: Callable[[], argparse.Namespace]) -> argparse.Namespace:
-    """Return what is asked for; if its answer is printed at once, as the version is, that has to arrive."""
+    """Return the parsed command line; check that output printed at once, such as the version, is written."""
     _open_streams()
     shown = StringIO()
     try:

@@ -12,14 +12,14 @@ from collections.abc import Iterable, Sequence
 from derive.errors import Complaint
 
 _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
-MOST = 50  # errors that are shown
+MOST = 50  # most errors that are shown
 WIDTH = 98
-_INDENT = 22  # of the lines about an error of the source
+_INDENT = 22  # indent of the lines about an error of the source
 _PAINT = {"error": "1;31", "warning": "1;33", "done": "32"}
 
 
 def complain(complaints: Iterable[Complaint]) -> None:
-    """Print each error once, in order, on standard error; of very many the first, and how many more there are."""
+    """Print each error once, in order, on standard error; of very many the first ones and the number of others."""
     coloured = in_colour()
     found = list(dict.fromkeys(complaints))
     for text in dict.fromkeys(complaint.shown() for complaint in found[:MOST]):
@@ -35,7 +35,7 @@ def in_colour() -> bool:
 
 
 def tell(text: str) -> None:
-    """Show what is under way, over what was shown before; an empty text clears the line. Silent in a pipe.
+    """Show the work under way in place of the last such line; an empty text clears the line. Print nothing in a pipe.
 
     If a list is too long for the line, only its first items are shown, each of them whole.
     """
@@ -47,7 +47,7 @@ def tell(text: str) -> None:
 
 
 def note(how: str, of: str, seconds: float) -> None:
-    """Print a line that stays: a piece of work that is done, and how long it took, if any time."""
+    """Print a line that stays: a piece of work that is done, and its time if it took any."""
     tell("")
     colour = _PAINT["error"] if how == "failed" else _PAINT["done"]
     painted = f"\x1b[{colour}m{how}\x1b[0m" if in_colour() else how
@@ -69,7 +69,7 @@ def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
 
 
 def _wrapped(text: str, before: str) -> list[str]:
-    """Wrap text of a file: whole, because a slip may be at its end, and without codes that a terminal obeys."""
+    """Wrap the whole text of a file, because a slip may be at its end; remove control codes for terminals."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return textwrap.wrap(plain, WIDTH, initial_indent=before, subsequent_indent=" " * _INDENT) or [before.rstrip()]
 

@@ -1,1 +1,1 @@
-"""What an instructor writes, read and checked: YAML, expressions, LaTeX of other documents, scripts."""
+"""Reads and checks what an instructor writes: YAML, expressions, LaTeX of other documents, scripts."""

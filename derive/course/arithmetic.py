@@ -1,4 +1,5 @@
-"""Values under construction: what a reader of mathematics records about each part, and checks when it combines parts.
+"""Values under construction: the data that a reader of mathematics has of each part, and its checks when it combines
+parts.
 
 Both readers, of plain expressions and of LaTeX, build their values here. Dimensions must agree, nothing is divided by
 zero, and a value that would be too large is refused before it is computed. `size` bounds digits and degrees; `terms`

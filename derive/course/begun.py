@@ -1,4 +1,4 @@
-"""A new problem for an instructor: files that build at once, begun from a pattern or from an existing problem.
+"""The files of a new problem, which build at once, made from a pattern or from an existing problem.
 
 No work of the author is lost: an existing file is never overwritten, and an existing set's file only gains one line in
 its list of problems.
@@ -66,7 +66,7 @@ def _pattern(templates: Path, like: str) -> tuple[str, str]:
 
 
 def _copied(root: Path, like: str) -> tuple[str, str]:
-    """Return a problem and its script; references to other problems of its set become words."""
+    """Return the text of a problem and of its script; references to other problems of its set become plain words."""
     file = root / path_of(root, like)
     text = re.sub(r"\A# yaml-language-server:.*\n", "", _read(file))
     heading = problem_set(root, like.partition("/")[0])

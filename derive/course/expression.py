@@ -8,7 +8,7 @@
 A number may be followed by the unit of an angle, `sin(30 deg)`. A number with another unit is replaced by a letter, if
 the reader of the file has letters for numbers.
 
-Every character is accounted for by the grammar; no text ever reaches Python or SymPy as code. Every value is bounded
+The grammar reads every character; no text ever reaches Python or SymPy as code. Every value is bounded
 before it is built: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
 """
 

@@ -1,4 +1,4 @@
-"""How a given of a problem becomes a checked value of the kind that its script's `solve()` asks for.
+"""Given values: each becomes a checked value of the kind that the script's `solve()` asks for.
 
 A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. To a type checker `Mass` is a SymPy `Expr`. A number
 with a unit becomes a symbol that remembers its number (`Measured`), so the derivation stays symbolic to its end.
@@ -49,13 +49,13 @@ class Measured:
 
     @property
     def factor(self) -> Expr:
-        """The size of its unit in the SI; unlike `si / number`, it exists for a zero too."""
+        """The size of its unit in the SI; unlike `si / number` it also exists for zero."""
         return read_unit(self.unit).factor if self.unit else Integer(1)
 
 
 @dataclass(frozen=True)
 class Given:
-    """One key of `given:`: the argument of `solve()`, the numbers behind its letters, and its word if it is one.
+    """One key of `given:`: the argument for `solve()`, the numbers of its letters, and its word if it is a word.
 
     For a value that is used exactly, such as pi/4, `written` is the form in which it was given, 45 deg.
     """
@@ -217,7 +217,7 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
 
 
 def _check_sign(value: Expr, scalar: Scalar, wanted: Wanted) -> None:
-    """Refuse a sign that is known to be wrong, by itself or with the known numbers; `a - b` may well be positive."""
+    """Reject a value whose sign is known to be wrong, from its letters or their numbers; `a - b` may be positive."""
     text = " ".join(scalar.text.split())
     value = value.xreplace(dict(wanted.numbers))
     if about_kind(wanted.kind).positive and not about_kind(wanted.kind).signed and value.is_nonpositive:
@@ -287,7 +287,7 @@ class NumbersAsLetters:
         self.measured: list[Measured] = []
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
-        """Return the letter, or exact angle, of a number with its unit, one `of` several; nothing for an expression."""
+        """Return the letter or exact angle for a number with a unit, one of `of` numbers; None for an expression."""
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
@@ -301,7 +301,7 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """Return how a script asks for one value of that kind, or for that many: by its usual letters."""
+    """Return the kind of a script's parameter, with its usual letters, for one value or for that many."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))

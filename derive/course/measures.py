@@ -1,4 +1,4 @@
-"""Numbers with units as written in a file, and what each of them is read for."""
+"""Numbers with units as written in a file, and the value for which each is read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""The modules that a script imports from its own folder: found there while it runs, and read again each time."""
+"""The modules that a script imports from its own folder: they can be imported while it runs, and are read again each
+time."""
 
 from __future__ import annotations
 
@@ -44,7 +45,7 @@ def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
 
 
 def _imported(file: Path) -> set[str]:
-    """Return the first words of what a file imports; nothing if it is not Python, which is reported where it is run."""
+    """Return the top-level names that a file imports; none if it is not Python, which is reported where it is run."""
     try:
         nodes = [*ast.walk(ast.parse(file.read_bytes()))]
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):

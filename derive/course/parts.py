@@ -87,7 +87,7 @@ KEY_OF_STEP = {"type": ["string", "boolean"], "pattern": f"^{_STEP_KEY.pattern}$
 
 @dataclass(frozen=True)
 class AnswerForm(Record):
-    """The form in which a number is to be given, in one unit or in several; the problem decides what is left out."""
+    """The required form of a number, in one unit or in several; both keys have defaults of the problem."""
 
     units: tuple[Word, ...] = key(
         "unit of the number, such as `degree` or `N m`, or a list of units",
@@ -172,7 +172,7 @@ _LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
 def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
-    """Return the parts; those that fewer pages show come last, so that nothing depends on a part that a page omits."""
+    """Return the parts; parts for more detailed pages come last, so that no part depends on one that is left out."""
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):

@@ -44,7 +44,7 @@ DEFAULT_FIGURES = 4
 
 @dataclass(frozen=True)
 class Problem:
-    """The contents of a problem's file, checked; paths are relative to the root.
+    """The checked contents of a problem's file; paths are relative to the root.
 
     The statements of a source are read where they are compared; `reference` is their text.
     """
@@ -133,8 +133,10 @@ class Problem:
         }
 
     def cases_of(self, part: Question) -> dict[str, dict[Symbol, Amount]]:
-        """Return the numbers of each case for which a part is to be answered, by its label; a case states only what
-        differs from the first."""
+        """Return the numbers of each case of a part, by its label.
+
+        A case states only the numbers that differ from those of the first case.
+        """
         cases = next((placement.cases for placement in self.drawings if placement.key == part.cases), ())
         numbers = (self._in_the_si((*self.measured, *cases[0], *case)) for case in cases)
         return {case_label(i): amounts for i, amounts in enumerate(numbers)}
@@ -224,7 +226,7 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 
 def run_solve(problem: Problem, record: Run | None = None) -> object:
-    """Return what the script's `solve()` returns for the givens; everything else that it leaves is on the record."""
+    """Return what the script's `solve()` returns for the given values; its steps and assumptions are on the record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
             return problem.script.stock.answers(problem.described).solve(problem.asked)
@@ -233,7 +235,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """Record what is done inside on that record, with everything that is given."""
+    """Put the steps that are made inside the block on that record, together with everything that is given."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -248,7 +250,7 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
 
 @contextmanager
 def deriving(problem: Problem, record: Run) -> Iterator[None]:
-    """Record what is done inside on that record, with the ranges of the problem's letters."""
+    """Put the steps that are made inside the block on that record, with the ranges of the problem's letters."""
     with recorded(record), within(problem.ranges), in_order(problem.order):
         yield
 

@@ -86,7 +86,9 @@ class SetKeys(Record):
     instructor: Word | None = key("who teaches the course", TEXT)
     evidence: str | None = key("how much the solutions show about how they were checked", one_of(tuple(EvidenceShown)))
     documents: dict[Word, Word] = key(
-        "the documents that are made, or the name of each one's files", Reader(DOCUMENTS_SCHEMA, _documents, dict)
+        "the documents that are made, or the name of each one's files",
+        Reader(DOCUMENTS_SCHEMA, _documents, dict),
+        formerly="papers",
     )
     problems: tuple[Word, ...] = key(
         "names of the problems in order", list_of(TEXT, "a list of names", each="a problem of the set"), required=True
@@ -118,7 +120,7 @@ def problem_paths(root: Path) -> dict[str, str]:
 
 
 def found_path(root: Path, problem_id: str) -> str | None:
-    """Return the file of one problem, if there is one, without a look at the files of other sets."""
+    """Return the file of one problem, if it exists; the files of other sets are not searched."""
     set_id, _, name = problem_id.partition("/")
     if not (NAME.fullmatch(set_id) and NAME.fullmatch(name)) or name in _NOT_PROBLEMS:
         return None

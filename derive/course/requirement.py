@@ -15,9 +15,9 @@ _MARKS = {"==": "=", "!=": "!=", "<": "<", ">": ">", "<=": "<=", ">=": ">="}
 
 
 def require(condition: Boolean | bool, given: str, must: str) -> None:
-    """Refuse a given if a condition is known to fail, by its letters or by their numbers.
+    """Reject a given value if its letters or their numbers show that a condition fails.
 
-    A condition that neither decides is assumed, and the page says so.
+    If neither decides, the condition is assumed, and the page states it.
 
     condition   a comparison of givens, `disc_at <= rod_length`, or several that must all hold, joined by `&`
     given       the parameter that the error names

@@ -2,7 +2,7 @@
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
-A reader gives editors a JSON schema of what a key allows, and makes a checked value of what is written there.
+A reader gives editors a JSON schema of what a key allows, and turns what is written there into a checked value.
 """
 
 from __future__ import annotations
@@ -238,7 +238,7 @@ def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = 
 
 
 def record_of(record: type[R], what: str, wanted: str, called: str = "") -> Reader[R]:
-    """Read a mapping with keys of ours; `called` names it, with its own name, in the error that it is not a mapping."""
+    """Read a mapping with the keys of a record; `called` names the value in the error that it is not a mapping."""
 
     def read(node: Tree, name: str, faults: Faults) -> R | None:
         if isinstance(node, Mapping):

@@ -54,7 +54,7 @@ class Script:
 
 
 class _NoCache(SourceFileLoader):
-    """Neither reads nor writes bytecode: a script is compiled from its present text, and its folder stays clean."""
+    """A loader without bytecode: a script is compiled from its present text, and no file is written in its folder."""
 
     def path_stats(self, path: Any) -> Mapping[str, Any]:
         raise OSError
@@ -76,7 +76,7 @@ def imported_script(file: Path, shown_as: str, name: str) -> Script:
 
 
 def run(script: Script, values: Mapping[str, Any]) -> object:
-    """Return what `solve()` returns; what it prints goes to standard error, so that it does not mix with the output."""
+    """Return what `solve()` returns; what it prints goes to standard error and does not mix with the output."""
     try:
         with redirect_stdout(sys.stderr), importable(script.file, script.modules):
             return script.solve(**values)

@@ -115,7 +115,7 @@ def read_unit(text: str, place: Place | None = None) -> Unit:
 
 @dataclass(frozen=True)
 class Misfit:
-    """The reason why a unit does not measure a quantity: a code, what follows its name in a message, and a help."""
+    """The reason why a unit does not measure a quantity: an error code, the end of the message, and a help line."""
 
     code: str
     why: str
@@ -123,7 +123,7 @@ class Misfit:
 
 
 def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
-    """Return why a quantity of a kind, or only of a dimension, is not measured in a unit; nothing if it is."""
+    """Return why a unit does not measure a quantity of a kind, or of a dimension; None if it does."""
     is_a = kind_with_article(kind) if kind else named(dimension)
     if unit.dimension != dimension:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")

@@ -44,7 +44,7 @@ def unused_in(
 
 
 def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> set[str]:
-    """Return what parts ask for, and the answers from which that is computed; `both_x_1` may come from `both`."""
+    """Return the names that parts ask for, and the answers behind them; `both_x_1` may come from `both`."""
     found, waiting = set[str](), [str(name) for name in asked]
     while waiting:
         name = waiting.pop()

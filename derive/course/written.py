@@ -1,4 +1,4 @@
-"""The contents of a problem's file before its script is run and its expressions are read: all without mathematics."""
+"""The contents of a problem's file before its script is run and its expressions are read. No mathematics is needed."""
 
 from __future__ import annotations
 
@@ -209,6 +209,6 @@ class ProblemKeys(Record):
 
 
 def written_problem(root: Path, problem_id: str, faults: Faults, quickly: bool = False) -> ProblemKeys:
-    """Read the file; `faults` collects all that is wrong with its keys and their shapes."""
+    """Read the file; `faults` collects the errors in its keys and in the shapes of their values."""
     mapping = mapping_in(root, path_of(root, problem_id), "a problem", quickly)
     return read_record(ProblemKeys, mapping, "a problem", faults)

@@ -1,4 +1,4 @@
-"""YAML as it was written: every node has its place, and all errors of a file are reported at once.
+"""YAML with places: every node has its place in the file, and all errors of a file are reported at once.
 
 YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used on purpose,
 because its messages name the wrong character; `_syntax_complaint` makes ours from them. Where hundreds of files are
@@ -273,7 +273,7 @@ def read_yaml(path: Path, shown_as: str, quickly: bool = False) -> Tree:
     """Return the tree of a YAML file; `shown_as` is its path in messages."""
     source, quick = read_source(path, shown_as), getattr(yaml, "CSafeLoader", None)
     if quickly and quick and not _ODD.search(source.text):
-        with suppress(Rejected):  # an error in words that are not ours: read it again
+        with suppress(Rejected):  # libyaml's error has no message of ours, so read the file again in Python
             return _Reader(source, Faults(), quick).tree()
     return yaml_tree(source)
 
@@ -372,7 +372,7 @@ class _Reader:
         return Mapping(tuple(pairs.values()), self.source.place(opening.start_mark.index))
 
     def refuse_cleverness(self, event: Any) -> None:
-        """Refuse aliases, anchors and tags: they make YAML a program, or were meant as something else."""
+        """Reject aliases, anchors and tags: problem files do not need them, and often something else was meant."""
         if isinstance(event, yaml.AliasEvent):
             help_line = "quote an expression that begins with `*`"
             self.refuse("alias", f"`*{event.anchor}` is a YAML alias", event, len(str(event.anchor)) + 1, help_line)
@@ -385,12 +385,12 @@ class _Reader:
 
 
 def _nothing_is_empty(node: Tree) -> Tree:
-    """Return a value for which YAML has the word `null` or `~` as one that was not written."""
+    """Return an absent value in place of `null` or `~`."""
     return replace(node, text="") if isinstance(node, Scalar) and not node.style and node.text in NOTHING else node
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the value that a comma has cut in two: its bracket is closed in what then looks like the next key."""
+    """Return the value that a comma has cut in two: its bracket is closed in the text that looks like a key."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start
@@ -404,7 +404,7 @@ def _needs_quotes(name: str, value: Scalar) -> Complaint:
 
 
 def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
-    """Return the parser's error in words for an author who has never read a YAML grammar."""
+    """Return the parser's error in words for an author who does not know the grammar of YAML."""
     context, problem = str(error.context or ""), str(error.problem or "this is not YAML")
     mark = error.problem_mark or error.context_mark
     index = min(mark.index, len(source.text)) if mark else 0

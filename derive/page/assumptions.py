@@ -1,4 +1,4 @@
-"""Assumptions on the symbols as textbooks write them: 0 < alpha < pi/2, without what follows from it."""
+"""Assumptions about symbols as textbooks write them: 0 < alpha < pi/2, without assumptions that follow from others."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class ChainLine:
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step, numbered on the last; `framed` lines at the end have a frame: a part asks for them."""
+    """The lines of one step; the number is on the last line. The last `framed` lines have a frame, as answers have."""
 
     key: str
     lines: tuple[ChainLine, ...]
@@ -89,7 +89,7 @@ class ChainWriter:
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         last = lines[result]
         if isinstance(last.right, MatrixBase) and (last.left is None or last.right.shape[1] > 1):
-            lines[result] = replace(last, presented=True)  # a vector that is not computed keeps its form
+            lines[result] = replace(last, presented=True)  # a vector that is not computed further keeps its form
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:
@@ -150,7 +150,7 @@ class ChainWriter:
         return sorted(self.numbers.keys() & keys, key=self.numbers.__getitem__)
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the step, or the entries of its vector or tensor whose symbols are used, if that is not shown."""
+        """Return the key of the step; if its vector or tensor is not shown, the keys of the entries that are used."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]

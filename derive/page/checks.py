@@ -1,8 +1,8 @@
 """How a problem was checked, in counts and step by step: for the closing note and for the report of the set.
 
-A step counts by the least sure of its lines and by the surest of its second routes and checks. Each of these counts for
-every result that it was applied to. A check, which tests a result, is not a second route and is counted separately.
-The motion that the witness follows numerically is counted separately too.
+The grade of a step is the lower of two: the lowest grade of its lines, and the highest grade of its second routes and
+checks. Each route and each check is counted once for every result that it tests. Checks, which start from the result,
+are counted separately from routes, and so are the motions that the witness follows numerically.
 """
 
 from __future__ import annotations

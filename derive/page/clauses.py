@@ -30,7 +30,7 @@ class Clauses:
         self.set_up: list[Inline] = []
 
     def set_aside(self, step: Step, is_told: bool) -> None:
-        """Write what a step without lines sets up, and define its symbol in that text or later."""
+        """Keep what a step without lines introduces; define its symbol there or, if `is_told`, at its first use."""
         phrase = self.words.setup(step)
         self.set_up += filled(phrase, self._names(step))
         if "definition" in names_asked(phrase):
@@ -39,12 +39,12 @@ class Clauses:
             self.waiting.append(step)
 
     def point_out(self, step: Step, said: tuple[Inline, ...]) -> None:
-        """Add the sentence of a step that points to lines above."""
+        """Add the sentence of a step whose result is in lines above."""
         self.set_up += [*([Text(" ")] if self.set_up else []), *said]
         self.told.add(step.key)
 
     def begun(self) -> tuple[Inline, ...]:
-        """Return the text that is set up, to put before the next sentence."""
+        """Return the text to put before the next sentence, and forget it."""
         said, self.set_up = self.set_up, []
         return (*said, Text(" ")) if said else ()
 
@@ -53,7 +53,10 @@ class Clauses:
         return self._sentence("where", self._due(lines))
 
     def around(self, sentence: tuple[Inline, ...], lines: Any) -> tuple[Inline, ...]:
-        """Return a sentence that follows the lines: after the clause, unless it continues the lines itself."""
+        """Return the sentence after some lines, with the clause that defines their symbols before it.
+
+        If the sentence continues the lines, the clause follows it.
+        """
         due = self._due(lines)
         first = sentence[0]
         if isinstance(first, Text) and first.text.lstrip()[:1].islower():

@@ -1,4 +1,4 @@
-"""The explanation of one step: why it is there, how it was checked, in what words, and where its law is in the code."""
+"""The explanation of one step: why the page needs it, how it was checked, its sentence, and its law in the code."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from derive.course.problem import Problem
 from derive.course.written import ANY_OUTCOME, SHOWN
 from derive.errors import Place
 from derive.page.phrasebook import Phrase
-from derive.page.wording import ASKED, AXIS_NAMES, Inline, Phrases, Text, filled, joined, names_of_step
+from derive.page.wording import AXIS_NAMES, Inline, Phrases, Text, filled, joined, names_of_step
 from derive.steps.derivation import Derivation
 from derive.steps.step import Step
 
@@ -85,6 +85,7 @@ def explanation_of(
         for sort in (Compared.ROUTE, Compared.CHECK)
     }
     named = names_of_step(step, words, None) if shown_in else ()
+    unprintable = {name for name, word in step.words if name in words.compared(step.rule) or word not in words.terms}
     return Explanation(
         step=step,
         part=shown_in or asked.get(step.key, ""),
@@ -96,7 +97,7 @@ def explanation_of(
         sentence=words.phrase(step),
         own_words=_own_words(step, problem),
         outcomes=tuple(words.rules[step.rule]),
-        names=tuple(name for name in named if name not in {*AXIS_NAMES, *ASKED}),
+        names=tuple(name for name in named if name not in {*AXIS_NAMES, *unprintable}),
         shown=problem.show.get(step.key, ""),
     )
 

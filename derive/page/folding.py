@@ -1,4 +1,4 @@
-"""A page with the additional lines of a page of more detail, folded in their places until the reader opens them."""
+"""A page that also contains the lines of a more detailed page, folded until the reader opens them."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Graded hints derived from a solution: what to compute next, then its law, then how it continues.
+"""Graded hints derived from a solution: what to compute, then its law, then the next lines.
 
-A line gives its result away if it has nothing left to do: no result to substitute, no derivative or integral to
-evaluate. Hints show neither such a line nor the lines after it. A number has no law.
+A line gives the result away if nothing is left to do in it: no result to substitute, no derivative or integral to
+evaluate. Hints show neither such a line nor the lines after it. A step that only substitutes numbers has no hint.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The symbols that the lines and sentences of a page use, and those that they introduce: every symbol is defined."""
+"""The symbols that the lines and sentences of a page use, and those that they introduce: no symbol may be undefined."""
 
 from __future__ import annotations
 

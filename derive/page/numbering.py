@@ -1,7 +1,7 @@
-"""The numbers of equations: consecutive; a page of more detail keeps the numbers of a page of less detail.
+"""Consecutive numbers of equations; a more detailed page keeps the numbers of a less detailed page.
 
-An equation that the page of less detail leaves out has the number before it with a letter, (7a) after (7). So every
-document of one derivation refers to an equation by one number.
+An equation that the less detailed page leaves out has the number before it and a letter: (7a) after (7). So an equation
+has the same number in every document of one derivation.
 """
 
 from __future__ import annotations

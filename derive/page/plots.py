@@ -1,4 +1,4 @@
-"""The curves of a plot: its numbers, case by case, its range, and the extrema of each curve.
+"""The curves of a plot: the numbers of each case, the range, and the extrema of each curve.
 
 A case states only what differs from the first one; a symbol that no case gives must have a number in the problem.
 """

@@ -1,4 +1,4 @@
-"""Each formula appears once: a chain neither begins nor ends with a known formula for its symbol.
+"""Each formula appears once on a page: a chain neither begins nor ends with a formula that is known for its symbol.
 
 A result that is already on the page is referred to by its number.
 """

@@ -1,8 +1,8 @@
 """A rubric: the points of a part are divided among its steps, in halves, so that they add up to those of the part.
 
 The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; the rest is divided by rule. A step
-counts once, an answer twice, and the remainder goes to the answers first. A symbolic answer counts as the answer; its
-number is worth half a point, and nothing where that would leave a step with less.
+has one share and an answer two; the remainder goes to the answers first. A symbolic answer counts as the answer. Its
+number is worth half a point, or nothing if a step would then have less than half a point.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from derive.page.tree import Display, Document, PartPage
 from derive.steps.step import Step
 
 UNITS = (Fraction(1, 2), Fraction(1, 4))  # the least that a step may be worth: halves where they suffice
-ANSWER, STEP, NUMBER = 2, 1, 0  # how much each counts; a number after its formula does not share
+ANSWER, STEP, NUMBER = 2, 1, 0  # shares; a number after its formula has none
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,12 @@
-"""The selection of a level: steps with separate lines, steps that others mention or absorb, and lines that stay.
+"""The choice of a level of detail: how each step appears, and which of its lines are shown.
 
     brief      the set-up, the law, the law with values substituted, the result
     standard   what a good teacher writes; mental arithmetic is left out
     full       every line of every step
 
-The record of each rule specifies how its steps are shown, for every problem. Some steps have separate lines at every
-level: answers, steps that the author rewords or refers to by number, and steps whose symbol or number a line needs
-(`Needed`). So a page never uses what it has not introduced.
+The record of each rule specifies how its steps are shown, for every problem. Some steps have lines of their own at
+every level: answers, steps that the author rewords or refers to by number, and steps whose symbol or number the page
+needs (`Needed`). So a page never uses a symbol or a number that it has not introduced.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class Selection:
         return self._having_it[step.key]
 
     def standing_for(self, keys: Collection[str]) -> set[str]:
-        """Return the steps whose lines have these results."""
+        """Return the steps whose lines have the results of these steps."""
         pointed = {key for key in keys if self.manner(key) is POINTED_OUT}
         return (set(keys) - pointed) | {each.key for key in pointed for each in self._having_it[key]}
 
@@ -161,10 +161,10 @@ class Selection:
         return found
 
     def _lines(self, step: Step, repeats: bool, in_turn: bool) -> tuple[Form, ...]:
-        """Return the lines of the level; the first step of one form is shown as the level specifies, the others
-        briefly.
+        """Return the lines of the level; of several steps of one form the first has all of them, the others those of
+        `brief`.
 
-        Steps directly after it have the same sentence and need their law even less.
+        A step directly after one with the same sentence may show its result alone.
         """
         if self.level is Level.FULL or self.shown.get(step.key) == "full":
             return step.chain

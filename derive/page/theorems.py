@@ -1,7 +1,8 @@
 """Theorems in their general form: each appears once on a page, before the first step that uses it.
 
-A page is part of several documents: of its problem and of its set. So it has the words for both, and the typeset
-document chooses: it states a theorem once, and a later problem names the problem that stated it.
+A page is part of several documents: that of its problem and those of its set. In a document of several problems the
+first problem states a theorem, and a later one names that problem. So a page contains both sentences, and the document
+chooses.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ def _paragraphs(blocks: Iterable[Block]) -> Iterator[Block]:
 class Theorems:
     """The theorems that the page has not stated yet; a brief page only names them, in the sentences of its steps.
 
-    A full page has every line, including the laws of its steps, so it needs no theorem that states them before.
+    A full page shows the law of each step, so it needs no theorem that states this law before the step.
     """
 
     def __init__(self, words: Phrases, level: Level, steps: Iterable[Step] = ()):

@@ -15,6 +15,7 @@ from typing import Any
 
 from jinja2 import Template, UndefinedError
 from jinja2.meta import find_undeclared_variables
+from jinja2.nodes import Compare, Name
 from sympy.core.symbol import Str, Symbol
 
 from derive.algebra.dimensions import Dimension
@@ -92,8 +93,6 @@ AFTER = " after "  # between the outcome of a phrase and the outcome or rule tha
 
 JOINED = "<<chain>>"  # a phrase of a step that only continues with lines after the step before
 VALUE = "value_"  # the prefix of roles that give the values of symbols
-# words on which a phrase may branch
-ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case", "between"}
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the symbol of the time
 
@@ -153,7 +152,7 @@ class Phrases:
         return self.rules.get(step.rule, {}).get(f"{step.outcome}{AND}{following.rule}", "")
 
     def setup(self, step: Step) -> str:
-        """Return the part of its sentence that is stated without its lines: the axes, the coordinates."""
+        """Return what the sentence of a step introduces, such as axes and coordinates, for a step without lines."""
         return self.setups.get(step.rule, {}).get(step.outcome, "")
 
     def reason(self, step: Step, because: str, before: str) -> str:
@@ -165,7 +164,7 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return a note that the answer is only a definition, or that an earlier equation already states it."""
+        """Return a note next to an answer that is only a definition, or that an earlier equation already states."""
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
@@ -176,6 +175,11 @@ class Phrases:
             return str(self.labels["extra"])
         one, many = self.labels["points"]
         return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
+
+    def compared(self, rule: str) -> set[str]:
+        """Return the names of words that the phrases of a rule compare: these words are no text for a reader."""
+        tables = (self.rules, self.setups, self.clauses)
+        return {name for table in tables for phrase in table.get(rule, {}).values() for name in names_compared(phrase)}
 
     def term(self, word: str) -> tuple[Inline, ...]:
         """Return the words for a word of a step or of an input: `diagonal` is "the long diagonal"."""
@@ -208,7 +212,7 @@ _TOKEN = re.compile("\x00(\\d+)\x00")
 
 
 class _Nodes:
-    """Collects what a template prints: a node leaves a token in the text, and `split` restores the node."""
+    """Nodes that a template prints: each leaves a token in the text, and `split` puts the node in its place."""
 
     def __init__(self) -> None:
         self.found: list[Inline | tuple[Inline, ...]] = []
@@ -258,6 +262,13 @@ def _compiled(template: str) -> Template:
 def names_asked(template: str) -> frozenset[str]:
     """Return the names that a phrase uses, whether or not it prints them."""
     return frozenset(find_undeclared_variables(_IN_PROSE.parse(template)))
+
+
+@lru_cache(maxsize=2048)
+def names_compared(template: str) -> frozenset[str]:
+    """Return the names that a phrase compares, as `seen` in `<% if seen == "kept" %>`."""
+    sides = (side for each in _IN_PROSE.parse(template).find_all(Compare) for side in (each.expr, each.ops[0].expr))
+    return frozenset(side.name for side in sides if isinstance(side, Name))
 
 
 def _place_of(template: str) -> Place:
@@ -316,7 +327,8 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     }
     roles = letters_put_equal(step.roles)
     names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in roles})
-    names.update({name: word if name in ASKED else words.term(word) for name, word in step.words})
+    compared = words.compared(step.rule)
+    names.update({name: word if name in compared else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
     if dimension is not None:
         names["dimension"] = DimensionMark(dimension)

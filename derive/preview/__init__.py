@@ -1,1 +1,1 @@
-"""The page of a problem in a browser while you write it: a warm worker, a server on this machine alone."""
+"""Shows the page of a problem in a browser while you write it; the server answers this machine only."""

@@ -1,4 +1,4 @@
-"""The worker of a preview as its server sees it: asked, waited for, ended when it takes too long, started again.
+"""The worker of a preview, from the server's side: asked, waited for, ended if it takes too long, started again.
 
 It has the limits of a build's workers, and the same errors when it gives no answer.
 """
@@ -24,8 +24,8 @@ from derive.building.files import of_system
 from derive.building.workers import Job, died, job_of, lines_told, memory_limit, overtaxed
 from derive.errors import BuildFailed, Complaint, DeriveError
 
-STEP = 0.05  # seconds between two checks whether an answer is still wanted
-PATIENCE = 1.0  # seconds that a question may take after a newer edit has made it idle
+STEP = 0.05  # seconds between two tests whether an answer is still wanted
+PATIENCE = 1.0  # seconds after which work is ended if a newer edit has made it useless
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,10 @@ class Shown:
 
 
 class _Worker:
-    """The process, and our ends of its pipes: questions, answers, its trace, and a lifeline that nothing is written to,
-    by whose end the process notices our end."""
+    """The process, and our ends of its pipes: questions, answers, trace, and a lifeline.
+
+    Nothing is written to the lifeline: when it closes, the process knows that the server has ended.
+    """
 
     def __init__(self, root: Path):
         limit, pipes = memory_limit(), _pipes(4)
@@ -75,7 +77,7 @@ class _Worker:
             os.write(self._asks, json.dumps({"number": self._asked, **question}).encode() + b"\n")
 
     def answer(self, seconds: float) -> bytes | None:
-        """Return a line that it writes within that time; nothing if it does not, an empty one if it never will."""
+        """Return the line that it writes within that time; None if it writes none, an empty line if it has ended."""
         if select.select([self._answers], [], [], seconds)[0]:
             more = os.read(self._answers, 1 << 16)
             if not more:
@@ -122,7 +124,7 @@ class _Worker:
 
 
 def _pipes(number: int) -> list[tuple[int, int]]:
-    """Return that many pipes, or none if there are too few descriptors."""
+    """Return that many pipes; if there are too few descriptors, close those that were made and raise the error."""
     found: list[tuple[int, int]] = []
     try:
         while len(found) < number:
@@ -136,7 +138,7 @@ def _pipes(number: int) -> list[tuple[int, int]]:
 
 @dataclass
 class Warm:
-    """A worker, started when it is first asked or before, and never again after the end of the preview."""
+    """A worker, started at its first question or before, and never after the end of the preview."""
 
     root: Path
     limit: float
@@ -145,7 +147,7 @@ class Warm:
     _over: bool = False
 
     def page(self, problem_id: str, detail: str | None, idle: Callable[[], bool] = lambda: False) -> Shown | None:
-        """Return the answer to a question; nothing if it became `idle` meanwhile, or the preview is over."""
+        """Return the page of a problem; None if the question became `idle` meanwhile, or if the preview is over."""
         started = time.monotonic()
         with self._asking:
             try:
@@ -185,7 +187,7 @@ class Warm:
         return said
 
     def begun(self) -> _Worker | None:
-        """Return the process, which loads what it needs before it answers; nothing after the end of the preview."""
+        """Return the process, started if necessary; None after the end of the preview."""
         with self._asking:
             if self._worker is not None and not self._worker.is_alive():
                 self._end()

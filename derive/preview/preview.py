@@ -18,7 +18,7 @@ from derive.preview.server import HOST, Pages, Server, server
 
 
 class Ending(Protocol):
-    """Whether it is time to end."""
+    """Whether the preview should end."""
 
     def is_set(self) -> bool: ...
 
@@ -55,7 +55,7 @@ def preview(
         with _serving(served) as at:
             ready(f"http://{HOST}:{at}/{first}.html")
             for _ in _edits(root, ending):
-                with suppress(DeriveError, OSError):  # a heading that cannot be read stays as it was
+                with suppress(DeriveError, OSError):  # the last heading is kept if the present one cannot be read
                     heading = problem_set(root, set_id)
                 pages.names = {*heading.numbers, first}
                 pages.edited()
@@ -65,7 +65,7 @@ def preview(
 
 @contextmanager
 def _serving(served: Server) -> Iterator[int]:
-    """Serve in a thread, so that edits are noticed in this one; give the port."""
+    """Serve in a thread, so that this thread can watch for edits; yield the port."""
     thread = threading.Thread(target=served.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
     thread.start()
     try:
@@ -76,7 +76,7 @@ def _serving(served: Server) -> Iterator[int]:
 
 
 def _edits(root: Path, ending: Ending) -> Iterator[object]:
-    """Yield each time that problems or scripts, also of other sets, templates or phrases were written."""
+    """Yield after each edit of problems and scripts, also those of other sets, of templates or of phrases."""
     from watchfiles import watch
 
     yield from watch(

@@ -1,11 +1,11 @@
 """A server for this machine alone: the pages of one set, and their changes while it is edited.
 
-    /                 the page that was asked for first
+    /                 the page that the preview was started for
     /NAME.html        the page of another problem of the set
-    /NAME/events      messages to this page: itself when it has changed, or what is wrong with it
+    /NAME/events      messages to this page: its new content, or its errors
 
-Nothing else is served, no file is read by its name, and only a browser that names this machine by a local name gets
-an answer, so that no other page can have it read what is here.
+Nothing else is served, and no file can be requested by its name. Only requests that use a local name of this machine
+are answered, so that no page of another site can read what is here.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from derive.preview.asking import Shown, Warm
 
 HOST = "127.0.0.1"
 _LOCAL = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.ASCII | re.IGNORECASE)
-ALIVE = 15.0  # seconds after which an idle browser gets a message, and a closed one is noticed
+ALIVE = 15.0  # seconds after which a message is sent anyway, so that a closed browser is noticed
 PROMPT = 5.0  # seconds within which a browser must send a request on a connection that it keeps
 TAKEN = 30.0  # seconds within which it must take an answer
 MOST = 64  # connections at a time, each open page has one
@@ -45,7 +45,7 @@ NOTHING_ELSE = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-a
 
 @dataclass
 class Pages:
-    """The pages of a set as they were last, and the browsers that wait for the next."""
+    """The last pages of a set, and the browsers that wait for the next."""
 
     warm: Warm
     set_id: str
@@ -77,7 +77,7 @@ class Pages:
             self._changed.notify_all()
 
     def next(self, name: str, seen: int, timeout: float) -> tuple[int, Shown | None]:
-        """Return what there is to show after the edition that was seen last; nothing if nothing changed meanwhile."""
+        """Return the content after the edition that the browser has; None if nothing has changed meanwhile."""
         with self._changed:
             self._changed.wait_for(lambda: self._edition > seen, timeout)
             edition = self._edition
@@ -106,7 +106,7 @@ class Pages:
 
 
 class Handler(BaseHTTPRequestHandler):
-    """Answers to one browser."""
+    """Answers the requests of one browser."""
 
     pages: Pages
     whole: Callable[[str, str], str]  # makes a page from a problem's name and its main part
@@ -204,7 +204,7 @@ class Handler(BaseHTTPRequestHandler):
         self.wfile.write(content)
 
     def log_message(self, format: str, *args: Any) -> None:
-        """Write no log of requests, which nobody reads."""
+        """Write no log of requests, because nobody reads it."""
 
 
 class _Prompt(RawIOBase):
@@ -225,7 +225,7 @@ class _Prompt(RawIOBase):
 
 
 def policy_of(page: str) -> str:
-    """Return what a browser lets a page do: run exactly the scripts of this page, and ask for changes."""
+    """Return the policy of a page for a browser: it may run exactly its own scripts, and request changes."""
     found = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
     scripts = " ".join(f"'sha256-{b64encode(sha256(each.encode()).digest()).decode()}'" for each in found)
     own = "connect-src 'self'; style-src 'unsafe-inline'; font-src data:; img-src data:"

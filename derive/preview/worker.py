@@ -1,7 +1,7 @@
-"""The process that derives the pages of a preview: it stays, and is asked for one page after another.
+"""The process that derives the pages of a preview: it keeps running, and answers one question after another.
 
-It keeps what it has loaded and printed, so that an edit of words costs little more than the words. It can be killed at
-any instant, because it writes only what builds keep of their work.
+It keeps everything that it has loaded and laid out, so that an edit of words needs little work. It can be killed at any
+instant, because it writes only into the cache of the builds.
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 
@@ -15,23 +15,20 @@ import gc
 import json
 import os
 import sys
-import traceback
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import IO, Any
 
 from derive.building.cache import engine_digest
 from derive.building.preload import preload
-from derive.building.time_limit import limited
-from derive.building.workers import confine, job_of, told_to, too_long, trail_of
-from derive.errors import DeriveError, OutOfTime
+from derive.building.workers import TIME, Bug, attempt, confine, job_of
 
 
 def main(arguments: Sequence[str]) -> None:
     root, (memory, questions, answers, trace, lifeline) = Path(arguments[0]), map(int, arguments[1:])
     for descriptor in (questions, answers, trace, lifeline):
-        os.set_inheritable(descriptor, False)  # no program that a script starts has them
+        os.set_inheritable(descriptor, False)  # programs that a script starts do not inherit them
     confine(lifeline, trace, memory)
     os.dup2(2, 1)  # output of a script is for the user at the terminal, not an answer
     told = os.fdopen(answers, "w", encoding="utf-8")
@@ -46,28 +43,28 @@ def main(arguments: Sequence[str]) -> None:
 
 @cache
 def _settle(root: Path) -> None:
-    """Load what draws while the first page is read; no later search for garbage looks at what is loaded."""
+    """Load the drawing code while you read the first page; exclude loaded objects from the search for garbage."""
     preload(root, derives=True, draws=True)
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
 
 
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
-    """Return the page of a problem, or what is wrong with it, as plain data; a limit and the place where it stopped are
-    reported as by a build's worker."""
-    problem, limit = question["problem"], question["limit"]
-    try:
-        with limited(limit, trace):
-            return {"main": main_part(root, problem, question["detail"])}
-    except DeriveError as error:
-        return {"complaints": [each.shown() for each in error.complaints]}
-    except OutOfTime as late:
-        stopped = too_long(job_of(root, problem, lambda: None, limit), trail_of(late), late)
-        return {"complaints": [each.shown() for each in stopped.complaints], "ends": True}
-    except (MemoryError, RecursionError) as short:
-        return {"limit": told_to(trace, short)}
-    except BaseException as bug:  # also of a script, which may end its program
-        return {"complaints": [f"internal error: {type(bug).__name__}: {bug}"], "trace": traceback.format_exc()}
+    """Return the page of a problem, or its errors, as plain data; limits are those of a build's worker.
+
+    At the limit of time the work may stop anywhere, so the process ends after this answer.
+    """
+    problem = question["problem"]
+    work = partial(main_part, root, problem, question["detail"])
+    main, error = attempt(job_of(root, problem, work, question["limit"]), trace)
+    if error is None:
+        return {"main": main}
+    if isinstance(error, str):
+        return {"limit": error}
+    if isinstance(error, Bug):
+        return {"complaints": [f"internal error: {error}"], "trace": error.trace}
+    ends = any(each.code == TIME for each in error.complaints)
+    return {"complaints": [each.shown() for each in error.complaints], "ends": ends}
 
 
 def main_part(root: Path, problem_id: str, detail: str | None) -> str:

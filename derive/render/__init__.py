@@ -1,1 +1,1 @@
-"""The tree as text, LaTeX, JSON and drawings; no disk, no subprocess."""
+"""Prints the tree of a page as text, LaTeX, HTML and JSON, and makes drawings; uses no disk and no subprocess."""

@@ -164,7 +164,7 @@ def test_a_document_that_the_set_no_longer_has_is_taken_away(tmp_path: Path) -> 
         record.outputs[name] = digest("ours")
     record.replace_documents([["solutions", "solutions"], ["key", "key"]])
     assert [file.name for file in tmp_path.iterdir()] == ["key.pdf"]
-    assert record.documents == ["solutions", "key", "index"]
+    assert record.document_files == ["solutions", "key", "index"]
 
 
 def test_an_output_is_taken_away_only_as_it_was_written(tmp_path: Path) -> None:

@@ -24,6 +24,7 @@ from derive.page.wording import (
     joined,
     letters_put_equal,
     names_asked,
+    names_compared,
     names_of_step,
     phrases,
     told,
@@ -119,6 +120,13 @@ def test_items_are_joined_as_in_english(count: int, text: str) -> None:
 def test_the_names_that_a_phrase_asks_for_are_known_before_it_is_filled() -> None:
     assert names_asked("from <<refs>> on, <% if part %>of <<part>><% endif %>") == {"refs", "part"}
     assert names_asked("refs are references") == set()
+
+
+def test_a_phrase_compares_words_and_prints_their_terms() -> None:
+    assert names_compared('<% if seen == "kept" %>Again, <% endif %><<about>>') == {"seen"}
+    assert names_compared("<% if case is defined %><<case>><% endif %>") == set()
+    own = replace(WORDS, rules={"bat.blow": {"generic": '<% if kind == "soft" %>Softly,<% endif %> <<chain>>'}})
+    assert own.compared("bat.blow") == {"kind"}, "a script's own word is compared like any other"
 
 
 # --- the words of every step ---

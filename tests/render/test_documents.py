@@ -78,7 +78,7 @@ def test_a_set_names_its_documents_and_their_files(tmp_path: Path, said: str, do
         ("{solutions: x, key: x}", "name of another file"),
         ("solutions", "a list of documents"),
         ("[]", "empty"),
-        ("[hints]\npapers: [hints]", "it is now called `documents`"),
+        ("[hints]\npapers: [hints]", "write `documents`"),
     ],
 )
 def test_documents_that_cannot_be_are_refused_at_their_place(tmp_path: Path, said: str, complaint: str) -> None:

@@ -1,4 +1,4 @@
-"""`derive build`: sets typeset, once or at each edit."""
+"""`derive build`: typesets sets, once or after each edit."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
 
 
 def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, voice: Voice) -> int:
-    """Build at each edit until the user interrupts it, which is its only end and not a failure."""
+    """Build after each edit until the user interrupts, which is the normal end and not a failure."""
     from derive.building.files import shown_path
     from derive.building.watch import Shown, watch
 
@@ -121,7 +121,7 @@ def _reported(report: Report, voice: Voice) -> int:
 
 
 def _listed(paths: Sequence[str], most: int = 12) -> str:
-    """Return the last paths, which are those of the whole set, and how many others."""
+    """Return the last paths, which belong to the whole set, and the number of others."""
     if len(paths) <= most:
         return ", ".join(paths)
     last = paths[-3:]

@@ -1,4 +1,4 @@
-"""`derive check`: problems derived, verified, compared with what a document states."""
+"""`derive check`: derives and verifies problems, and compares them with source documents."""
 
 from __future__ import annotations
 
@@ -75,13 +75,13 @@ def check(arguments: argparse.Namespace) -> int:
 
 
 def _selected(asked: list[str], known: list[str], sets: list[str]) -> list[str]:
-    """Return every problem, or those named; a set stands for its problems."""
+    """Return all problems, or those that are named; the name of a set means all its problems."""
     named = {name: [name] for name in asked} | {name: [p for p in known if p.startswith(f"{name}/")] for name in sets}
     return list(dict.fromkeys(problem for name in asked for problem in named[name])) if asked else known
 
 
 def _verdict_code(outcome: Outcome) -> int:
-    """Return the exit code for this problem, and report on standard error what was wrong."""
+    """Return the exit code for this problem, and print its errors on standard error."""
     if isinstance(outcome.error, DeriveError):
         complain(outcome.error.complaints)
         return outcome.error.exit_code

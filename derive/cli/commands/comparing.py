@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from derive.building.diff import Diff
     from derive.building.set_diff import SetDiff
 
-SAME, DIFFERS, TROUBLE = 0, 1, 2  # as of `diff`
+SAME, DIFFERS, TROUBLE = 0, 1, 2  # the exit codes of `diff`
 
 
 def diff(arguments: argparse.Namespace) -> int:
-    """Print what changed, and return as the exit code whether something did."""
+    """Print what changed; the exit code says whether anything did."""
     from derive.building.set_diff import SetDiff
     from derive.building.workers import Bug
 

@@ -11,7 +11,7 @@ from derive.cli.streams import silence
 
 
 def preview_pages(arguments: argparse.Namespace) -> int:
-    """Serve a page until the user interrupts it, which is its only end and not a failure."""
+    """Serve a page until the user interrupts, which is the normal end and not a failure."""
     from derive.preview.asking import Shown
     from derive.preview.preview import preview
 

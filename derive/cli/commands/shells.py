@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 def completion(arguments: argparse.Namespace) -> int:
-    """Print the script of a shell; that of fish names this program, if no other would be found."""
+    """Print the script for a shell; the script for fish names this program if `derive` is not on the path."""
     from argcomplete.shell_integration import shellcode
 
     own = None if arguments.shell != "fish" or shutil.which("derive") else str(Path(sys.argv[0]).absolute())
