@@ -221,8 +221,9 @@ def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
 def _by_curvatures(disturbed: Disturbed) -> Expr:
     """Return Omega^2 from the conserved quantities T and L^2.
 
-    Euler's equations are omega_dot = -(grad T x grad(L^2/2))/(I_x I_y I_z), with gradients by the components of omega.
-    Near the z axis, Omega^2 is the product of the two curvatures of L^2/2 - I_z T, times omega^2/(I_x I_y)^2.
+    Euler's equations are omega_dot = -(grad T x grad(L^2/2))/(I_x I_y I_z), with gradients with respect to the
+    components of omega. Near the z axis, Omega^2 is the product of the two curvatures of L^2/2 - I_z T, times
+    omega^2/(I_x I_y)^2.
     """
     moments, moving = disturbed.moments, disturbed.moving
     energy = sum((I * w**2 for I, w in zip(moments, moving, strict=True)), ZERO) / 2
