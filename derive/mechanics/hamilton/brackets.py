@@ -156,7 +156,7 @@ def _written(value: Expr) -> Expr:
 
 
 def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
-    """Return the line that shows the result as a number times a known function; no line if there is no such function."""
+    """Return the line that shows the result as a number times one of these steps; no line if there is no such step."""
     for known in among:
         ratio = tidied(value / explicit(known.value)) if value != 0 else ZERO
         if ratio.is_number and ratio != 0:
