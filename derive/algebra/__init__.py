@@ -1,1 +1,1 @@
-"""Expressions, and the decision whether two expressions are equal: no laws of physics, no pages."""
+"""Expressions, and the decision whether two are equal: no laws of physics, no pages."""

@@ -33,7 +33,7 @@ from derive.steps.step import is_zero
 
 DIGITS, SHORT = 30, 20
 SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
-DECIDES = "give ranges or numbers of the letters that decide whether"  # the relation follows
+DECIDES = "give ranges or numbers for the letters, to decide whether"  # the relation follows
 
 
 def sign_for_all(value: Expr) -> int | None:

@@ -88,9 +88,9 @@ def _number(quantity: Quantity) -> Quantity | Expr:
 
 @in_results(
     "value",
-    "the value of a formula of answers and of letters: `pi*rate/frequency`, `v - R*w`, `-S` of a force of "
-    "constraint; its terms must fit",
-    formula="value: a formula of answers by their names and of letters",
+    "the value of a formula with answers and letters: `pi*rate/frequency`, `v - R*w`, `-S` for a constraint force `S`; "
+    "all terms must have the same dimension",
+    formula="value: a formula with the names of answers and with letters",
     symbol="symbol",
 )
 def _in_results(formula: Formula, key: str, symbol: str | None = None) -> Quantity:

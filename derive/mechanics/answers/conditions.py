@@ -71,7 +71,7 @@ def where(
     R > a/2.
 
     of       a scalar, any unit
-    mark     one of =, !=, <, >, <=, >=
+    mark     the comparison sign: one of =, !=, <, >, <=, >=
     bound    the bound, of the same unit; 0, or another quantity
     letter   the unknown: a letter, a rate, or an expression such as `cos(theta)`; the difference is linear in the
              unknown or in its square. If an expression is given for a letter, such as 2b for R, the relation is solved
@@ -84,12 +84,12 @@ def where(
     divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
     equal (the two sides are equal, so a requested strict inequality never holds).
-    Errors: the relation cannot be solved for that letter; an unknown mark.
+    Errors: the relation cannot be solved for that letter; an unknown comparison sign.
     Source: none needed: algebra of inequalities.
     """
     if mark not in TURNED:
-        message = f"`where`: `{mark}` is not a mark"
-        raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
+        message = f"`where`: `{mark}` is not a comparison sign"
+        raise Rejected(Complaint("wrong-argument", message, help=f"the comparison signs are {' '.join(TURNED)}"))
     bound = Integer(bound) if isinstance(bound, int) else bound
     difference = tidied(explicit(number_of(of)) - explicit(value_behind(bound)))
     sign = sign_for_all(difference)
@@ -251,7 +251,7 @@ def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | No
     excludes=(("results", "bound"),),
     of="where: an answer",
     letter="for: a letter",
-    mark="is: such as `'>'`, `'='` by default",
+    mark="is: a comparison sign such as `'>'`, `'='` by default",
     bound="bound: 0 by default",
     other="results: an answer as the bound",
 )

@@ -36,7 +36,7 @@ Within = tuple[Expr, Expr]
 
 @in_results(
     "maximum",
-    "where the answer is greatest, and how large then",
+    "where the answer is greatest, and its greatest value",
     of="maximum: an answer",
     letter="for: a letter",
     within="within: two values, `[0, pi/2]`",
@@ -57,7 +57,7 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
 
 @in_results(
     "minimum",
-    "where the answer is least, and how small then",
+    "where the answer is least, and its least value",
     of="minimum: an answer",
     letter="for: a letter",
     within="within: two values, `[0, pi/2]`",

@@ -445,7 +445,11 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
         raise Rejected(Complaint("wrong-type", message, help=help_line, argument="root"))
     fitting = [root for root in found if CHOICES[which](root, found)]
     if len(fitting) != 1:
-        raise _no_choice(which, "no root is known to be so" if not fitting else f"{len(fitting)} are so", found)
+        raise _no_choice(
+            which,
+            "no root is known to have this property" if not fitting else f"{len(fitting)} roots have this property",
+            found,
+        )
     return fitting[0]
 
 

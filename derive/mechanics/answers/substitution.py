@@ -405,7 +405,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 
 @in_results(
     "put_in",
-    "the answer with these substituted",
+    "the answer with these results and values substituted",
     one_of=("results", "values"),
     of="put_in: an answer",
     results="results",
