@@ -74,7 +74,7 @@ def determinant_of(matrix: MatrixBase) -> Expr:
 
 
 def expanded_by_rows(matrix: MatrixBase) -> Expr:
-    """The determinant by its definition: expanded along the first row, with each minor of the rows below computed once.
+    """The determinant by expansion along the first row; each minor of the rows below is computed once.
 
     Source: Axler, *Linear Algebra Done Right*, section 9C; no code is shared with `determinant_of`.
     """

@@ -59,7 +59,7 @@ def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
     return found
 
 
-@lru_cache(maxsize=1024)  # the entries of a tensor have few different products
+@lru_cache(maxsize=1024)  # the entries of a tensor have few distinct products
 def _by_sums(product: Expr) -> Expr:
     return TR8(product).expand()
 

@@ -156,7 +156,8 @@ class _Fractions(Expanded):
         return times((Product(Rational(int(content)) ** power, {}), *inner))
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
-        """Replace even powers of one function of each angle by the other function; one single power may remain."""
+        """Replace even powers of one function, sine or cosine, of each angle by the other function; one factor of the
+        first function may remain."""
 
         def turn(terms: Terms) -> Terms:
             for place, other in self._turning(terms):

@@ -70,7 +70,7 @@ class Theorem:
 
     formula   its formula
     source    book and section
-    letters   other letters that the phrase names, with their names there
+    letters   further symbols that the phrase names, with their names in the phrase
     prepared  whether it is stated before a step that prepares the steps that use it
     """
 

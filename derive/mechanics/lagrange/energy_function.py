@@ -97,7 +97,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     the derivative of L with respect to a common factor of all rates, minus L, and the rate of h by the energy identity.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
     time), changing (neither); work_energy (T + U, but a force outside L does work), work (a force outside L does work,
-    and h is not T + U); given_conserved, given_changing, given_work (the same for a given L).
+    and h is not T + U); given_conserved, given_changing, given_work (the corresponding cases of a given L).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
     moving = coordinates_of(of)

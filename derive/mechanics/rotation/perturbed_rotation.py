@@ -82,7 +82,7 @@ PERTURBED_ROTATION = Rule(
 
 
 def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int, key: str) -> Quantity:
-    """Derive one of the two linear equations, by the derivatives of Euler's equation at the steady rotation.
+    """Derive one of the two linear equations from the derivatives of Euler's equation at the steady rotation.
 
     Source: that of `linearised_rotation`.
     """
