@@ -18,7 +18,7 @@ from derive.errors import during
 
 
 class Amplitudes(MatrixNode):
-    """A column, one entry for each coordinate. Only the ratios of its entries have a meaning."""
+    """A column with one entry for each coordinate. Only the ratios of the entries have a meaning."""
 
     @property
     def shape(self) -> tuple[Any, Any]:
@@ -47,7 +47,8 @@ class Determinant(ScalarNode):
         return determinant_of(explicit(self.args[0]))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of a product of entries, one from each row and column; nonzero products agree in dimension."""
+        """The dimension of a nonzero product of entries, one from each row and column; all such products have the same
+        dimension."""
         matrix = self.args[0]
         for entry in matrix:
             of(entry)
@@ -59,9 +60,10 @@ class Determinant(ScalarNode):
 
 
 def determinant_of(matrix: MatrixBase) -> Expr:
-    """Compute the determinant, multiplied out, in the polynomial ring of the symbols of its entries, without division.
+    """Compute the expanded determinant in the polynomial ring of the symbols in the matrix, without division.
 
-    Functions and roots count as symbols too. Otherwise SymPy, which has no ring for them, would cancel after each step.
+    Functions and roots count as symbols too. SymPy has no ring for functions and roots, and would otherwise cancel
+    after each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
@@ -72,7 +74,7 @@ def determinant_of(matrix: MatrixBase) -> Expr:
 
 
 def expanded_by_rows(matrix: MatrixBase) -> Expr:
-    """The determinant by its definition: expanded along the first row, with each minor of the rows below computed once.
+    """The determinant by expansion along the first row; each minor of the rows below is computed once.
 
     Source: Axler, *Linear Algebra Done Right*, section 9C; no code is shared with `determinant_of`.
     """
@@ -94,7 +96,8 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
 
 
 def _places(matrix: MatrixBase, row: int, taken: tuple[int, ...]) -> tuple[int, ...]:
-    """Return a different column for each row such that no entry there vanishes; empty if there is no such choice."""
+    """Return a column for each row, all distinct, such that none of the chosen entries vanishes; empty if there is no
+    such choice."""
     if row == matrix.shape[0]:
         return taken
     free = (j for j in range(matrix.shape[1]) if j not in taken and matrix[row, j] != 0)

@@ -1,6 +1,6 @@
 """The coefficients of an expression as a polynomial in some of its symbols, multiplied out without SymPy's terms.
 
-Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is left to another module.
+Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Factored(NamedTuple):
 
 
 def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The combinations of powers of the symbols that occur, the highest first, each with its coefficient.
+    """The combinations of powers of these symbols that occur, the highest first, each with its coefficient.
 
     Raises `Outside` if the value is not a polynomial, or is too large.
     """
@@ -135,7 +135,7 @@ class Expanded(Ring):
         return rest, turning
 
     def factored(self, terms: Terms, number: Rational, other: Expr = S.One) -> Factored:
-        """The sum times a number and one more factor, with the common factors of the terms in front."""
+        """The sum, times a number and another factor, with the common factors of the terms in front."""
         if number < 0:
             terms, number = {monomial: -coefficient for monomial, coefficient in terms.items()}, -number
         lowest, content, rest = _in_front(terms)
@@ -163,7 +163,7 @@ class Expanded(Ring):
         return found
 
     def _term(self, coefficient: Rational, monomial: int) -> Expr:
-        """Return what `Mul` gives, without its search for powers of the same symbol: there are none here."""
+        """Return the same product as `Mul`, but without a search for repeated symbols, since no symbol is repeated."""
         factors = [letter ** Integer(power) for letter, power in self._letters(monomial)]
         if not all(factor.is_Symbol or factor.is_Pow and factor.base.is_Symbol for factor in factors):
             return Mul(coefficient, *factors)
@@ -188,7 +188,7 @@ class Expanded(Ring):
 
 
 def _sum(terms: list[Expr]) -> Expr:
-    """Return what `Add` gives, without its search for like terms: there are none here."""
+    """Return the same sum as `Add`, but without a search for like terms, since there are none."""
     if any(not (term.is_Mul or term.is_Atom or term.is_Pow) for term in terms) or not terms:
         return Add(*terms)
     numbers = [term for term in terms if term.is_Number]
@@ -198,7 +198,7 @@ def _sum(terms: list[Expr]) -> Expr:
 
 
 def _in_front(terms: Terms) -> tuple[int, int, Terms]:
-    """The common symbols and the common number of the terms, and the remaining terms."""
+    """The symbols and the number that all terms have in common, and the remaining terms."""
     lowest = reduce(_common, terms)
     content = gcd(*terms.values()) * (-1 if all(coefficient < 0 for coefficient in terms.values()) else 1)
     return lowest, content, {monomial - lowest: coefficient // content for monomial, coefficient in terms.items()}

@@ -61,7 +61,8 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 
 
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
-    """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with one; None if no |u| divides.
+    """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction; None if no |u| is a
+    divisor.
 
     Write s = u/|u|, which is 1 or -1. Then |u| is s u and s^2 is 1, so only the first power of each s is left.
     """
@@ -87,7 +88,8 @@ def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
 
 
 def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Avoid a common denominator with a coordinate: l^2/(m r^3) - G M m/r^2, not (l^2 - G M m^2 r)/(m r^3)."""
+    """Avoid a common denominator that contains a coordinate: l^2/(m r^3) - G M m/r^2, not
+    (l^2 - G M m^2 r)/(m r^3)."""
     below = found.as_numer_denom()[1]
     return by_terms(value.expand()) if below.has(*moving) and not below.has(sin, cos) else found
 
@@ -149,7 +151,7 @@ def _with_short_sums(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], list[Expr]]:
-    """The numerical factor of a term, its constant factors, and its factors that contain one of the letters."""
+    """The numerical factor of a term, its constant factors, and its factors that contain one of these symbols."""
     number, constants, others = Integer(1), [], []
     for each in Mul.make_args(term):
         if each.is_Rational:
@@ -162,7 +164,7 @@ def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], l
 
 
 def _common_number(numbers: Sequence[Expr]) -> Expr | None:
-    """The common factor, 1/2 for 1/2, 1 and 3/2; None for different denominators above 2, as in 1/2 and 3/4."""
+    """The common factor, 1/2 for 1/2, 1 and 3/2; None for distinct denominators above 2, as in 1/2 and 3/4."""
     below = ilcm(*(n.q for n in numbers))
     if below > 2 and len({n.q for n in numbers}) > 1:
         return None
@@ -170,7 +172,8 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """Products of powers of the letters, the highest first, with their coefficients; empty if there is no such form."""
+    """Products of powers of these symbols, the highest first, with their coefficients; empty if the value has no such
+    form."""
     try:
         return coefficients(value, letters)
     except Outside:
@@ -214,7 +217,7 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
-    """Multiply a coefficient by its rates: (1/2)(I + M R^2/4) q_dot^2. No denominator is left before a sum."""
+    """Multiply a coefficient by its rates: (1/2)(I + M R^2/4) q_dot^2. No denominator is left in front of a sum."""
     powers = [s**n for s, n in rates]
     if halves and any(n == 2 for _, n in rates) and coefficient.terms > 1:
         inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
@@ -231,7 +234,7 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy the factor without angles and the factor of angles separately, if the second contains no sum."""
+    """Tidy the factors without and with angles separately, if the factor with angles contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):
@@ -255,7 +258,8 @@ def _shorter_as_product(value: Expr) -> Expr:
 
 
 def spread(value: Expr) -> Expr:
-    """Move a numerical denominator into a sum if a term is then left without one: I + M a^2/4, not (4 I + M a^2)/4.
+    """Move a numerical denominator into a sum if this leaves a term without a denominator: I + M a^2/4, not
+    (4 I + M a^2)/4.
 
     The form (3 g - 2 l omega^2)/6 is kept, because g/2 - l omega^2/3 is not simpler.
     """
@@ -284,8 +288,8 @@ def _shorter(term: Expr) -> Expr:
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
-    """One product or a sum of tidy terms, whichever is shorter; a sum if a denominator contains angles. `others` are
-    other forms of the value."""
+    """Return one product or a sum of tidy terms, whichever is shorter; if a denominator contains angles, return a sum.
+    `others` are further forms of the value to choose from."""
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]

@@ -24,8 +24,8 @@ def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
 
 
 def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
-    """The least sign that the quadratic form takes: 1 if it is positive definite, 0 if it is semidefinite, -1 if it is
-    negative in some direction; None if this depends on the values of the symbols.
+    """The least sign that the quadratic form takes: 1 if the form is positive definite, 0 if it is semidefinite, -1 if
+    it is negative in some direction; None if the sign depends on the values of the symbols.
 
     The semidefinite case needs all principal minors, not only the leading ones.
     """

@@ -17,7 +17,8 @@ ZERO, ONE = Integer(0), Integer(1)
 
 
 def derivative(expr: Any, *by: Symbol | int) -> Any:
-    """The partial derivative by each symbol in turn; a number after a symbol is the order. Matrices: entry by entry."""
+    """The partial derivative with respect to each symbol in turn; a number after a symbol is the order. A matrix is
+    differentiated entry by entry."""
     if isinstance(expr, MatrixBase):
         return expr.applyfunc(lambda entry: derivative(entry, *by))
     for s in _in_turn(by):
@@ -32,7 +33,7 @@ def _in_turn(by: Sequence[Symbol | int]) -> list[Symbol]:
     return letters
 
 
-@lru_cache(maxsize=16384)  # a Lagrangian is differentiated by each symbol, and most parts contain few
+@lru_cache(maxsize=16384)  # a Lagrangian is differentiated with respect to many symbols; most parts contain few
 def _letters(expr: Expr) -> frozenset[Symbol]:
     if expr.is_Symbol:
         return frozenset((expr,))
@@ -67,7 +68,7 @@ def _derivative_by_parts(expr: Expr, s: Symbol) -> Expr:
 
 
 def _along_distances(expr: Expr, s: Symbol) -> Expr:
-    """The derivative by SymPy, with u/|u| for the sign of u."""
+    """The derivative that SymPy computes, with u/|u| in place of the sign of u."""
     found = diff(expr, s)
     return found.replace(sign, lambda u: u / Abs(u)) if found.has(sign) else found
 

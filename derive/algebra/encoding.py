@@ -58,7 +58,7 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)  # a derivation has few symbols, and most of its lines contain most of them
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """The fewest assumptions that give an equal symbol: SymPy does not record which ones were written."""
+    """The fewest assumptions that give an equal symbol: SymPy does not record which assumptions were written."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
         if Symbol(symbol.name, **assumptions) == symbol:
@@ -141,7 +141,7 @@ def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
 
 
 def from_data(data: Any, classes: Mapping[str, Any]) -> Any:
-    """Return the value that `as_data` encoded, with tuples for lists; only these classes are built."""
+    """Return the value that `as_data` encoded, with tuples in place of lists; only these classes are built."""
     if isinstance(data, list):
         return tuple(from_data(each, classes) for each in data)
     if not isinstance(data, dict):

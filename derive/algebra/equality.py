@@ -1,13 +1,13 @@
 """Whether two expressions are equal or two relations equivalent, and how this was decided.
 
     proved          decided exactly, by `derive.algebra.normal_form`
-    sampled         the two agree at random rational points, but no exact method decided
-    refuted         the two differ at a point, which is given
+    sampled         both sides agree at random rational points, but no exact method decided
+    refuted         the sides differ at a point, which is given
     definition      nothing is compared: the line defines a symbol
     approximation   a rounded value or a series, whose error is checked separately
 
-Polynomials in symbols, sines and cosines are decided directly. For all others, points are tried first, because they are
-cheap and can refute quickly. A sample never counts as a proof.
+Polynomials in symbols, sines and cosines are decided directly. For all other expressions, points are tried first,
+because points are cheap and can refute quickly. A sample never counts as a proof.
 """
 
 from __future__ import annotations
@@ -59,12 +59,12 @@ from derive.algebra.samples import (
 )
 from derive.algebra.trig_polynomials import monomial_ratio
 
-MANY = 20  # times as many points are drawn if most of them have no physical meaning
-FIRST, POINTS = 2, 26  # numbers of points before the exact decision, and after it if it is undecided
-TURNS = 400  # most points drawn to find one at which a sign is different
+MANY = 20  # how many times more points are drawn if most points have no physical meaning
+FIRST, POINTS = 2, 26  # numbers of points before the exact decision, and after an exact decision that failed
+TURNS = 400  # most points drawn to find a point at which a sign differs
 FEWEST = 8  # points at which both sides must have values
 UNTOLD = "undefined wherever it was tried"
-LETTERS = 6  # symbols by which derivatives are compared
+LETTERS = 6  # number of symbols with respect to which derivatives are compared
 UNDEFINED = (nan, zoo, oo, -oo)
 
 
@@ -114,8 +114,9 @@ class Verdict:
 def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
-    A matrix is as certain as its least certain entry. Relations are equal if each follows from the other; `nonzero`
-    lists factors that may be divided out because they are known not to vanish (in an inequality, to be positive).
+    The grade of a matrix is that of its least certain entry. Relations are equal if each follows from the other.
+    `nonzero` lists factors that may be divided out because they are known not to vanish, or in an inequality to be
+    positive.
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
@@ -195,11 +196,11 @@ def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
 
 
 def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
-    """The values of both sides at points at which both are defined.
+    """The values of both sides at points at which both sides are defined.
 
-    Where neither value is real, as sqrt(g/l - k/m) for a strong spring, the values have no meaning. Two forms of one
-    expression may then be on different branches, so such points count only if there are no others. Points at which the
-    whole problem has no meaning are left out.
+    Values that are not real, such as sqrt(g/l - k/m) for a strong spring, have no meaning. Two forms of one expression
+    may then be on different branches. So points at which neither side is real count only if there are no other points.
+    Points at which the whole problem has no meaning are left out.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
@@ -226,7 +227,8 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 
 
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
-    """A point where the sides differ and an argument of `Abs` or `sign` has another sign than at the points seen."""
+    """A point where the sides differ, if an argument of `Abs` or `sign` has a sign there that it had at no earlier
+    point."""
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
         sides = {side for point in seen if (side := _side(inside, point)) is not None}
@@ -269,7 +271,7 @@ _TURNED = {"=": "=", "!=": "!=", "<": ">", ">": "<", "<=": ">=", ">=": "<="}
 
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
-    """Whether two equations or inequalities are equivalent: their residuals differ by a factor of known sign."""
+    """Whether two equations or inequalities are equivalent: their residuals must differ by a factor of known sign."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
@@ -321,13 +323,14 @@ def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
 
 
 def _is_borne(left: str, right: str, factor: Expr) -> bool:
-    """Whether a relation with the first operator is equivalent to its multiple with the second, for this factor."""
+    """Whether a relation with the first operator, multiplied by this factor, is equivalent to a relation with the
+    second operator."""
     sign = _known_sign(factor)
     return _same_mark(left, right, sign or 0) and (sign is not None or _never_vanishes(factor))
 
 
 def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
-    """Compare equations between matrices, directly or with the sides of one exchanged."""
+    """Compare two equations between matrices, directly or with the sides of one equation exchanged."""
     shapes = {getattr(side, "shape", None) for side in (*left.sides, *right.sides)}
     if left.operator != right.operator or left.operator != "=" or len(shapes) > 1:
         return Verdict(Grade.REFUTED, f"`{left}` against `{right}`")
@@ -336,7 +339,7 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
-    """Rewrite strict inequalities n/d > 0 as n d > 0. The two are equivalent: neither holds where d vanishes."""
+    """Rewrite strict inequalities n/d > 0 as n d > 0. The forms are equivalent: neither holds where d vanishes."""
     strict = {left.operator, right.operator} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):
@@ -346,7 +349,7 @@ def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | Non
 
 
 def _known_sign(factor: Expr) -> int | None:
-    """1 or -1 if the factor has that sign for all allowed values of its symbols; else None."""
+    """The sign, 1 or -1, that the factor has for all allowed values of its symbols; None if there is no such sign."""
     above, below = (strict_sign_within(part) for part in factor.as_numer_denom())
     return above * below if above and below else None
 
@@ -357,7 +360,8 @@ def _never_vanishes(factor: Expr) -> bool:
 
 
 def _counterexample(left: Expr, right: Expr) -> Verdict | None:
-    """A point where the second equation holds and the first does not; the second is solved for a linear symbol."""
+    """A point where the second equation holds and the first does not. The second equation is solved for a symbol in
+    which it is linear."""
     drawn = points(letters_of(left) | letters_of(right), seed_of(left, right))
     for letter in sorted(right.free_symbols, key=lambda s: (not str(s).endswith("dot"), str(s))):
         slope = right.diff(letter)
@@ -392,7 +396,8 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """Whether one relation is x > y with neither side negative, and the other a positive multiple of x^2 > y^2."""
+    """Whether one relation is x > y, where neither side is negative, and the other relation is a positive multiple of
+    x^2 > y^2."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative for side in roots.sides):
@@ -417,8 +422,8 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
-    """The ratio of the derivatives by a symbol, if it is also the ratio of the whole expressions. This finds a common
-    factor that sin(2 x) or a fractional power hides."""
+    """The ratio of the derivatives with respect to a symbol, if this is also the ratio of the whole expressions. The
+    method finds a common factor that sin(2 x) or a fractional power hides."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:

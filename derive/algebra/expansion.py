@@ -1,4 +1,4 @@
-"""The first terms of an expression for a small or large symbol, or near a value: by derivatives, term by term.
+"""The first terms of an expression where a symbol is small, large, or near a value, from derivatives.
 
     f = N/D, each expanded in a Taylor series in the small symbol, and one series divided by the other
 
@@ -45,7 +45,7 @@ Series = dict[Rational, Expr]  # power -> coefficient
 
 
 class NoExpansion(Exception):
-    """The expression has no expansion in powers there, or none was found within the limits of this module."""
+    """The expression has no expansion in powers at this limit, or this module found none within its bounds."""
 
 
 class BeginsBeyond(NoExpansion):
@@ -88,7 +88,8 @@ class Approach(Node):
 
 
 class FirstOrder(ScalarNode):
-    """The first-order part of f in several small symbols. Arguments: f, which vanishes with them, and these symbols.
+    """The first-order part of f in several small symbols. Arguments: f, which vanishes with these symbols, and the
+    symbols.
 
     It is displayed as f, in the line of a chain before the higher orders are dropped.
     """
@@ -105,7 +106,7 @@ class FirstOrder(ScalarNode):
 
 
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
-    """The terms up to that power of the small quantity; only the leading term if no power is given."""
+    """The terms up to this power of the small quantity; only the leading term if no power is given."""
     written = in_small(f, x, to)
     if written.count_ops() > LARGEST:
         raise NoExpansion(f)
@@ -129,8 +130,8 @@ def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
 def _without_what_dies(f: Expr) -> Expr:
     """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t).
 
-    A growing exponential is the reciprocal of a decaying one, so all are powers of one decaying exponential, which is
-    set to zero.
+    A growing exponential is the reciprocal of a decaying exponential. So all exponentials are powers of one decaying
+    exponential, which is set to zero.
     """
     f = f.replace(lambda e: isinstance(e, sinh | cosh | tanh) and e.has(SMALL), lambda e: e.rewrite(exp))
     rates = {e: (e.args[0] * SMALL).expand() for e in f.atoms(exp) if e.has(SMALL)}
@@ -195,7 +196,7 @@ def _quotient(f: Expr, power: Rational | None) -> Series:
 
 
 def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
-    """The coefficients at least up to that power, and the lowest power that occurs."""
+    """The Taylor coefficients at least up to this power, and the lowest power that occurs."""
     found: dict[int, Expr] = {}
     derivative, factorial = f, Integer(1)
     for n in range(HIGHEST + 1):

@@ -2,7 +2,7 @@
 
 A *name* denotes a quantity in a formula: a SymPy `Symbol` for a scalar, a `MatrixSymbol` of shape (3, 1) for a vector
 and (3, 3) for a tensor. A *node* is an operation that is shown before it is evaluated: `Dot(omega, L)`. `explicit()`
-evaluates everything. Nodes contain no notation; that is in `derive.render`.
+evaluates everything. Nodes contain no notation; the notation is in `derive.render`.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ DURATION = dimension_of_kind("time")
 
 
 def scalar(name: str, **assumptions: bool) -> Symbol:
-    """A real symbol with this name, and with further assumptions if they are given."""
+    """A real symbol with this name and these further assumptions."""
     return Symbol(name, **{"real": True, **assumptions})
 
 
@@ -323,7 +323,8 @@ class Bracket(ScalarNode):
 
 
 class Partial(ScalarNode):
-    """The partial derivative of f by a coordinate or by a rate, all others held fixed. Arguments: f, the variable."""
+    """The partial derivative of f with respect to a coordinate or a rate, with all other variables held fixed.
+    Arguments: f, the variable."""
 
     def doit(self, **hints: Any) -> Expr:
         f, variable = self.args
@@ -341,7 +342,7 @@ class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
     Evaluated by the chain rule: each coordinate, and each of its rates, contributes its partial derivative times the
-    next rate; the partial derivative by time is added.
+    next rate; the partial derivative with respect to time is added.
     """
 
     def doit(self, **hints: Any) -> Expr:
@@ -432,5 +433,5 @@ def scaled(factor: Expr, v: Value) -> MatMul:
 
 
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:
-    """The expression with names replaced by their values."""
+    """The expression with these names replaced by their values."""
     return expr.xreplace(dict(values)) if values else expr

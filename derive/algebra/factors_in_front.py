@@ -39,7 +39,8 @@ def written(product: Product) -> Expr:
 
 
 def fraction_of(product: Product) -> tuple[Expr, Expr]:
-    """The numerator and the denominator; at least half of the terms of each sum in the denominator are positive."""
+    """The numerator and the denominator, with signs such that at least half of the terms of each sum in the denominator
+    are positive."""
     number, powers = product
     above, below = [], []
     for base, power in powers.items():
@@ -53,7 +54,8 @@ def fraction_of(product: Product) -> tuple[Expr, Expr]:
 
 
 def as_product(product: Product) -> Expr:
-    """The product with its number in front of a sum, (u + v)/2, not u/2 + v/2, and with one power of each symbol."""
+    """The product with its number in front of a sum, (u + v)/2 and not u/2 + v/2, and with only one power of each
+    symbol."""
     exponents: dict[Expr, Expr] = {}
     for factor, power in product.powers.items():
         base, exponent = factor.as_base_exp()

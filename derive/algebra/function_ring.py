@@ -1,9 +1,9 @@
 """Polynomials in symbols and angles, and in roots, absolute values, exponentials and other functions.
 
-A root or an absolute value is split into those of irreducible factors, as far as the signs of the factors allow. Each
-of these becomes a new letter of the ring that satisfies a relation: r^q = p, |p|^2 = p^2. A power becomes a product
-with one factor for each term of its exponent, exp(u + v) = exp u exp v. For any other function, only one property is
-used: equal arguments give equal values.
+A root is split into roots of irreducible factors, and an absolute value into absolute values of irreducible factors, if
+the signs of the factors allow it. Each of these becomes a new letter of the ring that satisfies a relation, r^q = p or
+|p|^2 = p^2. A power becomes a product with one factor for each term of its exponent, exp(u + v) = exp u exp v. For any
+other function, only one property is used: equal arguments give equal values.
 
 Such letters may depend on one another, so a form with terms may still be zero. A form without terms is zero, provided
 that it contains no division by zero.
@@ -78,7 +78,7 @@ class FunctionRing(TrigRing):
         return not terms or self.has_parts_of_pi(terms) and self.is_zero_by_roots_of_one(terms)
 
     def is_nonzero(self, form: Form) -> bool:
-        """Whether the form is shown to be nonzero: it has terms, and their letters do not depend on one another."""
+        """Whether the form is shown to be nonzero, because it has terms whose letters do not depend on one another."""
         terms = self.cleared(form).terms
         return bool(terms) and not self.letters_in(terms) & self._dependent and not self.has_parts_of_pi(terms)
 
@@ -146,7 +146,7 @@ class FunctionRing(TrigRing):
             return False
 
     def angle(self, angle: Expr) -> Expr:
-        """The first angle that has occurred and is equal to this one."""
+        """The first angle so far that is equal to this angle."""
         try:
             return super().angle(angle)
         except Outside:
@@ -269,7 +269,7 @@ def _denested(base: Expr) -> Expr | None:
 def factors_under_a_root(base: Expr, q: int) -> tuple[tuple[Expr, int], ...]:
     """Irreducible factors of the radicand with their powers.
 
-    Only factors that are known to be non-negative may be taken out of a common root; the others stay together.
+    Only factors that are known to be non-negative may be taken out of a common root; all other factors stay together.
     """
     found: list[tuple[Expr, int]] = []
     unsure: Expr = Integer(1)

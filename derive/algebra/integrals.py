@@ -5,9 +5,9 @@
     sines and cosines   sin(m x), cos(n x) and their products, over any limits
     chords              y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
 
-SymPy's own integrator is slow for the first two and wrong or without result for the third. For any other integral the
-functions here return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 4.3.127 and 6.2.1 (powers
-of sine and cosine).
+SymPy's own integrator is slow for the first two kinds, and gives a wrong result or none for the third. For any other
+integral the functions here return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 4.3.127 and
+6.2.1 (powers of sine and cosine).
 """
 
 from __future__ import annotations
@@ -46,7 +46,8 @@ def antiderivative(value: Expr, x: Symbol) -> Expr | None:
 
 
 def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
-    """The terms, each split into a factor without x and one with x; products of sines and cosines of x become sums."""
+    """The terms of the value, each split into a factor without x and a factor with x. Products of sines and cosines of
+    x become sums."""
     found = []
     for term in Add.make_args(_expanded(value)):
         outside, inside = _apart(term, x)
@@ -58,7 +59,7 @@ def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
     return found
 
 
-@lru_cache(maxsize=1024)  # the entries of a tensor have few different products
+@lru_cache(maxsize=1024)  # the entries of a tensor have few distinct products
 def _by_sums(product: Expr) -> Expr:
     return TR8(product).expand()
 
@@ -130,9 +131,9 @@ def _term(outside: Expr, inside: Expr, x: Symbol, lower: Expr, upper: Expr, oute
 
 
 def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
-    """y = w sin u turns the integral of y^m (w^2 - y^2)^(k/2) from -w to w into w^(m+k+1) times a number.
+    """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: with y = w sin u it is w^(m+k+1) times a number.
 
-    This requires w >= 0, because otherwise the root is not w cos u: the outer limits must show that.
+    This requires w >= 0, because otherwise the root is not w cos u. The outer limits must show that w >= 0.
     """
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):
@@ -165,7 +166,7 @@ def sine_and_cosine_integral(m: int, n: int) -> Expr:
 
 
 def _nonnegative_within(w: Expr, outer: Limits) -> bool:
-    """Whether w >= 0 between the limits: by its assumptions, or because it is linear and not negative at either end."""
+    """Whether w >= 0 between the limits: by its assumptions, or because w is linear and not negative at either end."""
     if w.is_nonnegative or isinstance(w, Pow) and w.exp == HALF:
         return True
     inside = [limit for limit in outer if w.has(limit[0])]

@@ -23,9 +23,10 @@ class Kind:
     """The properties of a kind.
 
     unit      the coherent SI unit as text
-    positive  symbols of this kind are positive numbers; all other symbols are only real
-    signed    a minus sign gives the direction (a block rotating the other way); for other positive kinds it is an error
-    angles    the powers of the radian that its unit may have: it may be omitted in rad/s, but not for an angle
+    positive  whether symbols of this kind are positive; all other symbols are only real
+    signed    whether a minus sign is allowed for the direction, such as the opposite direction of rotation; for other
+              positive kinds a minus sign is an error
+    angles    the allowed powers of the radian in the unit: the radian may be omitted in rad/s, but not for an angle
     """
 
     dimension: Dimension
@@ -108,7 +109,7 @@ def kind_of_dimension(dimension: Dimension) -> str | None:
 
 
 def named(dimension: Dimension) -> str:
-    """A dimension in words: `a length`, or its exponents where no kind has that dimension."""
+    """A dimension in words: `a length`, or its exponents if no kind has that dimension."""
     kind = kind_of_dimension(dimension)
     return kind_with_article(kind) if kind else f"a quantity of dimension {exponents(dimension)}"
 
@@ -136,9 +137,11 @@ def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimen
 
 
 def unit_of_dimension(dimension: Dimension) -> str:
-    """The coherent SI unit of a quantity without a kind: the unit of the only kind with its dimension, else a product.
+    """The coherent SI unit of a quantity without a kind: the unit of the kind with its dimension if there is only one
+    such kind, else a product of units.
 
-    Energy and torque have the same dimension, so the unit is N m, which is right for both; 1/s does not imply an angle.
+    Energy and torque have the same dimension, so their unit is N m, which is right for both. The unit 1/s does not
+    imply an angle.
     """
     kinds = [kind for kind in KINDS.values() if kind.dimension == dimension]
     return kinds[0].unit if len(kinds) == 1 else _product_of_units(dimension)

@@ -1,6 +1,6 @@
 """The written length of an expression: its signs, fraction bars, powers and functions, counted like `count_ops`.
 
-Lengths of parts are cached, because different forms of one value have most of their parts in common.
+Lengths of parts are cached, because the forms of one value have most of their parts in common.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ def shortest(forms: Iterable[Expr]) -> Expr:
 
 
 class _Text:
-    """The text of an expression, computed only if it must be compared."""
+    """The text of an expression, computed only if texts must be compared."""
 
     def __init__(self, value: Expr) -> None:
         self.value = value

@@ -27,13 +27,14 @@ __all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "shared_fa
 
 
 def in_lowest_terms(value: Expr) -> Expr:
-    """The fraction in lowest terms, with common factors in front; raises `Outside` if it is too large."""
+    """The fraction in lowest terms, with common factors in front; raises `Outside` if the fraction is too large."""
     ring = _ring()
     return ring.written(ring.fraction(product_of(value)))
 
 
 def squares_turned(value: Expr) -> list[Expr]:
-    """The fraction with sin^2 replaced by cos^2, with cos^2 by sin^2, and with 1 - cos^2 or 1 - sin^2 as one square."""
+    """The fraction with sin^2 replaced by 1 - cos^2, with cos^2 replaced by 1 - sin^2, and with 1 - cos^2 or 1 - sin^2
+    written as one square."""
     ring = _ring()
     plain = ring.fraction(product_of(value))
     turns: list[Callable[[Terms], Terms]] = [ring.in_pairs]
@@ -44,7 +45,7 @@ def squares_turned(value: Expr) -> list[Expr]:
 
 
 def is_squarefree(value: Expr) -> bool:
-    """Whether no square divides a polynomial; raises `Outside` if it is too large."""
+    """Whether no square divides a polynomial; raises `Outside` if the polynomial is too large."""
     terms = _ring().form(value).terms
     places = _places(terms)
     return bool(_polynomial(_polynomials(len(places)), terms, places).is_squarefree)
@@ -80,18 +81,19 @@ def _factors(value: Expr) -> Product:
 
 
 def _with_plus_first(product: Product) -> Product:
-    """Write b - a as -(a - b), so that both are recognised as one factor."""
+    """Write b - a as -(a - b), so that b - a and a - b are recognised as one factor."""
     turned = [(b, n) for b, n in product.powers.items() if b.is_Add and b.could_extract_minus_sign()]
     return times((product, *(_turned(base, power) for base, power in turned)))
 
 
 def _turned(base: Expr, power: int) -> Product:
-    """The factor by which a product is multiplied to replace b by -b in that power."""
+    """The factor by which a product must be multiplied to replace the base b of this power by -b."""
     return Product(S.NegativeOne**power, {base: -power, -base: power})
 
 
 class _Fraction(NamedTuple):
-    """The numerator and denominator as sums of terms, and a factor in front with further powers in the denominator."""
+    """The numerator and the denominator as sums of terms, and the factor in front, which may have powers in the
+    denominator."""
 
     top: Terms
     bottom: Terms
@@ -123,7 +125,8 @@ class _Fractions(Expanded):
         return reduce(self.product, sorted(forms, key=lambda form: len(form.terms)), ONE)
 
     def written(self, fraction: _Fraction) -> Expr:
-        """Write the fraction without a sign in front if possible: a sum in the numerator or denominator absorbs it."""
+        """Write the fraction without a minus sign in front if a sum in the numerator or the denominator can absorb the
+        sign."""
         top, bottom, (number, letters) = fraction
         if not top:
             return S.Zero
@@ -153,7 +156,8 @@ class _Fractions(Expanded):
         return times((Product(Rational(int(content)) ** power, {}), *inner))
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
-        """Replace even powers of one function of each angle by the other function; one single power may remain."""
+        """Replace even powers of one function, sine or cosine, of each angle by the other function; one factor of the
+        first function may remain."""
 
         def turn(terms: Terms) -> Terms:
             for place, other in self._turning(terms):
@@ -239,10 +243,10 @@ def _numbers(places: Sequence[int]) -> dict[int, int]:
 
 
 def _have_no_letter_in_common(top: Terms, bottom: Terms, places: list[int]) -> bool:
-    """Whether both have no common factor that contains a symbol, as far as their images modulo a prime show.
+    """Whether images modulo a prime show that two sums have no common factor with a symbol.
 
-    In the images, all symbols except x are replaced by numbers. A common factor of degree d in x leaves one of degree d
-    in the images, unless the leading coefficient of an image vanishes.
+    In the images, all symbols except x are replaced by numbers. A common factor of degree d in x leaves a common factor
+    of degree d in the images, unless the leading coefficient of an image vanishes.
     Source: von zur Gathen, Gerhard, *Modern Computer Algebra*, section 6.5.
     """
     numbers = _numbers(places)

@@ -68,7 +68,7 @@ class Node(Basic):
 
     @property
     def variables(self) -> tuple[Any, ...]:
-        """The variables that the node binds, so they are not free symbols."""
+        """The variables that the node binds; they are not free symbols."""
         return ()
 
     def lowered(self, text: TextOf) -> str:
@@ -134,10 +134,10 @@ def _carried_out(expr: Basic) -> Value:
 
 
 def _definite(integral: Integral) -> Expr:
-    """Evaluate a definite integral: by our rules for the integrals of solids, where SymPy is slow, else by SymPy.
+    """Evaluate a definite integral by the rules of `derive.algebra.integrals` or, if these do not apply, by SymPy.
 
-    Any other integral over a root is `nan`, which equals nothing, because SymPy may be wrong or may not terminate
-    for it.
+    If the rules do not apply to an integral over a root, the result is `nan`, which equals nothing: SymPy may be wrong
+    or may not terminate for such an integral.
     """
     integrand = explicit(integral.function)
     value = definite(integrand, integral.limits)

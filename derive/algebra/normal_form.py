@@ -68,7 +68,7 @@ def is_identity(left: Expr, right: Expr) -> bool:
 
 @lru_cache(maxsize=4096, typed=True)  # a verb, `establish()` and the predicates ask about the same expression
 def _vanishes_by_relations(expr: Expr) -> bool:
-    """Decide the same for expressions that are not polynomials in symbols, sines and cosines."""
+    """Whether an expression that is not a polynomial in symbols, sines and cosines is zero; False means "not shown"."""
     try:
         expr = _with_common_angles(expr)
         return not expr.has(nan, zoo) and _is_zero(expr) and not any(map(_is_nothing, _divisors(expr)))
@@ -124,7 +124,8 @@ def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
-    """For each angle up to a rational factor: the largest angle of which all that occur are whole multiples."""
+    """For each group of angles with rational ratios, the largest angle such that all angles of the group are whole
+    multiples of it."""
     found: dict[Expr, list[Rational]] = {}
     for function in functions:
         for coefficient, rest in _angle_terms(function.args[0]):

@@ -21,7 +21,7 @@ SignOf = Callable[[Expr], int | None]
 
 
 class Contradiction(Exception):
-    """The relation contradicts the relations before it."""
+    """The relation contradicts earlier relations."""
 
 
 @dataclass(frozen=True)
@@ -29,8 +29,9 @@ class Order:
     """Relations that are assumed to hold.
 
     positive   differences that are assumed to be greater than zero
-    replaced   symbol -> its value by its relation, in terms of amounts and of symbols that are not replaced
-    amounts    symbol -> the amount that its relation introduces, which is positive, or not negative
+    replaced   symbol -> its value by a relation, in terms of amounts and of symbols that are not replaced
+    amounts    symbol -> the amount that this relation introduces: positive, or not negative if the relation is not
+               strict
     """
 
     positive: tuple[Expr, ...] = ()
@@ -38,7 +39,8 @@ class Order:
     amounts: Mapping[Symbol, Symbol] = field(default_factory=dict)
 
     def with_relation(self, difference: Expr, strict: bool, sign_of: SignOf) -> Order:
-        """Add a relation: the difference is greater than zero, or greater than or equal to zero if it is not strict."""
+        """Add a relation: the difference is greater than zero, or greater than or equal to zero if the relation is not
+        strict."""
         there, below = together(self.put_in(difference)).as_numer_denom()
         there = expand(there) if sign_of(below) == 1 else expand(there / below)
         sign = 0 if there.is_zero else sign_of(there)
@@ -55,11 +57,11 @@ class Order:
         return Order(positive, {**replaced, letter: value}, amounts)
 
     def put_in(self, expr: Expr) -> Expr:
-        """The expression with the symbols replaced."""
+        """The expression with all replaced symbols substituted by their values."""
         return expr.xreplace(dict(self.replaced)) if self.replaced else expr
 
     def touches(self, expr: Expr) -> bool:
-        """Whether a relation concerns one of the expression's symbols."""
+        """Whether a relation contains a symbol of the expression."""
         if not self:
             return False
         known = self.replaced.keys() | set().union(*(each.free_symbols for each in self.positive))
@@ -84,8 +86,8 @@ class Order:
         return None if None in signs else prod(sign for sign in signs if sign is not None)
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
-        """Numbers that satisfy the relations: the amount of a replaced symbol is the number that the symbol had, or a
-        fraction of it if only a fraction gives an allowed value."""
+        """Numbers that satisfy the relations. The amount of a replaced symbol is the absolute value of the number that
+        the symbol had, or a fraction of this number if only a fraction gives an allowed value."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]
@@ -101,7 +103,8 @@ class Order:
 def _letter_replaced(
     difference: Expr, strict: bool, sign_of: SignOf
 ) -> tuple[Symbol, Expr, Symbol] | tuple[None, None, None]:
-    """A symbol in which the difference is linear, its value and its amount; a positive symbol must remain positive."""
+    """A symbol in which the difference is linear, the value of the symbol, and its amount. The value of a positive
+    symbol must be positive."""
     amount = Dummy("more", positive=True) if strict else Dummy("more", nonnegative=True)
     for letter in sorted((s for s in difference.free_symbols if isinstance(s, Symbol)), key=str):
         slope = difference.diff(letter)

@@ -1,6 +1,6 @@
-"""A root of a polynomial without a closed form, identified by its place among the roots, all of which are real.
+"""A root without a closed form of a polynomial that has only real roots, identified by its place among these roots.
 
-Its numerical value is exact: an algebraic number of SymPy, with any number of digits.
+The value of the root for numerical coefficients is exact: an algebraic number of SymPy, with any number of digits.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ __all__ = ["OrderedRoot", "root_in_order"]
 
 
 class OrderedRoot(ScalarNode):
-    """One of several roots, all real. Arguments: the coefficients from the highest power, its place, its name."""
+    """A root of a polynomial with only real roots. Arguments: the coefficients from the highest power, the place of the
+    root in ascending order, its name."""
 
     def __new__(cls, coefficients: Sequence[Expr], number: int, name: Symbol) -> Any:
         return super().__new__(cls, Tuple(*coefficients), number, name)
@@ -45,18 +46,19 @@ class OrderedRoot(ScalarNode):
         return OrderedRoot(known, number, name)
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of the second coefficient over the first: all terms of the polynomial have one dimension."""
+        """The dimension of the second coefficient divided by that of the first, since all terms of the polynomial have
+        the same dimension."""
         highest, second = self.args[0][:2]
         return quotient(of(second), of(highest))
 
     def lowered(self, text: TextOf) -> str:
-        """The name of a function, because SymPy has such roots only for numerical coefficients."""
+        """The root as an undefined function, because SymPy has such roots only for numerical coefficients."""
         coefficients, number, _ = self.args
         return f"Function('ordered_root')({', '.join(text(each) for each in coefficients)}, {number})"
 
 
 def root_in_order(coefficients: Sequence[Any], number: int) -> Any:
-    """The root at that place, to mpmath's precision: a root in floats, improved by Newton's method."""
+    """The root at this place to the precision of mpmath: a root in floats, improved by Newton's method."""
     from numpy import roots
 
     mp = mpmath.mp

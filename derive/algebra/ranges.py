@@ -42,7 +42,8 @@ class Range:
         return bool(self.least.is_extended_positive or self.least.is_zero and not self.closed[0])
 
     def at(self, way: Expr) -> Expr:
-        """The number at the fraction `way`, 0 < way < 1, of the distance from the lower end to the upper."""
+        """The number at the fraction `way` of the range, 0 < way < 1. A finite range is divided evenly; for an infinite
+        range the number is an increasing function of `way`."""
         if self.least.is_finite and self.greatest.is_finite:
             return self.least + (self.greatest - self.least) * way
         beyond = way / (1 - way)
@@ -75,7 +76,7 @@ def own_meaning() -> Iterator[None]:
 
 
 def take_as_positive(expr: Expr) -> None:
-    """Assume from now on that the expression is positive, as c^2 - v^2 for a body with the speed v."""
+    """Assume from now on that the expression is positive, such as c^2 - v^2 for a body with the speed v."""
     if expr not in _POSITIVE.get():
         _POSITIVE.set((*_POSITIVE.get(), expr))
 
@@ -111,7 +112,7 @@ def range_of(letter: Any) -> Range | None:
 
 
 def rational_in_range(letter: Any, number: Expr) -> Expr:
-    """A rational number in the range of a symbol for this positive number; the number itself without a range."""
+    """Map a positive number to a rational number in the range of a symbol; return it unchanged if there is no range."""
     known = range_of(letter)
     if known is None:
         return number
@@ -120,7 +121,7 @@ def rational_in_range(letter: Any, number: Expr) -> Expr:
 
 
 def fulfilling(point: Mapping[Any, Any]) -> dict[Any, Any]:
-    """Numbers for symbols, changed so that they satisfy the assumed relations."""
+    """Numbers for symbols; some numbers are changed so that they satisfy the assumed relations."""
     order = known_order()
     return order.at(point, _fits) if order else dict(point)
 
@@ -163,13 +164,13 @@ def _drawn_out(root: Pow) -> Expr | None:
 
 
 def sign_within(expr: Expr) -> int | None:
-    """1 or -1 if the sign is the same for all values in the ranges of the symbols; None if this is not known."""
+    """The sign, 1 or -1, of all values within the ranges of the symbols; None if no common sign is known."""
     signs = [_sign_of_factor(factor) for factor in Mul.make_args(expr)]
     return None if None in signs else prod(sign for sign in signs if sign)
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The sign by `sign_within`; None if the range of a symbol includes an end, because the value may vanish there."""
+    """The sign from `sign_within`; None if the range of a symbol includes an end, since the value may vanish there."""
     if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
         return None
     return sign_within(expr)
@@ -238,7 +239,7 @@ def _is_nonnegative(term: Expr) -> bool:
 
 
 def _sign_by_squares(total: Add) -> int | None:
-    """The sign of a sum with sines or cosines that has one sign for all angles: m + M - m cos^2, M + m sin^2."""
+    """The sign of a sum with sines or cosines that has the same sign for all angles, such as m + M - m cos^2."""
     if not total.has(sin, cos) or total.count_ops() > LARGEST:
         return None
     for squares in (total, TR5(total.expand()), TR6(total.expand())):
@@ -271,7 +272,8 @@ def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds, which are not reached, of a sum of multiples of symbols, sines and cosines; None if unknown."""
+    """The bounds of a sum of multiples of symbols, sines and cosines; None if they are unknown. The sum does not reach
+    the bounds."""
     least: Expr = Integer(0)
     greatest: Expr = Integer(0)
     for term in Add.make_args(expr):

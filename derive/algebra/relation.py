@@ -40,12 +40,12 @@ class Relation(Node):
 
     @property
     def word(self) -> str:
-        """The name of the operator in the tree of a page."""
+        """The name of the operator in the formulas of a page."""
         return MARKS[self.operator]
 
     @property
     def residual(self) -> Expr:
-        """Left minus right, which vanishes in an equation and has the sign of the operator in an inequality."""
+        """The left side minus the right side: zero in an equation, positive for ">", negative for "<"."""
         return self.left - self.right
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
@@ -63,7 +63,7 @@ class Relation(Node):
 
 
 def sides_without_minus(total: Expr) -> tuple[Expr, Expr]:
-    """The terms of a sum on two sides: a + b and c for a + b - c."""
+    """The added and the subtracted terms of a sum: a + b and c for a + b - c."""
     away = [-term for term in Add.make_args(total) if term.could_extract_minus_sign()]
     return Add(*(term for term in Add.make_args(total) if not term.could_extract_minus_sign())), Add(*away)
 

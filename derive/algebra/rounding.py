@@ -35,7 +35,8 @@ def _decimal(exact: Expr, digits: int) -> Decimal:
 
 
 class Rounded(ScalarNode):
-    """A decimal with its significant figures, so that 21.60 keeps its zero. Arguments: the rational, the figures."""
+    """A decimal number with its number of significant figures, so that 21.60 keeps its zero. Arguments: the rational
+    number, the figures."""
 
     def doit(self, **hints: Any) -> Expr:
         return self.args[0]
@@ -68,10 +69,10 @@ def decimal_text(number: Rounded) -> str:
 
 
 def off_by_more_than_half_a_unit(exact: Any, shown: Any) -> tuple[str, str] | None:
-    """The first rounded number that differs from its exact value by more than rounding explains, and this value.
+    """The first rounded number that differs from its exact value by more than half a unit, and the exact value.
 
-    Returns None if there is no such number. In a relation, the right side is the rounded one. mpmath computes the exact
-    value here, with extra digits for cancellation; `rounded` uses SymPy's own `evalf`.
+    Returns None if there is no such number. In a relation, the right side is the rounded number. mpmath computes the
+    exact value here, with extra digits for cancellation; `rounded` uses SymPy's own `evalf`.
     """
     for number, factor, value in _pairs(shown, exact):
         target = explicit(number)

@@ -1,8 +1,8 @@
 """Points at which two expressions are compared, and the values of expressions there.
 
-Points are exact rationals, drawn over several scales with a seed computed from the expressions: the same points in each
-run, different ones for other expressions. mpmath computes the values with enough digits to exclude rounding errors:
-a difference counts only if more digits confirm it; one that shrinks as digits are added counts as zero.
+Points are exact rationals, drawn over several scales. The seed is computed from the expressions, so each run has the
+same points for the same expressions. mpmath computes the values with enough digits to exclude rounding errors. A
+difference counts only if more digits confirm it; a difference that shrinks as digits are added counts as zero.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from derive.algebra.ordered_roots import OrderedRoot, root_in_order
 from derive.algebra.ranges import fulfilling, range_of
 
 DIGITS = 50
-WORKING = (60, 160, 420)  # digits: the first precision usually decides, the others confirm the result
+WORKING = (60, 160, 420)  # digits: the first precision usually decides, a higher precision confirms the result
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
 ORDINARY = (0,)
@@ -55,7 +55,8 @@ class Sample:
 
 
 def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
-    """Endless points: first of ordinary size, then of all scales in turn, then with a random scale for each symbol."""
+    """Yield points without end: first of ordinary size, then of each scale in turn, then with a random scale for each
+    symbol."""
     ordered = sorted(letters, key=str)
     source = Random(seed)
     for scales in (ORDINARY, ORDINARY, ORDINARY, *((tiny,) for tiny in TINY), *((large,) for large in LARGE)):
@@ -103,7 +104,7 @@ def letters_of(expr: Expr) -> set[Expr]:
 
 
 def seed_of(*exprs: Expr) -> int:
-    """A number computed from the expressions, the same in each run."""
+    """A number computed from the expressions; it is the same in each run."""
     nodes = (node for expr in exprs for node in preorder_traversal(expr))
     marks = (f"{hash(n.p)}/{hash(n.q)}" if n.is_Rational else type(n).__name__ if n.args else str(n) for n in nodes)
     return crc32(" ".join(marks).encode())
@@ -146,7 +147,7 @@ def _shrinks(before: Any, now: Any) -> bool:
 
 
 def value_at(expr: Expr, point: SamplePoint) -> Expr:
-    """The value of an expression at a point, confirmed by a second precision; more digits are used if much cancels.
+    """The value of an expression at a point, confirmed with a second precision; if digits cancel, more are used.
 
     Returns zero if the value shrinks as digits are added. Raises `Undefined`, or `NoNumber` if no two precisions agree.
     """
@@ -188,14 +189,14 @@ def is_zero_everywhere(expr: Expr) -> bool | None:
 
 
 def shown(value: Any, figures: int = 6) -> Expr:
-    """A value as a SymPy number with that many figures, without a negligible imaginary part."""
+    """A value as a SymPy number with this many figures; a negligible imaginary part is dropped."""
     if isinstance(value, mpmath.mpc) and _bits(value.imag) < _bits(value.real) - 100:
         value = value.real
     return as_sympy(value).evalf(figures)
 
 
 def as_sympy(x: Any) -> Expr:
-    """A number of mpmath as one of SymPy."""
+    """A number of mpmath as a number of SymPy."""
     parts = (x.real, x.imag) if isinstance(x, mpmath.mpc) else (x, mp.mpf(0))
     real, imaginary = (Float._new(part._mpf_, max(mp.prec, part._mpf_[3])) if part else S.Zero for part in parts)
     return real + I * imaginary
@@ -318,7 +319,7 @@ class Values:
         return bool({"<": x < 0, "<=": x <= 0, ">": x > 0, ">=": x >= 0}[condition.rel_op])
 
     def _by_sympy(self, expr: Expr) -> Any:
-        """Evaluate a function that has no entry here by SymPy, after substituting for its symbols."""
+        """Evaluate a function by SymPy, with values substituted for its symbols, if this module has no rule for it."""
         letters = letters_of(expr)
         if not letters <= self.known.keys() or expr.count_ops() > 200:
             raise NoNumber(expr)

@@ -25,10 +25,10 @@ def is_not_real(value: Any) -> bool:
 
 
 def undefined_part(before: Any, put: Callable[[Expr], Any]) -> Expr | None:
-    """The innermost part of an expression that has no value after symbols are replaced: a denominator that then
-    vanishes, or a function that is then infinite.
+    """The innermost part of an expression that has no value after symbols are replaced, such as a denominator that
+    becomes zero or a function that becomes infinite.
 
-    put   replaces the symbols in a part
+    put   a function that replaces the symbols in a part
     """
     for part in _parts(before):
         if part.is_Pow and part.exp.is_negative:

@@ -1,6 +1,6 @@
 """Sparse sums of monomials in many letters, added and multiplied as whole numbers.
 
-A letter is a variable of the ring: a symbol, or an expression that counts as one. The powers of all letters of a
+A letter is a variable of the ring: a symbol, or an expression that counts as a symbol. The powers of all letters of a
 monomial, with their signs, are packed into one whole number, so one addition multiplies two monomials. The work for a
 sum is counted even if its parts are cached, so an expression that takes too much work is rejected in each run.
 
@@ -30,13 +30,13 @@ Terms = dict[int, int]
 
 
 class Outside(Exception):
-    """The expression is not a sum of monomials, or it is too large."""
+    """The expression is not a sum of monomials, or is too large."""
 
 
 class Form(NamedTuple):
     """A sum of whole multiples of monomials, divided by one whole number.
 
-    No power in it exceeds `reach`; `cost` is the number of products of two terms that were computed for it.
+    No power in the sum exceeds `reach`. `cost` is the number of products of two terms that were computed for the sum.
     """
 
     terms: Terms
@@ -65,7 +65,7 @@ class Ring:
         return len(self.forms) > FORMS or len(self.letters) > LETTERS
 
     def form(self, expr: Expr) -> Form:
-        """The form of an expression; raises `Outside` if it has none."""
+        """The form of an expression; raises `Outside` if the expression has no form."""
         found = self.forms.get(expr)
         if found is None:
             found = self.forms[expr] = self._made(expr)

@@ -1,4 +1,4 @@
-"""Squares in their readable form: a^2 - b^2 for (a + b)(a - b), and I + M (R - a)^2 instead of expanded terms."""
+"""Squares in readable form: a^2 - b^2 in place of (a + b)(a - b), and I + M (R - a)^2 in place of expanded terms."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ from derive.algebra.taylor import NoSeries, taylor
 from derive.algebra.tidy import tidied
 
 ANGLE = Dummy("u", real=True)
-DIGITS = 30  # of the numerical integral
+DIGITS = 30  # digits of the numerical integral
 MOST_VALUES = 2**13
 
 
@@ -73,10 +73,11 @@ class SwingTimeOfNumbers(ScalarNode):
 
 
 def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | None:
-    """The numerical integral of dq/sqrt(f) from -A to A; None if f is not positive there, or if it does not converge.
+    """The numerical integral of dq/sqrt(f) from -A to A; None if f is not positive there, or if the result does not
+    converge.
 
     With q = A sin u the integrand is periodic and has the same value at u and pi - u, so the mean of equidistant
-    values converges fast; their number is doubled until two results agree.
+    values converges fast. The number of values is doubled until two results agree.
     Source: Trefethen, Weideman, *SIAM Review* 56 (2014), section 3.
     """
     from mpmath import mp
@@ -102,7 +103,7 @@ def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | N
 
 
 def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
-    """The terms of the integral up to that power of the amplitude."""
+    """The terms of the integral of dq/sqrt(f) from 0 to A, up to this power of the amplitude A."""
     inside = reduced_square(f, q, amplitude, order)
     (leading, *rest) = inside
     if leading.has(ANGLE) or leading == 0:

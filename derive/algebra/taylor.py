@@ -1,8 +1,8 @@
 """Taylor series of a formula along a motion: each symbol has its own series, and the series are added and multiplied.
 
-No derivatives are computed. If x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
-x_j y_(k-j). Those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s; those of y = x^a follow
-from x y' = a x' y, and those of an exponential from y' = u' y.
+No derivatives are computed. If x = x_0 + x_1 s + ... and y = y_0 + y_1 s + ..., the coefficients of x y are the sums of
+x_j y_(k-j). The coefficients of a sine and a cosine follow from each other by s' = u' c, c' = -u' s. The coefficients
+of y = x^a follow from x y' = a x' y, and the coefficients of an exponential from y' = u' y.
 
 Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).
 """
@@ -53,7 +53,7 @@ def taylor(expr: Expr, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> 
 
 
 def slope(expr: Expr | int, letter: Symbol) -> Expr:
-    """The partial derivative by one symbol q: the coefficient of s if q is replaced by q + s."""
+    """The partial derivative with respect to a symbol q: the coefficient of s if q is replaced by q + s."""
     expr = as_expr(expr)  # may be a plain number
     if letter not in expr.free_symbols:
         return ZERO
@@ -84,7 +84,7 @@ def series_along(
 def arithmetic_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
-    """The coefficients of `series_along` by the rules here, also for 0/0; raises `NoSeries` if no rule applies."""
+    """The coefficients of `series_along` by Taylor arithmetic, also for 0/0; raises `NoSeries` if no rule applies."""
     paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
     found = taylor(expr, paths, order)
     return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
@@ -107,7 +107,7 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
 
 
 def _beginnings(below: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Iterator[tuple[int, Series]]:
-    """Yield powers with a nonzero coefficient, the lowest first, with the series; a short series is tried first."""
+    """Yield each power with a nonzero coefficient, the lowest first, and the series. A short series is tried first."""
     for deep in (DEEPEST // 4, DEEPEST):
         under = taylor(below, paths, order + deep)
         yield from ((n, under) for n, part in enumerate(under[: deep + 1]) if not vanishes(part))

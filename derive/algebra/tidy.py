@@ -83,7 +83,8 @@ def _tidied_scalar(value: Expr) -> Expr:
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
-    """cos(a -+ b) for cos a cos b +- sin a sin b, sin(a +- b) for sin a cos b +- cos a sin b: the shortest form."""
+    """Return cos(a -+ b) for cos a cos b +- sin a sin b, and sin(a +- b) for sin a cos b +- cos a
+    sin b; None for any other sum."""
     terms = [_two_turning(term) for term in value.args] if value.is_Add and len(value.args) == 2 else []
     found = [term for term in terms if term is not None]
     if len(found) != 2:
@@ -111,7 +112,7 @@ def _by_secant(total: Expr) -> Expr:
 
 
 def _of_two_letters(function: type, angle: Expr) -> Expr:
-    """The sine or cosine of a sum or difference of two symbols, unevaluated by SymPy; only a sign is moved out."""
+    """The unevaluated sine or cosine of a sum or difference of two symbols; only a sign is moved out."""
     if not all(letter.is_real for letter in angle.free_symbols):
         return function(angle)
     turned = angle.could_extract_minus_sign()
@@ -120,7 +121,8 @@ def _of_two_letters(function: type, angle: Expr) -> Expr:
 
 
 def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
-    """The sign and the angles per function, if the term is a product of two sines or cosines of different symbols."""
+    """The sign of a term, and for each function its angles, if the term is a product of two sines or cosines of
+    distinct symbols."""
     number, product = term.as_coeff_Mul()
     if abs(number) != 1 or len(product.args) != 2 or not product.is_Mul:
         return None
@@ -179,7 +181,7 @@ def _has_roots(value: Expr) -> bool:
 
 
 def _denested(value: Expr) -> Expr:
-    """(8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 is sqrt(2 - sqrt(2))/2: simplify nested roots by their square."""
+    """Simplify nested roots by their square: (8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 is sqrt(2 - sqrt(2))/2."""
     number, letters = value.as_independent(*value.free_symbols, as_Add=False) if value.free_symbols else (value, 1)
     nested = [f for f in Mul.make_args(number) if f.is_Pow and f.exp.is_Rational and f.base.atoms(Pow)]
     if not nested or number.is_Add or any(abs(f.exp) != Rational(1, 2) for f in nested):
@@ -194,7 +196,7 @@ def _denested(value: Expr) -> Expr:
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
-    """1/(1 + sqrt(2)) is sqrt(2) - 1; a root of symbols stays in the denominator, where it is easier to read."""
+    """Write 1/(1 + sqrt(2)) as sqrt(2) - 1. A root of symbols stays in the denominator, where it is easier to read."""
     numerator, denominator = fraction_of(product_of(value))
     value = numerator / denominator
     if denominator.is_number or not denominator.has(Pow):
@@ -273,7 +275,8 @@ def factored_matrix(matrix: Any) -> tuple[Expr, Any]:
 
 
 def size_and_rest(v: Any) -> tuple[Expr, Any]:
-    """A vector as (size of its common factor, remaining vector): its magnitude is the size times that of the rest."""
+    """A vector as (size of its common factor, remaining vector). The magnitude of the vector is this size times the
+    magnitude of the remaining vector."""
     common, rest = factored_matrix(v)
     if common.is_nonnegative:
         return common, rest

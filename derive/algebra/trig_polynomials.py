@@ -4,11 +4,11 @@ Each angle q that occurs is represented by z = exp(i q), with cos q = (z + 1/z)/
 and multiples of angles are products of powers of such z, and sin^2 + cos^2 = 1 needs no extra rule. A divisor is
 represented by an additional letter, which is eliminated again before a form is compared with zero.
 
-The letters and the z of angles that are products of letters satisfy no polynomial relation (exponential functions of
-such angles are algebraically independent), so only the form without terms is zero. An angle may also have sines and
-cosines of letters as factors; such angles are the same only if they are written in the same way. The z of a fraction
-of pi is a root of unity, and a form is reduced by the irreducible equation of this root. A square root is a letter
-whose square is known; such roots may depend on one another, so nothing is decided if roots are left.
+The letters and the z of angles that are products of letters satisfy no polynomial relation, because exponential
+functions of such angles are algebraically independent. So only the form without terms is zero. An angle may also have
+sines and cosines of letters as factors; such angles count as equal only if they are written identically. The z of a
+fraction of pi is a root of unity, and a form is reduced by the irreducible equation of this root. A square root is a
+letter whose square is known. Such roots may depend on one another, so nothing is decided if roots are left.
 
 Sources: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms); Lang, *Algebra*, ch. VI,
 section 3 (cyclotomic polynomials are irreducible) and section 4 (the independence of characters).
@@ -60,7 +60,7 @@ def monomial_ratio(left: Expr, right: Expr) -> Expr | None:
 
 
 def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answer:
-    """Put a question to the cached ring of that kind; raises `Outside` if the ring cannot answer."""
+    """Ask the cached ring of this kind a question; raises `Outside` if the ring cannot answer."""
     ring: Any = KEPT.get(kind)
     ring = kind({}) if ring is None or ring.is_full else ring
     has_restarted = False
@@ -103,7 +103,7 @@ def _is_in_angles(base: Expr) -> bool:
 
 
 def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
-    """The terms of a multiplied-out angle, each with its number; raises `Outside` if they may be too many."""
+    """The terms of an expanded angle, each with its numerical factor; raises `Outside` if there may be too many."""
     if angle.is_Symbol:
         return [(S.One, angle)]
     if angle.count_ops() > LONGEST or any(p.exp.is_number and abs(p.exp) > STEEPEST for p in angle.atoms(Pow)):
@@ -169,14 +169,14 @@ class TrigRing(Ring):
         return Form({z + 1: -1, -z + 1: 1}, 2, reach)
 
     def angle(self, angle: Expr) -> Expr:
-        """A representative of the angle, the same for equal angles; raises `Outside` if it is not known."""
+        """A representative of the angle, the same for equal angles; raises `Outside` if no representative is known."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
         if angle is not pi and not all(_is_in_angles(base) and power.is_Integer for base, power in powers):
             raise Outside
         return angle
 
     def multiple(self, number: Rational, angle: object) -> int:
-        """The number of smallest parts of the angle in that multiple."""
+        """The number of smallest parts of the angle in this multiple of the angle."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)
@@ -190,14 +190,14 @@ class TrigRing(Ring):
         return self.one_over(self.form(base))
 
     def one_over(self, form: Form) -> Form:
-        """The reciprocal of a form; for a sum, that of its last monomial times a letter for the rest."""
+        """The reciprocal of a form. For a sum it is the reciprocal of the last monomial times a letter for the rest."""
         if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)
         return last if len(form.terms) == 1 else self.product(last, self._divisor(self.product(form, last)))
 
     def _divisor(self, form: Form) -> Form:
-        """The letter for one over a sum, the same letter for numerical multiples of the sum."""
+        """The letter for the reciprocal of a sum; numerical multiples of the sum use the same letter."""
         content = gcd(*form.terms.values())
         terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
         key = frozenset(terms.items())
@@ -208,7 +208,7 @@ class TrigRing(Ring):
         return Form({1 << place: form.below // scale}, content // scale, 1, form.cost)
 
     def is_zero(self, form: Form) -> bool:
-        """Whether no terms are left after roots and divisors have been eliminated, the latest first.
+        """Whether no terms are left after roots and divisors are eliminated, the last introduced first.
 
         Raises `Outside` if roots are left.
         """
@@ -220,7 +220,8 @@ class TrigRing(Ring):
         return False
 
     def cleared(self, form: Form) -> Form:
-        """A multiple of the form in which no known power of a letter occurs; the latest letter is eliminated first."""
+        """A multiple of the form in which no known power of a letter occurs; the last introduced letter is eliminated
+        first."""
         for place, order, of in reversed(self._relations):
             present = self.letters_in(form.terms) & self._related
             if not present:
@@ -279,8 +280,8 @@ class TrigRing(Ring):
         return all(_vanishes_at_root_of_one(powers, order) for powers in sums.values())
 
     def _lowered(self, form: Form, place: int, order: int, of: Form) -> Form:
-        """Replace a known power of a letter by its form; the result is multiplied by this form until no negative
-        power of it is left."""
+        """Replace a known power of a letter by its form. The result is multiplied by this form until no negative power
+        of the form is left."""
         by_power: dict[int, Terms] = {}
         for monomial, coefficient in form.terms.items():
             whole = self._power_in(monomial, place) // order
@@ -300,7 +301,7 @@ class TrigRing(Ring):
         return found
 
     def _power_in(self, monomial: int, place: int) -> int:
-        """The power of the letter at that place; half of the range is added first, so that no power is negative."""
+        """The power of the letter at this place; half of the range is added first, so that no power is negative."""
         return (((monomial + self._half_of_all()) >> place) & ONES) - HALF
 
     def _half_of_all(self) -> int:

@@ -19,11 +19,11 @@ from derive.errors import Complaint, Unverified
 from derive.steps.rule import Rule
 from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Level, Quantity, Route
 
-BY_MOTION = "by the equations of motion"  # the end of a claim that holds only for motions that obey these equations
+BY_MOTION = "by the equations of motion"  # ends a claim that holds only for motions that satisfy these equations
 
 
 def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
-    """Leave out a form with the same expression as the form before it, and keep the lower level of the two.
+    """Merge each form with the form before it if their expressions are the same; the lower level is kept.
 
     Also leave out a form that is only the symbol of the step, unless there is no other form. Rounded forms are kept.
     """
@@ -38,7 +38,7 @@ def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
 
 
 def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
-    """Return the values of the names in a formula; the name of a vector adds those of its components."""
+    """Return the values of the symbols of these quantities, and the values of the components of each vector."""
     values: dict[Any, Any] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -68,7 +68,7 @@ def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any
 def check_last_line(
     key: str, chain: Sequence[Form], result: Any, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
 ) -> None:
-    """Check that the last line that is neither a number nor a truncated series equals the result."""
+    """Check that the result equals the last line, apart from lines with rounded numbers or a truncated series."""
     last = next(
         form for form in reversed(chain) if form.because not in NUMBERS and not isinstance(form.expr, Truncated)
     )
@@ -117,8 +117,8 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Check the sign after a line with an expansion. An equals sign requires that the next line equals the whole
-    expression, and a limit must not contain the symbol that goes to it."""
+    """Check the sign between a line with an expansion and the next line. An equals sign requires that the next line
+    equals the whole expression. A limit must not contain the symbol that goes to its limit."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return
@@ -130,8 +130,8 @@ def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
 
 
 def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
-    """Check a truncated series: at its point of expansion it has the value of the whole expression and its derivatives
-    up to the order, and it has no term beyond that order."""
+    """Check a truncated series. At the point of expansion, the series and its derivatives up to the order must have the
+    values of the whole expression and its derivatives. The series must have no term beyond that order."""
     polynomial, x, place, order = series.args
     if not vanishes(diff(explicit(polynomial), x, int(order) + 1)):
         raise Unverified(Complaint("unverified", f"`{key}`: the series has terms beyond order {order} in {x}"))
@@ -143,7 +143,7 @@ def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
 
 
 def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Evidence:
-    """Check that a rounded value differs by at most half a unit of its last place."""
+    """Check that a rounded value differs from the exact value by at most half a unit of its last digit."""
     from derive.algebra.rounding import off_by_more_than_half_a_unit
 
     offender = off_by_more_than_half_a_unit(exact, rounded)
@@ -155,9 +155,10 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """Return what the result approximates, whether its symbol only approximates its first line, and the evidence. A
-    truncated result needs another symbol than the whole expression. A result with the symbol of a truncated result
-    approximates the same whole. Every other result derived from a truncated one is approximate too.
+    """Return the symbol that the result approximates, whether the symbol of the result only approximates its first
+    line, and the evidence. The symbol of a truncated result must differ from that of the whole expression. A result
+    with the symbol of a truncated result approximates the same whole. Every other result derived from a truncated one
+    is approximate too.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
@@ -175,7 +176,7 @@ def approximation_evidence(
 def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
-    """Return the evidence of a route or a check, which returns two values to compare or a numerical verdict."""
+    """Return the evidence of a route or a check; `found` is two values to compare, or a numerical verdict."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

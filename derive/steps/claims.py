@@ -1,4 +1,4 @@
-"""Predicates of outcomes for the rules of every topic: whether the result vanishes, whether it has a sign."""
+"""Predicates of outcomes for the rules of every topic, such as whether the result vanishes or has a certain sign."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Asked = ParamSpec("Asked")
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
-    """Decide the condition numerically, with the numbers substituted, in 30 digits."""
+    """Judge the condition numerically, with 30 digits; the numbers are already substituted."""
     truths = {
         "=": lambda d: d == 0,
         "<": lambda d: d < 0,
@@ -57,12 +57,12 @@ def value_of_role(facts: Judged, role: str) -> Any:
 
 
 def as_told(predicate: Callable[[Judged, str], bool]) -> Naming:
-    """Judge a named role by the predicate of the whole sentence."""
+    """Use a predicate of the whole sentence to judge an object that the sentence names."""
     return lambda facts, _: predicate(facts, "")
 
 
 def parallel(one: Mapping[Any, Expr], other: Mapping[Any, Expr]) -> bool:
-    """Whether two rows of numbers are proportional, and the second is not zero."""
+    """Whether the first row of values is a multiple of the second row, and the second row is not zero."""
     first = next((k for k, value in other.items() if not is_zero(value)), None)
     return first is not None and all(is_zero(one[k] * other[first] - one[first] * other[k]) for k in other)
 
@@ -78,7 +78,7 @@ MARK_OF = {  # name of a comparison -> its sign
 
 
 def both(*predicates: Callable[Asked, bool | Doubt]) -> Callable[Asked, bool]:
-    """Join predicates of outcomes, or of statements, that must all be true."""
+    """Return a predicate that is true if all these predicates are true."""
     return lambda *judged, **more: all(predicate(*judged, **more) for predicate in predicates)
 
 
@@ -87,7 +87,7 @@ def negated(predicate: Predicate) -> Predicate:
 
 
 def vanishing(role: str) -> Predicate:
-    """Judge whether an input is zero."""
+    """Judge whether the input with this role is zero."""
     return lambda facts: is_zero(facts.inputs[role])
 
 
@@ -100,12 +100,13 @@ def lasts(facts: Judged) -> bool:
 
 
 def never_vanishes(v: Any) -> bool:
-    """Whether some component is a product of factors that cannot vanish."""
+    """Whether some component of a vector cannot vanish, for any values of the symbols."""
     return any(bool(tidied(entry).is_nonzero) for entry in v)
 
 
 def same_equation(value: Expr, other: Expr) -> bool:
-    """Whether the two vanish at the same places: they differ by a factor that has one sign."""
+    """Whether two expressions vanish at the same values of the symbols, since their ratio is always positive or always
+    negative."""
     return is_zero(value) if is_zero(other) else sign_found(tidied(value / other)) in (1, -1)
 
 
@@ -114,12 +115,12 @@ def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: fac
 
 
 def has_sign(value: Expr, wanted: int | None) -> bool:
-    """Whether a value has this sign at the trial numbers; for None, whether verbs cannot decide its sign."""
+    """Whether a value has this sign at all trial numbers; if no sign is given, whether verbs cannot decide the sign."""
     return sign_known(value) is None if wanted is None else sign_found(value) == wanted
 
 
 def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
-    """Judge the sign by the letters and their ranges only, whatever numbers they have."""
+    """Judge the sign by the assumptions on the symbols and by their ranges, without the given numbers."""
 
     def is_so(facts: Judged) -> bool:
         value = tidied(of(facts))
@@ -130,13 +131,13 @@ def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts:
 
 
 def _sign_in_ranges(value: Expr) -> int | None:
-    """Return the sign that follows from the ranges of the letters, if it is confirmed at trial numbers."""
+    """Return the sign that follows from the ranges of the symbols, if trial numbers confirm this sign."""
     sign = strict_sign_within(value)
     return sign if sign is not None and signs_of(value) == {sign} else None
 
 
 def sign_where_it_exists(wanted: int, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
-    """Judge the sign at the given numbers, or at any numbers for which the equilibrium exists."""
+    """Judge the sign at all trial numbers for which the equilibrium exists; given numbers are substituted."""
 
     def is_so(facts: Judged) -> bool:
         conditions = [with_numbers(facts.inputs["exists"])] if "exists" in facts.inputs else []
@@ -150,8 +151,8 @@ def letters_in(value: Any) -> set[Any]:
 
 
 def is_a_root_just_where_told(facts: Judged) -> bool:
-    """Whether the root is numerically real, and positive where required, exactly where the condition holds.
-    Letters with a given number keep it: the number may decide what the condition leaves open.
+    """Whether the root is real, and positive if this is required, at exactly those trial numbers for which the stated
+    condition holds. Symbols with a given number keep this number.
     """
     value = with_numbers(facts.result)
     told, given = ([with_numbers(facts.inputs[r])] if r in facts.inputs else [] for r in ("condition", "existing"))
@@ -160,15 +161,16 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
 
 
 def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence excludes every factor of the denominator that might vanish; the first of several solutions
-    does it for all."""
+    """Whether the sentence excludes zeros of the denominator if a factor of the denominator might vanish. Of several
+    solutions, only the first one needs to exclude them."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
     unsure = [f for f in Mul.make_args(factor(below)) if sign_found(f) is None and not f.as_base_exp()[0].is_nonzero]
     return not unsure or outcome == "following" or "excluded" in facts.inputs
 
 
 def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
-    """Whether the stated number is that of the letter, and fulfils the condition as the sentence says; in decimals."""
+    """Whether the stated number is the number of the symbol, and satisfies the condition or not, as the sentence says.
+    The numbers are compared in decimals."""
     condition = facts.inputs.get("condition")
     if condition is None:
         return "seen" not in facts.words
@@ -181,13 +183,13 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
 
 
 def not_negative(facts: Judged, outcome: str) -> bool:
-    """Whether a period, a frequency or an amplitude is not negative; where its sign depends on the letters, the page
-    states the condition."""
+    """Whether a period, a frequency or an amplitude is not always negative. If its sign depends on the values of the
+    symbols, the page states the condition."""
     return sign_found(facts.result) != -1
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:
-    """Whether a period or a radius is not negative for any numbers; its sign must not depend on the letters."""
+    """Whether a period or a radius is never negative; its sign must not depend on the values of the symbols."""
     return not_negative(facts, outcome) and nowhere_negative_where_real(facts)
 
 

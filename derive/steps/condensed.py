@@ -1,7 +1,6 @@
-"""The lines of a step with the values of some names substituted, if a page does not show the steps of these names.
+"""The lines of a step with values substituted for those names whose own steps a page does not show.
 
-Each new line is compared with the old line, with the values that `establish` stored in the step. So each new line is
-checked like any other.
+Each new line is compared with the old line. The comparison uses the values that `establish` stored in the step.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from derive.steps.step import NUMBERS, Form, Step
 
 
 def condensed(step: Step, known: Mapping[Any, Any]) -> Step:
-    """Return the step with these names replaced in its lines, and the evidence that each line equals the old one."""
+    """Replace these names in the lines of a step, and add evidence that each new line equals the old line."""
     if not known:
         return step
     written = [_put_in(form, known) for form in step.chain]
@@ -29,8 +28,8 @@ def condensed(step: Step, known: Mapping[Any, Any]) -> Step:
 
 
 def _put_in(form: Form, known: Mapping[Any, Any]) -> Form:
-    """Substitute the known values in a line, unless it is a number or a truncated series. A series keeps its symbols
-    because its order refers to them."""
+    """Substitute the known values in a line, unless the line is a number or a truncated series. A series keeps its
+    symbols because its order refers to them."""
     if form.because in NUMBERS or isinstance(form.expr, Truncated):
         return form
     return replace(form, expr=bound(form.expr, known))

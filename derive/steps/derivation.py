@@ -1,6 +1,6 @@
 """The steps on which the answers of each part depend, and a derivation written as JSON and read again.
 
-A part shows the steps on which its answers depend, depth first, except those that an earlier part has shown.
+A part shows the steps on which its answers depend, depth first, except steps that an earlier part has shown.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ W = TypeVar("W", bound=str)
 
 @dataclass(frozen=True)
 class Derivation:
-    """Every step on which the answers depend, in the order of the page, their division into parts, and the assumptions.
+    """Every step on which the answers depend, in the order of the page; the division of the steps into parts; and the
+    assumptions.
 
     `groups` are names that ask for several steps, with the keys of these steps.
     """
@@ -42,7 +43,7 @@ class Derivation:
         return next(step for step in self.steps if step.key == key)
 
     def answering(self, asked: Iterable[str]) -> tuple[Step, ...]:
-        """Return the steps with the requested keys, or the steps that replace them, each once."""
+        """Return the steps with the requested keys, or the steps that replace them; no step appears twice."""
         return tuple(self.step(key) for key in answering(asked, self.steps, dict(self.groups)))
 
     def warnings(self, place: Place) -> tuple[Complaint, ...]:
@@ -64,8 +65,8 @@ class Derivation:
 
 
 def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity]:
-    """Return the quantities that a script returned, as one list; reject all but quantities in tuples, lists and
-    mappings.
+    """Return the quantities that a script returned, as one list. Only quantities, and tuples, lists and mappings of
+    quantities, are accepted.
 
     `place` is the line of the script that returns them.
     """
@@ -87,14 +88,14 @@ def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity
 
 
 def returned_groups(value: Any, place: Place | None = None) -> dict[str, tuple[str, ...]]:
-    """Return name -> keys of the steps that a script returned under that name, in a mapping."""
+    """Return name -> keys of steps, if a script returned a mapping of names to quantities."""
     if not isinstance(value, dict):
         return {}
     return {str(name): tuple(q.key for q in returned_quantities(each, place)) for name, each in value.items()}
 
 
 def _is_whole(value: Any) -> bool:
-    """Whether the value is a quantity with a step, as `establish` makes it."""
+    """Whether the value is a quantity with a step, as `establish` returns it."""
     return isinstance(value, Quantity) and isinstance(getattr(value, "step", None), Step)
 
 
@@ -109,8 +110,8 @@ def _named(value: Any) -> str:
 
 
 def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -> dict[str, Quantity]:
-    """Return these quantities and all quantities on which they depend, by key, parents first. Reject two different
-    steps with the same key."""
+    """Return key -> quantity for these quantities and all quantities on which they depend, parents first. Reject two
+    distinct steps with the same key."""
     found: dict[str, Quantity] = {}
 
     def visit(quantity: Quantity) -> None:
@@ -138,8 +139,8 @@ def standing_in(steps: Iterable[Step]) -> dict[str, str]:
 def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
     """Return key -> requested name, for each step that answers the request.
 
-    A name asks for the group with this name, unless it is the key of a step outside of that group. So the key of one of
-    two conditions asks for both: one alone would claim too much.
+    A name asks for the group with this name, unless the name is the key of a step outside the group. So the key of one
+    of two conditions asks for both conditions, since one condition alone would claim too much.
     """
     steps = list(steps)
     own, instead = {step.key for step in steps}, standing_in(steps)
@@ -161,7 +162,7 @@ def derivation_of(
 ) -> Derivation:
     """Divide the steps among the parts; `answers` are the keys that each part asks for.
 
-    closing   the quantities of each limiting case; steps that only they depend on are in no part
+    closing   the quantities of each limiting case; steps on which only limiting cases depend are in no part
     """
     shown: dict[str, Step] = {}
     parts = []

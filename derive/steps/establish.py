@@ -2,13 +2,13 @@
 
 A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes one, and only if
 
-    (a) each line of the chain equals the line before it, the first line equals the left side if that is an expression,
-        and the last line equals the returned value;
+    (a) each line of the chain equals the line before it, the first line equals the left side if the left side is an
+        expression, and the last line equals the returned value;
     (b) every second route to the result, and every check of it, agrees with the result;
     (c) the subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
 
-A verb states its law once, as a function. `establish` calls it with the *names* of its inputs, which gives the
-formula, and with their *values*, which gives the substitution; the simplified value of the latter is the result.
+A verb states its law once, as a function. `establish` calls the law with the *names* of its inputs, which gives the
+formula, and with their *values*, which gives the substitution. The simplified substitution is the result.
 """
 
 from __future__ import annotations
@@ -52,13 +52,14 @@ from derive.steps.symbols import check_symbol
 class Lines:
     """How the law becomes the lines of a chain, and how the result is written.
 
-    before    forms before the law; `between`: between the law and the result; `after`: after the result
+    before    forms before the law; `between`: forms between the law and the result; `after`: forms after the result
     law       the level from which the law is shown
     put_in    the level from which the law with substituted values is shown; None leaves it out
     result    whether the result has a separate line
     arranged  a function that rewrites the result without changing its value
-    motion    rate -> its value by the equations of motion; the last line uses it and holds for such motions only
-    means     values of names on the left side, if that is an expression with names that do not occur in the law
+    motion    rate -> its value by the equations of motion; the last line uses these values, so it is valid only for
+              motions that satisfy the equations
+    means     values of names on the left side, if the left side is an expression whose names do not occur in the law
     """
 
     before: Sequence[Form] = ()
@@ -86,10 +87,10 @@ class PhraseData:
 
     words       name -> key of a term that phrases put into words ("about": "corner")
     formulas    role -> a formula that only the sentence has, with the same formula by another route
-    named       role -> a letter or a place that only the sentence names: a predicate judges it, not a second route
-    points_to   role -> a parent that the sentence names, by its letter or its number
+    named       role -> a symbol or a place that only the sentence names; a predicate judges it, not a second route
+    points_to   role -> a parent that the sentence names, by its symbol or its number
     outcome_data   further data for judging the outcome, in addition to the result and the inputs
-    stands_for  keys that answers may ask for, although in this case only this step exists
+    stands_for  other keys that answers may ask for; in this case the step takes the place of their steps
     """
 
     words: Mapping[str, str] = field(default_factory=dict)
@@ -101,7 +102,7 @@ class PhraseData:
 
     @property
     def told(self) -> dict[str, Any]:
-        """Return role -> the formula, the letter or the place that only the sentence has."""
+        """Return role -> the formula, the symbol or the place that only the sentence has."""
         return {**{role: formula for role, (formula, _) in self.formulas.items()}, **self.named}
 
 
@@ -112,8 +113,8 @@ class Scope:
     about        the subject in addition to that of the inputs, or a function that returns it for the result
     differ       the properties in which the subjects of the inputs may differ
     coordinates  coordinates that the step introduces, with their kinds
-    case_of      the general quantity with the same symbol, of which the result is a particular case
-    approximates the symbol of the whole that a limit or a series approximates, or the key of an equation
+    case_of      the general quantity with the same symbol; the result is a particular case of this quantity
+    approximates the symbol of the whole result that a limit or a series approximates, or the key of the whole equation
     """
 
     about: Subject | Callable[[Any], Subject] = NOTHING
@@ -123,7 +124,7 @@ class Scope:
     approximates: Any = None
 
     def around(self, together: Subject, result: Any) -> Subject:
-        """Return the common subject of the inputs, extended by the subject in `about`."""
+        """Return the subject that the inputs have in common, with the properties of the subject in `about` added."""
         return together.with_more(self.about(result) if callable(self.about) else self.about)
 
 
@@ -149,11 +150,11 @@ def establish(
     symbol      the symbol of the result on the page
     law         a function of the inputs, in their order; it is called with names and with values
     inputs      role -> Quantity, or plain SymPy value
-    routes      claim of the rule -> function of the result, which returns two values that must be equal
-    outcome     a word that selects the phrase, or a function of the result that returns one
-    parents     other quantities on which the result depends, in addition to its inputs
+    routes      claim of the rule -> function of the result; it returns two values that must be equal, or a verdict
+    outcome     a word that selects the phrase, or a function of the result that returns such a word
+    parents     quantities on which the result depends, in addition to its inputs
     facts       facts that the quantity carries in addition to its value
-    Raises `Unverified`, which names the step, if a line or a route disagrees.
+    Raises `Unverified`, which names the step, if a line, a route or a statement of the sentence disagrees.
     """
     key = key or rule.key
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
@@ -175,7 +176,7 @@ def establish(
     check_can_hold(key, result)
     _check_has_value(key, result)
     chain = lines.chain(symbol, formula, substituted, result)
-    # Names on the left side with values in `means`, as x_dot in x_dot^2; a parent's value of x_dot^2 is not used then.
+    # Names on the left side with values in `means`, such as x_dot in x_dot^2: a parent's value of x_dot^2 is not used.
     told = lines.means.keys() & getattr(symbol, "free_symbols", set())
     others = {name: value for name, value in bindings.items() if name != symbol or not told}
     evidence = left_side_evidence(key, symbol, chain[0], {**others, **lines.means})
@@ -226,7 +227,7 @@ def establish(
 
 
 def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
-    """Add the evidence of the described system, if the quantity belongs to one system and a test exists."""
+    """Add evidence from the motion of the described system, if the quantity belongs to one system and a test exists."""
     found = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
     by_kind = {kind: [fact for fact in found if type(fact) is kind] for kind in {type(fact) for fact in found}}
     if any(len(facts) > 1 for facts in by_kind.values()):
@@ -246,19 +247,19 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
 
 
 def _told_centre(words: Mapping[str, str], body: Any) -> Mapping[str, str]:
-    """Call the point the centre of mass in full, if the body has another point that may be called its centre."""
+    """Write "centre of mass" in full if the body has another point that may be called its centre."""
     is_unclear = words.get("about") == "centre" and bool(getattr(body, "other_centre", ""))
     return {**words, "about": "centre_of_mass"} if is_unclear else words
 
 
 def _place_of_verb(frame: FrameType) -> str:
-    """Return the place in the code where a verb states its law; empty for a verb outside `derive`."""
+    """Return the file and line where a verb states its law; an empty text for a verb outside `derive`."""
     module = str(frame.f_globals["__name__"])
     return f"{module.replace('.', '/')}.py:{frame.f_lineno}" if module.partition(".")[0] == "derive" else ""
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
-    """Compare each formula of the sentence with its second route, in the same way as lines."""
+    """Check that each formula of the sentence equals the same formula by another route."""
     for role, (formula, otherwise) in told.items():
         verdict = equal(formula, otherwise)
         if not verdict:
@@ -269,14 +270,14 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
 
 
 def _check_words(key: str, words: Mapping[str, str]) -> None:
-    """Check that no term of the sentence is empty: a missing term must be left out."""
+    """Check that no term of the sentence is an empty text."""
     empty = next((term for term, word in words.items() if not word), None)
     if empty is not None:
         raise Unverified(Complaint("unverified", f"`{key}`: its sentence has an empty word for `{empty}`"))
 
 
 def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:
-    """Check that a sentence that names several steps by their numbers does not name one of them twice."""
+    """Check that a sentence that points to several steps does not name one step in two roles."""
     if len({id(quantity) for quantity in pointed.values()}) < len(pointed):
         message = f"`{key}`: its sentence names one step as {' and as '.join(pointed)}"
         raise Unverified(Complaint("unverified", message))
@@ -292,8 +293,8 @@ def _called(value: Any) -> Any:
 def _check_outcome(key: str, rule: Rule, outcome: str, facts: Judged, may_be_zero: bool) -> None:
     """Check that the word that chooses the sentence is true of the result.
 
-    For every rule, the outcome "zero" requires a result that vanishes. If a function chose the outcome, a result that
-    vanishes must not be `generic`.
+    For every rule, the outcome "zero" requires that the result vanishes. If a function chose the outcome, a result that
+    vanishes must not have the outcome "generic".
     """
     vanishing = is_zero(facts.result)
     if outcome == ZERO and not vanishing:
@@ -319,7 +320,7 @@ def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) 
 
 
 def _check_handed_on(key: str, facts: Judged, handed_on: Sequence[Fact]) -> None:
-    """Check that the facts that later steps take from this one agree with its value."""
+    """Check that the facts that later steps take from this step agree with its value."""
     wrong = wrongly_handed_on(facts, handed_on)
     if wrong is not None:
         message = f"`{key}`: later steps take {type(wrong).__name__} from it, which does not fit its result"
@@ -327,7 +328,7 @@ def _check_handed_on(key: str, facts: Judged, handed_on: Sequence[Fact]) -> None
 
 
 def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
-    """Reject two different inputs with the same name in one formula."""
+    """Reject two distinct inputs with the same name in one formula."""
     named: dict[Any, Quantity] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -366,7 +367,7 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
 
 
 def check_can_hold(key: str, result: Any) -> None:
-    """Reject a relation that can never hold: no value is less than, greater than or different from itself."""
+    """Reject a relation that can never hold, such as a value that is less than itself."""
     if isinstance(result, Relation) and result.operator in {"<", ">", "!="} and result.left == result.right:
         raise Unverified(Complaint("unverified", f"`{key}` can never hold: {short(result)}"))
 

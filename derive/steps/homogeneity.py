@@ -1,7 +1,8 @@
 """The dimension of an expression, and the check that every line of a derivation is homogeneous.
 
-Only the declared symbols need a dimension. The symbol of a step gets the dimension of its result, and a variable of
-integration that of its limits. Zero and numbers with units have the dimension `None`, which fits any other.
+Only the declared symbols need a dimension. The symbol of a step gets the dimension of the result. A variable of
+integration gets the dimension of the limits. Zero and numbers with units have the dimension `None`, which fits any
+other dimension.
 """
 
 from __future__ import annotations
@@ -41,7 +42,8 @@ Table = dict[Any, Dimension | None]
 
 
 def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension | None:
-    """Return the dimension of an expression; raise `Inhomogeneous` with the wrong term, KeyError for unknown names."""
+    """Return the dimension of an expression. Raise `Inhomogeneous`, which names the wrong term, or KeyError for a name
+    without a known dimension."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)
@@ -75,8 +77,8 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
 
 
 def _number_of(exponent: Any) -> Fraction:
-    """Return an exponent as a number. Fixed numbers replace its symbols: a line that is homogeneous for these is
-    homogeneous for all."""
+    """Return an exponent as a number. Fixed numbers replace the symbols of the exponent: a line that is homogeneous for
+    these numbers is taken to be homogeneous for all."""
     some = {s: Rational(101 + crc32(s.name.encode()) % 97, 89) for s in exponent.free_symbols}
     value = ex.explicit(exponent.xreplace(some))
     if not isinstance(value, Rational):
@@ -95,10 +97,10 @@ def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:
 def dimension_table(
     declared: Mapping[Any, Dimension | None], steps: Iterable[Step], script: Place | None = None
 ) -> tuple[Table, list[Complaint]]:
-    """Return the dimension of every name, step by step, and an error for each step that is not homogeneous.
+    """Return the dimension of every name, and an error for each step that is not homogeneous.
 
-    A symbol of the `script` that is neither given nor a coordinate is rejected: its meaning is unknown, and so is
-    whether it depends on time.
+    A symbol that is neither given nor a coordinate is rejected: its meaning is unknown, and it is unknown whether it
+    depends on time. `script` is the place that the error names.
     """
     table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
     complaints: list[Complaint] = []
@@ -123,7 +125,8 @@ def dimension_table(
 
 
 def _moving_names(step: Step) -> Table:
-    """Return the coordinates that a step introduces, and their rates; constraint forces may have no kind."""
+    """Return the dimensions of the coordinates that a step introduces, and of their rates. The dimension is None for a
+    name without a kind, such as a constraint force."""
     time = dimension_of_kind("time")
     return {
         (ex.rate(q, n) if n else q): dimension_of_kind(kind) / time**n if kind else None
@@ -133,7 +136,8 @@ def _moving_names(step: Step) -> Table:
 
 
 def _opened_names(step: Step, table: Table) -> Table:
-    """Return the dimensions of names that a definition introduces, such as components of any angular velocity."""
+    """Return the dimensions of names that a definition introduces, such as the components of a general angular
+    velocity."""
     if step.kind is None or all(e.grade is not Grade.DEFINITION for e in step.evidence):
         return {}
     free: set[Basic] = set().union(*(_free(form.expr) for form in step.chain))

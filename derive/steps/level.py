@@ -13,13 +13,13 @@ class Manner(StrEnum):
 
     OWN = "own"  # with its sentence and its lines
     TOLD = "told"  # in a clause after the first lines that contain its symbol: "where rho = M/V"
-    TAKEN_IN = "taken_in"  # within the step that uses it, whose lines have its value in place of its symbol
+    TAKEN_IN = "taken_in"  # within the step that uses it: the lines of that step have its value in place of its symbol
     LEFT_OUT = "left_out"
     POINTED_OUT = "pointed_out"  # with its sentence, which points to earlier lines that contain its result
 
 
 class Level(StrEnum):
-    """How much algebra a page shows; a form is shown at its level and at every higher one."""
+    """How much algebra a page shows. A form is shown at its own level and at every higher level."""
 
     BRIEF = "brief"
     STANDARD = "standard"
@@ -32,19 +32,20 @@ class Level(StrEnum):
 
 @dataclass(frozen=True)
 class Display:
-    """The manner in which a page shows a step below the level `full`, as its rule specifies.
+    """The manner in which a page shows a step below the level `full`, as the rule of the step specifies.
 
     brief, standard   the manner at these levels
-    told_along        whether the sentence of the step before may state the result too
+    told_along        whether the sentence of the step before may also state the result of this step
     first_only        whether only the first of several such steps is shown
-    result_again      up to this level, a step after one of the same form shows only its result
-    each_worked_out   whether the step is written out even if another one of the same form came before
+    result_again      up to this level, a step after a step of the same form shows only its result
+    each_worked_out   whether the step is written out even after a step of the same form
     unless_long       whether the step is left out if its result is long
     abbreviates       whether the symbol of the step replaces its formula in later steps
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
                       needs no left side
     repeats           the key of the equation that the step repeats, if any
-    result_in         rules of the inputs whose lines may have the result: below `full`, the sentence points to them
+    result_in         rules of inputs whose lines may already contain the result; below the level `full`, the sentence
+                      points to these lines
     """
 
     brief: Manner = Manner.OWN
@@ -71,12 +72,13 @@ class Display:
 class Shown:
     """How a page shows the steps of a rule; by default each step appears with its sentence and its lines.
 
-    outcomes      outcome -> the manner at `brief` and at `standard`, where these differ from those of the rule
-    told_along    outcomes in which the sentence of the step before may state the result too
-    condition_if  a predicate of the step; if it is true, its sentence has a condition, which no other sentence states
+    outcomes      outcome -> the manner at `brief` and at `standard`, for outcomes that differ from the rule
+    told_along    outcomes for which the sentence of the step before may also state the result of this step
+    condition_if  a predicate of the step; if it is true, the sentence of the step states a condition that is stated
+                  nowhere else
     taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
     repeats       a function of the step that returns the key of the equation that it repeats, or ""
-    result_in     outcome -> rules of the inputs whose lines may have the result
+    result_in     outcome -> rules of inputs whose lines may already contain the result
     The other fields are those of `Display`.
     """
 

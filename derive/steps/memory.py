@@ -1,9 +1,9 @@
 """Reuse the results of earlier calls of verbs, with everything that these calls added to the record.
 
 A call is recalled if three things are the same: its arguments; the coordinates, assumptions and ranges that are known
-before it; and the answers of the record to its questions. Arguments are identified by digests of their content, so a
-call is recalled even if its arguments were derived again. A call with an argument that has no description, such as a
-function of a script, is always made.
+before the call; and the answers to the questions that the call asks the record. Arguments are identified by digests of
+their content, so a call is recalled even if its arguments were derived again. A call with an argument that cannot be
+described, such as a function of a script, is always made.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """A call: the digest of its arguments and of the assumptions, the names of the objects in these, and the steps in
-    cached properties of these objects."""
+    """A call: the digest of its arguments and of the state of the run, the names of the objects in these, and those
+    cached properties of these objects that contain steps."""
 
     key: str
     objects: list[str]
@@ -62,25 +62,25 @@ class Memory:
     made: set[str] = field(default_factory=set)
 
     def of_another_run(self) -> Memory:
-        """Return a memory with the same calls, and its own objects."""
+        """Return a new memory with the same store of calls and no objects yet."""
         return Memory(self.store)
 
     def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
-        """Return the result of a call, recalled or made now; a call within another call is a part of the outer one."""
+        """Return the result of a call, recalled or made now. A call within another call is not stored separately."""
         if run.call is not None:
             return make()
         run.call = Call(len(run.established))
         try:
             return self._result(verb, given, run, make)
         except OutOfTime as late:
-            late.finished = finished_steps(run)  # except the steps of this call, which are not stored
+            late.finished = finished_steps(run)  # without the steps of this call, which are not stored
             raise
         finally:
             run.call = None
 
     def _result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
         asked = self._asked(verb, given, run)
-        if asked is None or asked.key in self.made:  # two equal calls make two objects
+        if asked is None or asked.key in self.made:  # a second equal call makes its own objects
             return make()
         self.made.add(asked.key)
         left = self._recalled(asked.key)
@@ -119,7 +119,8 @@ class Memory:
         return "\n".join([*lines, json.dumps([data, data_found])])
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
-        """Read what a call added to the record; None if that is not stored or if a question has another answer now."""
+        """Read the additions of a call to the record. Return None if they are not stored, or if a question now has a
+        different answer."""
         kept = self.store.get(key)
         if kept is None:
             return None

@@ -56,15 +56,15 @@ from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Form, Level, Quantity
 
-DIGITS = 20  # to which an exact value and the one evaluated again agree
+DIGITS = 20  # digits to which an exact value and the second evaluation agree
 HALF = Rational(1, 2)
-FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}  # marks of fulfilled conditions
-SHORT = 9  # numbers; a formula with more of them is not written out again
+FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}  # operator -> true comparisons
+SHORT = 9  # a formula with more numbers is not written out again
 
 
 @dataclass(frozen=True)
 class Extreme(Fact):
-    """The value of a function where its slope vanishes; its second derivative there decides: minimum or maximum."""
+    """The second derivative of a function where its slope vanishes; its sign distinguishes minimum and maximum."""
 
     missing = "is not the value of a function where its slope vanishes"
     curvature: Expr
@@ -110,14 +110,14 @@ def value_of(
 
     answer    any quantity; if it is a relation with one letter on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
-    unit      as text; `factor` is one such unit in the SI
+    unit      the name of the unit; `factor` is this unit in the SI
     more      other units for the same value, each with its factor
-    case      the name of the case with these numbers, if there are several
+    case      the name of the case with these numbers, if there are several cases
     Check: the expression, evaluated again from the numbers of its letters, with enough digits against cancellation.
-    For a condition on a letter with a given number, the step states whether this number fulfils it. The number of a
-    period with a series is that of the integral; a result derived from the series has a number only if the series is
-    accurate enough.
-    Outcomes: measured (numbers were substituted), exact; minimum or maximum, for a function's value at zero slope.
+    For a condition on a letter with a given number, the step states whether this number satisfies the condition. A
+    period that is known as a series gets its number from the integral. A result derived from the series has a number
+    only if the series is accurate enough.
+    Outcomes: measured (numbers were substituted), exact; minimum or maximum, for the value of a function at zero slope.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
     value, within = _valued(answer.value)
@@ -188,9 +188,9 @@ def _period_of(
     more: Sequence[tuple[str, Expr]],
     case: str,
 ) -> Quantity:
-    """The number of a period by the integral, since the series is accurate for small amplitudes only.
+    """The number of a period from the integral, since the series is accurate for small amplitudes only.
 
-    Check: the integral by Gauss-Legendre quadrature, which shares nothing with the mean of equidistant values.
+    Check: the integral by Gauss-Legendre quadrature, a method independent of the mean of equidistant values.
     """
     whole = series.needed(WholeSwing)
     time = _with_numbers(series, amounts)
@@ -249,7 +249,7 @@ def _quarter_by_gauss(time: SwingTime, amounts: Mapping[Symbol, Amount]) -> Expr
 
 
 def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: int) -> None:
-    """Reject so many figures for a result derived from a series that is less accurate."""
+    """Reject a result derived from a series that is not accurate to the requested number of figures."""
     waiting, seen = list(answer.parents if answer.step.about else ()), set[int]()
     while waiting:
         quantity = waiting.pop()
@@ -272,7 +272,8 @@ def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: i
 def _given_beside(
     condition: Quantity, amounts: Mapping[Symbol, Amount], unit: tuple[str, Expr], figures: int
 ) -> PhraseData:
-    """Return the number of the letter of a condition, and whether it fulfils it: S > 23.55 rad/s, and S = 900 rpm."""
+    """For a condition on a symbol with a given number, return this number and whether it satisfies the condition: for
+    S > 23.55 rad/s, S = 900 rpm."""
     relation = condition.value
     if (
         not isinstance(relation, Relation)
@@ -297,7 +298,7 @@ def _given_beside(
 
 
 def _bent(answer: Quantity, amounts: Mapping[Symbol, Amount]) -> dict[str, Expr]:
-    """Return the second derivative of an extreme value, with the numbers."""
+    """Return the second derivative at an extremum with the numbers substituted; empty for any other result."""
     known = answer.fact(Extreme)
     return {} if known is None else {"curvature": explicit(bound(known.curvature, dict(amounts)))}
 
@@ -309,7 +310,8 @@ def _outcome(curvature: Expr | None, has_letters: bool) -> str:
 
 
 def is_plain(answer: Quantity) -> bool:
-    """Whether its number is clearer unchanged than in decimals: pi/2, the root of an integer, 2 pi before letters."""
+    """Whether the number of an answer is clearer unchanged than in decimals: pi/2, the root of an integer, or 2 pi in
+    front of symbols."""
     value, _ = _valued(answer.value)
     if isinstance(value, MatrixBase):
         return all(_is_plain_number(entry) for entry in value)
@@ -326,7 +328,8 @@ def _as_it_is(value: Any) -> Any:
 
 
 def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
-    """Return the part of a result that gets a number, and the function that puts it back: the right side of R > a/2."""
+    """Return the part of a result that gets a number, such as the right side of R > a/2, and the function that puts the
+    number back into the result."""
     if not isinstance(value, Relation):
         return value, _as_it_is
     if isinstance(value.left, Symbol) and not value.right.has(value.left):
@@ -335,7 +338,8 @@ def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
 
 
 def _under_one_root(value: Expr) -> Expr:
-    """Write sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), to substitute numbers once; 2^(1/4) as sqrt(2) under the root."""
+    """Write sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), so that numbers are substituted under one root. A fourth root of an
+    integer, 2^(1/4), becomes sqrt(2) under this root."""
     roots = [f.as_base_exp() for f in Mul.make_args(value)]
     above = [base ** (2 * power) for base, power in roots if power == HALF or _is_fourth_root(base, power)]
     below = [base for base, power in roots if power == -HALF]
@@ -360,7 +364,7 @@ COMPARISON = Rule(
 
 
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
-    """Whether the numbers fulfil a condition, 20 cm > 2.5 cm; None if letters remain.
+    """Whether the numbers satisfy a condition, such as 20 cm > 2.5 cm; None if letters remain.
 
     condition   an inequality or an equation between given quantities, as `where` and `isotropic_where` yield
     amounts     symbol -> its number with a unit
@@ -401,13 +405,13 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
 
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
-    """Rounded irrational number in front of the letters: sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2.
+    """Irrational number in front of the letters, rounded: sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2.
 
-    answer       a scalar with letters; the result is None if it contains a sum, which has no separate number,
+    answer       a scalar with letters; the result is None if the scalar contains a sum, which has no separate number,
                  or if the number is rational
     figures      significant figures
-    of_vectors   whether it may be a vector of numbers times letters, whose numbers may be rational
-    Check: the result divided by its letters, as for `value_of`.
+    of_vectors   whether the answer may be a vector of numbers times letters; these numbers may be rational
+    Check: the answer divided by its letters, as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
     """
@@ -439,12 +443,12 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
 
 
 def in_radians(amount: Amount) -> Amount:
-    """Return pi/36 rad for 5 degrees; any other amount unchanged."""
+    """Return an amount in degrees in radians, pi/36 rad for 5 degrees; return any other amount unchanged."""
     return Amount(explicit(amount), "rad", Integer(1)) if amount.args[1].name in IN_DEGREES else amount
 
 
 def _only_turning(value: Any) -> set[Symbol]:
-    """Return the letters that occur in sines, cosines and tangents only: there an angle may be in degrees."""
+    """Return the symbols that occur only in sines, cosines and tangents; their numbers may stay in degrees."""
     angles: dict[Expr, Expr] = {f: Dummy() for entry in _entries(value) for f in entry.atoms(sin, cos, tan)}
     left = {letter for entry in _entries(value) for letter in entry.xreplace(angles).free_symbols}
     return _free(value) - left
@@ -470,14 +474,15 @@ def _with_unit(exact: Any, unit: str, factor: Expr, figures: int) -> Any:
 
 
 def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount], exact: Any) -> tuple[Expr, Expr]:
-    """Return the largest relative error of the exact entries, compared with values from the letters' numbers."""
+    """Return the largest relative error of the exact entries, compared with values computed again from the numbers of
+    the symbols."""
     numbers = {letter: explicit(amounts[letter]) for letter in letters}
     errors = [_error(value_at(v, numbers), e) for v, e in zip(_entries(value), _entries(exact), strict=True)]
     return max(errors), Integer(0)
 
 
 def _error(number: Expr, exact: Expr) -> Expr:
-    """Return the relative error of an exact number, 0 if it is in the last digits."""
+    """Return the relative error of an exact number; 0 if the error is only in the last digits."""
     if number == 0:
         return Integer(0) if vanishes(exact) else Integer(1)
     error = abs(exact.evalf(5 * DIGITS) / number - 1)  # SymPy keeps no spare digits for the arguments of functions

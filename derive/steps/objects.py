@@ -1,8 +1,9 @@
-"""Objects of derive written as data and read again: quantities, bodies, systems, and all that they contain.
+"""Objects of derive written as data and read again: quantities, bodies, systems, and everything that they contain.
 
-The name of an object is the digest of its class and its content. Other objects appear in the content by their names. So
-an object that two others share is still one object after reading, and two equal quantities stay two. Cached
-properties, which an object computes on first use, are not part of its content.
+The name of an object is the digest of its class and its content, with a number if a distinct object already has this
+name. An object appears in the content of other objects by its name. So an object that two objects share is still one
+object after reading, and two equal quantities remain two objects. Cached properties, which an object computes on first
+use, are not part of its content.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ VALUES = (Form, Evidence)  # too many and too small to have names
 
 
 class NoDescription(Exception):
-    """An object or a part of it has no description, or a description does not describe an object."""
+    """An object or a part of it cannot be described as data, or data does not describe an object."""
 
 
 class Objects:
@@ -39,7 +40,7 @@ class Objects:
         self._objects: dict[str, Any] = {}
         self._names: dict[int, str] = {}
         self._texts: dict[str, str] = {}
-        self._parts: dict[str, list[str]] = {}  # names of the objects in an object
+        self._parts: dict[str, list[str]] = {}  # name of an object -> names of the objects in it
         self._told: list[str] = []  # names in the description that is being made
         self._expressions: dict[Any, tuple[Any, list[str]]] = {}
         self._letters: dict[Dummy, str] = {}
@@ -47,7 +48,8 @@ class Objects:
         self._met: list[Any] = []  # keeps these objects alive, so that no `id` is used twice
 
     def described(self, value: Any) -> tuple[Any, list[str]]:
-        """Return JSON data in which objects appear by their names, and these names; raise `NoDescription`."""
+        """Return the value as JSON data in which objects appear by their names, and these names. Raise `NoDescription`
+        if the value cannot be described."""
         before, self._told = self._told, []
         try:
             return self._data(value), self._told
@@ -96,7 +98,7 @@ class Objects:
         return data
 
     def _letter(self, letter: Dummy, told: list[str]) -> str:
-        """Return the name of a dummy symbol, which differs from all other symbols, even from one with the same name."""
+        """Return a unique name for a dummy symbol; two dummy symbols that print alike get distinct names."""
         known = self._letters.get(letter)
         if known is None:
             alike = sum(each.name == letter.name for each in self._letters)
@@ -138,7 +140,7 @@ class Objects:
             self._seekers.add(name)
 
     def below(self, names: Iterable[str]) -> dict[str, None]:
-        """Return these objects and dummy symbols with all their parts, parts first."""
+        """Return the names of these objects and dummy symbols and of all their parts, parts first."""
         found: dict[str, None] = {}
         waiting = [(name, False) for name in reversed(list(names))]
         while waiting:
@@ -151,15 +153,15 @@ class Objects:
         return found
 
     def texts(self, names: Iterable[str]) -> list[tuple[str, str]]:
-        """Return the texts from which `enter` makes these objects; raise `NoDescription` for dummy symbols, which
-        cannot be made again."""
+        """Return name and text of these objects; `enter` makes each object from its text. Raise `NoDescription` for
+        dummy symbols, which cannot be made again."""
         for name in names:
             if name not in self._texts:
                 raise NoDescription(f"of {name}, which exists only once")
         return [(name, self._texts[name]) for name in names]
 
     def enter(self, name: str, text: str) -> None:
-        """Add the object with this name and text, unless it is known."""
+        """Make the object with this name from its text, unless an object with this name is known."""
         if name in self._objects:
             return
         place, content = json.loads(text)
@@ -169,7 +171,8 @@ class Objects:
         self._enter(name, value, text, parts)
 
     def read(self, data: Any, told: list[str] | None = None) -> Any:
-        """Return the described value, and add the names of the objects in it to `told`; raise `NoDescription`."""
+        """Return the value that the data describes, and add the names of the objects in it to `told`. Raise
+        `NoDescription` if the data does not describe a value."""
         told = [] if told is None else told
         if isinstance(data, list):
             return tuple(self.read(each, told) for each in data)
@@ -217,7 +220,7 @@ def _class_of(value: Any) -> Any:
 
 
 def _is_its_content(kind: Any) -> bool:
-    """Whether objects of the class are equal if their content is equal."""
+    """Whether the class compares objects by their content, not by identity."""
     return kind.__eq__ is not object.__eq__
 
 

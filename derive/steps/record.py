@@ -1,4 +1,5 @@
-"""The record of one run of a script: the quantities that it has established, and the coordinates that it has named.
+"""The record of one run of a script: the quantities that the script has established, and the coordinates that it has
+named.
 
 A symbol denotes one quantity in a run. An expression with a coordinate, a rate or the time is known to change.
 """
@@ -30,8 +31,8 @@ class Recalling(Protocol):
 class Call:
     """A call of a verb while it runs.
 
-    before   the number of quantities that were established before it
-    asked    its questions to the record: the question, its arguments, the answer
+    before   the number of quantities that were established before the call
+    asked    the questions that the call asked the record: the question, its arguments, the answer
     """
 
     before: int
@@ -42,14 +43,15 @@ class Call:
 class Run:
     """The state of a running script, and its record.
 
-    established   every quantity, in order; `cases`: for each quantity, the general quantity of which it is a case
+    established   every quantity, in order; `cases`: for each quantity, the general quantity that it is a case of, or
+                  None
     coordinates   the coordinates that the script has named, with their kinds
     assumed       assumed conditions on the symbols; `in_words`: those that a step states in words
     drawings      the drawings of the page
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
     letters       letters of the problem for givens, coordinates and forces; results must not use them
-    memory        earlier calls of verbs; `call`: the call that is being made
+    memory        earlier calls of verbs; `call`: the call that is running
     """
 
     established: list[Quantity] = field(default_factory=list)
@@ -89,7 +91,7 @@ current_run: ContextVar[Run | None] = ContextVar("run", default=None)
 
 @contextmanager
 def recorded(run: Run | None = None) -> Iterator[Run]:
-    """Record a run, so that the page can name the steps that it does not show and the assumptions that it makes."""
+    """Record a run, so that the page can name the steps that it does not show and the assumptions of the run."""
     run = run or Run()
     token = current_run.set(run)
     try:
@@ -104,8 +106,8 @@ A = TypeVar("A")
 
 
 def question(answered: Callable[..., A]) -> Callable[..., A]:
-    """Decorate a question to the record: while a verb runs, each question and its answer are noted. If the answer is
-    different in a later run, the verb is called again."""
+    """Decorate a function by which a verb asks the record. While a verb runs, each question and its answer are noted.
+    If the answer differs in a later run, the verb is called again."""
     QUESTIONS[answered.__name__] = answered
 
     @wraps(answered)
@@ -162,7 +164,11 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 
 @question
 def free_letter(name: str, *indices: str) -> str:
-    """Return the letter of a result with its index; another one if the problem has it, alone or with an index."""
+    """Return the symbol for a result; if the problem already uses its letter, return one with another textbook letter.
+
+    name      the usual symbol, with its own index
+    indices   further indices with which the symbol must not be used either
+    """
     run = current_run.get()
     base, _, own = name.partition("_")
     if run is None:
@@ -182,7 +188,7 @@ def given_letters() -> set[str]:
 
 
 def assume(condition: Relation, in_words: bool = False) -> None:
-    """Assume a condition on the symbols. The page states the assumption, or with `in_words` a step does."""
+    """Assume a condition on the symbols. With `in_words` a step states the assumption, otherwise the page does."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
         run.assumed.append(condition)
@@ -231,7 +237,7 @@ def named_coordinates() -> tuple[Symbol, ...]:
 
 
 def coordinates_in(result: Any) -> dict[Symbol, str]:
-    """Return the coordinates of the run that occur in a result, directly or by a rate."""
+    """Return the coordinates of the run that occur in a result, themselves or through a rate."""
     run = current_run.get()
     if run is None or not run.coordinates:
         return {}
@@ -240,7 +246,7 @@ def coordinates_in(result: Any) -> dict[Symbol, str]:
 
 
 def add(quantity: Quantity, case_of: Quantity | None) -> None:
-    """Put a quantity on the record of the run, if there is a run; its symbol must be new, or keep its meaning."""
+    """Check that the symbol of a quantity is new or keeps its meaning, and record the quantity if there is a run."""
     run = current_run.get()
     known = {**quantity.coordinates, **(run.coordinates if run else {})}
     _check_one_meaning(quantity, case_of, known, run.established if run else quantity.parents)
@@ -250,16 +256,17 @@ def add(quantity: Quantity, case_of: Quantity | None) -> None:
 
 
 def _is_the_same(one: Quantity, other: Quantity) -> bool:
-    """Whether the two are one step, or two steps with one value, such as a tensor and its definition."""
+    """Whether two quantities have the same step or the same value, such as a tensor and its definition."""
     return one is other or one.step == other.step or same_value(one.value, other.value)
 
 
 def _check_one_meaning(
     quantity: Quantity, case_of: Quantity | None, coordinates: Iterable[Symbol], others: Iterable[Quantity]
 ) -> None:
-    """Check that a symbol denotes one quantity in a script: another value with the same symbol must be a case of it.
+    """Check that a symbol denotes one quantity in a script: another value with this symbol must be a case of the
+    quantity.
 
-    The value of a coordinate or of its rate in one motion keeps the symbol of that coordinate.
+    A coordinate and its rates may have several values, since each motion has its own.
     """
     symbol = quantity.symbol
     moving = {s for q in coordinates for s in (q, rate(q), rate(q, 2))}
@@ -286,7 +293,7 @@ def _check_one_meaning(
 
 
 def _is_open(quantity: Quantity) -> bool:
-    """Whether a vector has only names as components. Any other vector with its symbol is a case of it."""
+    """Whether the components of a vector are only names. Any other vector with the same symbol is a case of it."""
     symbol, value = quantity.symbol, quantity.value
     return isinstance(symbol, MatrixSymbol) and list(value) == list(component_names(symbol.name))
 

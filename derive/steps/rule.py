@@ -1,8 +1,8 @@
-"""Rules: one record for each law that makes steps, next to the verb that uses it.
+"""Rules: one record for each law that makes steps, in the module of the verb that uses the law.
 
 A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page chooses its sentence by that word. For each
-outcome the rule has a predicate that must be true of the result. Predicates are in the `claims.py` of their folder and
-share no code with the verbs. `establish` evaluates them.
+outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate. Predicates are in
+the `claims.py` of their folder and share no code with the verbs.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Judged:
 
     result      the value of the step
     inputs      role -> value
-    quantities  role -> the quantity with this value, if it is one; also the quantities that the sentence points to
+    quantities  role -> quantity, for inputs that are quantities and for quantities that the sentence points to
     symbol      the symbol of the result on the page
     subject     the subject of the result
     words       the terms of the phrase
@@ -45,7 +45,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Doubt:
-    """The reason why a sentence is not confirmed, in words. A predicate may return a doubt in place of False."""
+    """The reason, in words, why a sentence is not confirmed. A predicate may return a doubt in place of False."""
 
     reason: str
     help: str | None = None
@@ -70,7 +70,7 @@ class Theorem:
 
     formula   its formula
     source    book and section
-    letters   other letters that the phrase names, with their names there
+    letters   further symbols that the phrase names, with their names in the phrase
     prepared  whether it is stated before a step that prepares the steps that use it
     """
 
@@ -87,7 +87,7 @@ class Quote:
 
     outcomes   outcomes that use it; empty for all
     law_in     outcomes in which the theorem is the law of the step, so the step need not write it again
-    between    the required words `between` of the steps that use it; empty if any word will do
+    between    the words `between` of those steps that use the theorem; empty if all steps use it
     """
 
     theorem: Theorem
@@ -109,9 +109,9 @@ class Rule:
     source      book and section
     outcomes    word -> the predicate that must be true of the result for the word to be right
     evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics and would
-                find a wrong law; a check starts from the result or from the same formula and would find a slip. A
+                find a wrong law. A check starts from the result or from the same formula and would find a slip. A
                 rule without evidence is a definition
-    statements  predicates of roles, points and formulas that only the sentence has, for every outcome
+    statements  predicates of the roles, points and formulas that only the sentence has; they apply to every outcome
     named       role -> the predicate of an object that only the sentence names; `value` also judges `value_1`
     shown       how a page shows its steps
     quotes      the theorems that its steps use
@@ -141,7 +141,7 @@ class Rule:
         return not self.evidence
 
     def verdict(self, outcome: str, facts: Judged) -> bool | Doubt:
-        """Whether the rule has this outcome, and the outcome and the other statements of its sentence are true."""
+        """Whether the rule has this outcome, and the outcome and all other statements of the sentence are true."""
         predicate = self.outcomes.get(outcome)
         verdict = predicate is not None and predicate(facts)
         return verdict and self._stated(outcome, facts)
@@ -156,7 +156,8 @@ class Rule:
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
 
     def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:
-        """Return the theorems of a step as a `Step` has them: the theorems that the step uses, states and prepares."""
+        """Return the fields of a `Step` for theorems: the theorems that the step uses, the names of those that state
+        its law, and the theorem that a page states before the step."""
         quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
         return {
             "theorems": tuple(each.theorem for each in quotes),
@@ -165,7 +166,7 @@ class Rule:
         }
 
     def wrongly_named(self, facts: Judged, named: Mapping[str, Any]) -> str | None:
-        """Return the first role that has no predicate, or for which the sentence names the wrong object."""
+        """Return the first role that has no predicate or whose predicate is false; None if every role is right."""
         for role, value in named.items():
             judge = self.named.get(role) or self.named.get(role.rstrip("0123456789").removesuffix("_"))
             if judge is None or not judge(facts, value):
@@ -208,8 +209,8 @@ def _names_its_axis(facts: Judged) -> bool:
 
 
 def _letter_of_its_axis(facts: Judged) -> bool:
-    """Whether a letter with the index of an axis, I_z, has the index of the axis that the sentence names; for a part,
-    the index is that of the axis of the whole, which is parallel to the axis of the part."""
+    """Whether a symbol with the index of an axis, such as I_z, has the index of the axis that the sentence names. For a
+    part, this is the axis of the whole that is parallel to the axis of the part."""
     axis = facts.words.get("whole", facts.words.get("axis"))
     index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
     return index not in AXES or axis not in AXES or index == axis

@@ -1,12 +1,12 @@
 """The sign of an expression: one decision for the whole engine.
 
-The means are used in this order; the first that decides is taken:
+These means are tried in this order, until one of them decides the sign:
 
     exact zero         the normal form of the expression
-    factors            each factor by the assumptions on its letters, as it is written and multiplied out
-    ranges, relations  each factor by the ranges of its letters and by the assumed relations between them
+    factors            for each factor, as written and expanded, the assumptions on its symbols
+    ranges, relations  for each factor, the ranges of its symbols and the assumed relations between them
     squares, roots     even powers that do not vanish, sums that are positive by the geometric mean, and roots
-    numbers            the numbers that the problem gives for the letters, only in `sign_known`
+    numbers            the numbers that the problem gives for the symbols, only in `sign_known`
 
 `derive.algebra.ranges` decides by ranges and relations. A derivation stays symbolic, so numbers decide only between
 cases, such as whether a top spins fast enough.
@@ -33,22 +33,22 @@ from derive.steps.step import is_zero
 
 DIGITS, SHORT = 30, 20
 SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
-DECIDES = "give ranges or numbers of the letters that decide whether"  # an unknown relation follows
+DECIDES = "give ranges or numbers for the letters, to decide whether"  # the relation follows
 
 
 def sign_for_all(value: Expr) -> int | None:
-    """The sign for all allowed values of the letters, whatever numbers the problem gives: 1, -1, 0; None if unknown."""
+    """Return the sign for all allowed values of the symbols, without the given numbers: 1, -1 or 0; None if unknown."""
     return _sign_of_product(value, by_numbers=False)
 
 
 def sign_known(value: Expr) -> int | None:
-    """The sign for the numbers that the problem gives, used where the letters do not decide: 1, -1, 0; None if
-    unknown."""
+    """Return the sign, 1, -1 or 0; None if unknown. The numbers that the problem gives are used if the assumptions on
+    the symbols do not decide the sign."""
     return _sign_of_product(tidied(value), by_numbers=True)
 
 
 def sign_where(value: Expr, exists: Relation | None) -> int | None:
-    """The sign for all values of the letters for which the condition holds."""
+    """Return the sign for all values of the symbols for which the condition holds."""
     own = sign_for_all(value)
     if own is not None or exists is None or exists.operator[0] not in "<>":
         return own
@@ -62,7 +62,8 @@ def sign_where(value: Expr, exists: Relation | None) -> int | None:
 
 
 def truth_known(relation: Relation | None) -> bool | None:
-    """Whether the relation holds, by the letters or the given numbers; None if unknown. No relation always holds."""
+    """Whether the relation is known to hold, by the assumptions on its symbols or the given numbers; None if unknown.
+    If no relation is given, return True."""
     sign = sign_known(relation.residual) if relation is not None else 0
     return relation is None or (None if sign is None else sign in SIGNS_OF[relation.operator])
 
@@ -91,7 +92,8 @@ def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
-    """Whether it is an even power of a real symbol in a denominator, or of one that is assumed not to vanish."""
+    """Whether the power is an even power of a real symbol, and is in a denominator or has a symbol that is assumed not
+    to vanish."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 
@@ -116,7 +118,8 @@ def _is_positive_by_means(total: Expr) -> bool:
 
 
 def _sign_by_numbers(expr: Expr) -> int | None:
-    """Return the sign of an expression at the given numbers; None if a letter has none, or if it is not real there."""
+    """Return the sign of an expression at the given numbers; None if a symbol has no number, or if the value is not
+    real."""
     value = with_numbers(expr)
     if value.free_symbols or not value.is_real:
         return None
@@ -126,7 +129,7 @@ def _sign_by_numbers(expr: Expr) -> int | None:
 
 
 def taken_positive(value: Expr) -> int | None:
-    """The sign of a value; if it is unknown, take the value to be positive, and let the page state this."""
+    """Return the sign of a value. If the sign is unknown, take the value to be positive; the page states this."""
     sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
     if sign is not None:
         return sign
@@ -140,7 +143,7 @@ def taken_positive(value: Expr) -> int | None:
 
 
 def _odd_factors(value: Expr) -> list[Expr]:
-    """The factors without numbers and even powers; their product keeps the sign of the value."""
+    """Return the factors of a value without numbers and even powers; their product has the sign of the value."""
     try:
         number, found = factor_list(value)
     except PolynomialError:
@@ -152,7 +155,8 @@ def _odd_factors(value: Expr) -> list[Expr]:
 
 
 def undecided(value: Any) -> Doubt:
-    """Return the reason for a doubt: the unknown order of two terms in the value, l < r_0; else contrary numbers."""
+    """Return the reason for a doubt: an unknown order of two terms in the value, such as l < r_0, or else numbers that
+    contradict the sentence."""
     parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
     exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
     sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]
@@ -175,5 +179,6 @@ def holds(number: Expr | int, mark: str) -> bool:
 
 
 def of_the_size(value: Expr, mark: str) -> Expr:
-    """The difference expected if the mark is right: the size of the value with the sign that the mark requires."""
+    """Return the absolute value of a difference with the sign that the mark requires: the value itself if the mark is
+    right."""
     return {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}.get(mark, nan)

@@ -31,8 +31,8 @@ class Form:
     """One line of a chain: an expression, and the reason why it equals the line before.
 
     `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal. A
-    form may be a `Relation`. It is equivalent to the relation before it after division by the `nonzero` factors, which
-    do not vanish in the case considered, or are positive in an inequality.
+    form may be a `Relation`. Then the relation before it, divided by the `nonzero` factors, is equivalent to it. In the
+    case considered these factors do not vanish; in an inequality they are positive.
     """
 
     expr: Any
@@ -45,19 +45,20 @@ class Form:
 class Step:
     """An established result: the symbol, the chain that leads to its value, and the evidence.
 
-    A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are
-    those that the step introduces, with their kinds. `stands_for` are keys of steps that would exist in another case:
-    two roots where there is only one. `names` are the names in its lines that came from earlier steps, with their
-    values. `motion` are the values of rates by the equations of motion, for a line that holds only for such motions.
-    `law_at` is the place of the law in the code, as `derive/mechanics/rotation/vectors.py:120`.
+    A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are the
+    coordinates in the step, with their kinds. `stands_for` are keys of steps that would exist in another case, such as
+    the second root of an equation that has only one root here. `names` are the names in the lines that came from
+    earlier steps, with their values. `motion` are the values of rates by the equations of motion, for a line that holds
+    only for motions that satisfy these equations. `law_at` is the place of the law in the code, such as
+    `derive/mechanics/rotation/vectors.py:120`.
 
-    The result of a limit or a series has a separate symbol; `approximates` is the symbol of the whole, or the key of
-    an equation. `about` means that the step is derived from such a result, so its symbol only approximately equals its
-    first line.
+    The result of a limit or a series has a separate symbol; `approximates` is the symbol of the whole result, or the
+    key of the whole equation. `about` means that the step is derived from such a limit or series, so its symbol only
+    approximately equals its first line.
 
-    `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that it
-    uses, the names of those that state its law, and the theorem that a page states before it for the steps that depend
-    on it.
+    `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that the
+    step uses, the names of theorems that state its law, and the theorem that a page states before the step for the
+    steps that depend on it.
     """
 
     key: str
@@ -84,7 +85,7 @@ class Step:
 
     @property
     def exact(self) -> bool:
-        """Whether its symbol equals its result: the step is not derived from a limit or a series."""
+        """Whether the result is exact: the step neither is a limit or a series nor is derived from one."""
         return self.approximates is None and not self.about
 
     @property
@@ -98,8 +99,8 @@ class Step:
 
     @property
     def grade(self) -> Grade:
-        """Return the less certain of two grades: the least certain of its lines, and the most certain of its routes.
-        All lines must hold, but one route is enough."""
+        """Return the less certain of two grades: the grade of the least certain line, and that of the most certain
+        route. All lines must hold, but one route is enough."""
         lines = [e.grade for e in self.evidence if e.compared is Compared.LINES]
         routes = [e.grade for e in self.evidence if e.compared is not Compared.LINES]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
@@ -107,10 +108,10 @@ class Step:
 
 
 class Fact:
-    """Data that a quantity carries, in addition to its value, for the verbs that need them.
+    """Data that a quantity carries in addition to its value, for the verbs that need such data.
 
-    Each kind of fact is a frozen dataclass next to the verb that returns it. The text `missing` completes the message
-    about a quantity without such a fact.
+    Each kind of fact is a frozen dataclass in the module of the verb that returns it. The text `missing` completes the
+    message about a quantity without such a fact.
     """
 
     missing: ClassVar[str] = "is not of the kind that is needed here"
@@ -130,9 +131,9 @@ F = TypeVar("F", bound=Fact)
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """A value with the step that made it, the quantities on which this step depends, and its subject.
+    """A value with the step that made it, the quantities on which this step depends, and the subject of the value.
 
-    Arithmetic on a quantity would lose its history, so it is rejected; the verb `let` makes it a step.
+    Arithmetic on a quantity would lose its history, so it is rejected. Use the verb `let`, which makes a step.
     """
 
     value: Any
@@ -151,22 +152,22 @@ class Quantity:
 
     @property
     def exact(self) -> bool:
-        """Whether the value is exact: it is not derived from a limit or a series."""
+        """Whether the value is exact: it neither is a limit or a series nor is derived from one."""
         return self.step.exact
 
-    @cached_property  # cached: it is asked many times for the parents of other quantities
+    @cached_property  # cached, since it is read many times for the parents of other quantities
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates on which it may depend, with their kinds: those of its step and of its parents."""
+        """Return the coordinates of the step and of its parents, with their kinds: the value may depend on these."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}
 
     def fact(self, kind: type[F]) -> F | None:
-        """Return its fact of that kind, or None."""
+        """Return the fact of this kind that the quantity carries, or None."""
         return next((fact for fact in self.facts if isinstance(fact, kind)), None)
 
     def needed(self, kind: type[F]) -> F:
-        """Return its fact of that kind; a quantity without one is an error of the script."""
+        """Return the fact of this kind that the quantity carries; reject a quantity without such a fact."""
         found = self.fact(kind)
         if found is None:
             raise Rejected(Complaint("wrong-argument", f"`{self.key}` {kind.missing}"))
@@ -203,7 +204,7 @@ class Quantity:
 
 
 def lettered(quantity: Quantity) -> Quantity:
-    """Return the quantity with its symbol as its value: results keep the symbol until values are substituted."""
+    """Return the quantity with its symbol as its value: results contain the symbol until values are substituted."""
     return replace(quantity, value=quantity.symbol, parents=(quantity,))
 
 
@@ -214,7 +215,7 @@ Route = Callable[[Any], tuple[Any, Any] | Verdict]
 
 
 def compared_with(other: Callable[[], Any]) -> Route:
-    """Return the simplest second route: another derivation of the same value."""
+    """Return a second route that compares the result with the value of another derivation."""
     found: list[Any] = []
 
     def both(result: Any) -> tuple[Any, Any]:
@@ -226,7 +227,7 @@ def compared_with(other: Callable[[], Any]) -> Route:
 
 
 def same_value(one: Any, other: Any) -> bool:
-    """Whether two values that describe subjects are equal: lengths, masses, places."""
+    """Whether two values that describe subjects are equal, such as lengths, masses or positions."""
     try:
         if isinstance(one, tuple) and isinstance(other, tuple):
             return len(one) == len(other) and all(same_value(a, b) for a, b in zip(one, other, strict=True))
@@ -238,7 +239,7 @@ def same_value(one: Any, other: Any) -> bool:
 
 
 def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
-    """Reject a quantity of another kind, as for arguments in the wrong order, or a tensor in place of a vector."""
+    """Reject a quantity that is not of this kind, such as a tensor in place of a vector."""
     if isinstance(quantity, Quantity) and quantity.step.kind == kind:
         return
     got = (
@@ -256,12 +257,13 @@ def value_behind(given: Any) -> Any:
 
 
 def approximations_among(*given: Any) -> list[Quantity]:
-    """Return the approximate arguments of a verb: a result that depends on them is approximate too."""
+    """Return those arguments of a verb that are approximate quantities; a result that depends on one of them is
+    approximate too."""
     return [each for each in given if isinstance(each, Quantity) and not each.exact]
 
 
 def entry_name(name: str, i: int, j: int) -> Symbol:
-    """Return the name of a tensor's entry: J_xy."""
+    """Return the symbol of an entry of a tensor, such as J_xy."""
     return Symbol(f"{name}_{AXES[i]}{AXES[j]}", real=True)
 
 

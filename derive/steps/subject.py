@@ -1,8 +1,9 @@
-"""The subject of a value: the body, the point, the axes, the rotation and the place in space that it belongs to.
+"""The subject of a value: the body, the point, the axes, the rotation and the position in space that the value belongs
+to.
 
 A moment of inertia belongs to one body and one point; an angular momentum belongs to one rotation. Every quantity
 carries its subject, and `establish` unites the subjects of the inputs. Two bodies, two points or two rotations in one
-law are rejected, unless the law is about two of them.
+law are rejected, unless the law allows its inputs to differ in that property.
 """
 
 from __future__ import annotations
@@ -18,22 +19,22 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """The value of a property in which united subjects differ: it agrees with no value."""
+    """The value of a property in which united subjects differ. It agrees with no other value."""
 
     SEVERAL = "several"
 
 
 @dataclass(frozen=True)
 class Subject:
-    """What is known of the subject of a value; `None` for a property that is not specified.
+    """The known properties of the subject of a value; `None` for a property that is not specified.
 
     body      the body, as a script made it
-    mass      the mass, if there is no body with this mass, in kg
+    mass      the mass that the value belongs to, in kg; it may be specified without a body
     point     the reference point of moments, momenta and torques
     axes      the axes of the components: by default those of the body
-    axis      for a moment about one axis: the axis of the body to which that axis is parallel
-    rotation  the angular velocity, as components
-    place     the place of the centre of mass in space, as components in m
+    axis      for a moment about one axis: the axis of the body that is parallel to this axis
+    rotation  the components of the angular velocity
+    place     the components of the position of the centre of mass in space, in m
     """
 
     body: Any = None
@@ -45,7 +46,7 @@ class Subject:
     place: Any = None
 
     def with_more(self, other: Subject) -> Subject:
-        """Return the properties of the other subject, and those that only this subject has."""
+        """Return the properties of the other subject, completed by those that only this subject has."""
         both = zip(self._all, other._all, strict=True)
         return Subject(*(theirs if theirs is not None else ours for ours, theirs in both))
 
@@ -72,7 +73,7 @@ def united(
 ) -> Subject:
     """Return the common subject of the inputs of one law.
 
-    key     the step, for the message
+    key     the key of the step, for the message
     named   the key of each input, and its subject
     differ  the properties in which the inputs may differ; the result is `SEVERAL` if they do
     same    the function that decides whether two values are equal
@@ -105,7 +106,7 @@ def _agree(one: Any, other: Any, same: Callable[[Any, Any], bool]) -> bool:
 
 
 def with_name(called: str, key: str, symbol: Any) -> tuple[str, Any]:
-    """Return the key and the letter of a result for a body with a name: `upper_rod_density`, rho_upper."""
+    """Return the key and the symbol of a result for a body with a name, such as `upper_rod_density` and rho_upper."""
     prefix = called.replace(" ", "_")
     if not key.startswith(f"{prefix}_"):
         key = f"{prefix}_{key}"
@@ -126,7 +127,7 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
 
 
 def called(value: Any) -> str:
-    """Return the name of a body, a point, an axis or a value in a message."""
+    """Return the name by which a message calls a body, a point, an axis or a value."""
     if isinstance(value, Mixed):
         return "several"
     name = getattr(value, "called", "") or getattr(value, "name", None)

@@ -1,4 +1,5 @@
-"""Check the symbol of a result: a letter with meaningful indices, a scalar, vector or tensor like the result."""
+"""Check the symbol of a result: a letter with indices that are not empty, and a scalar, vector or tensor like the
+result."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""Trial numbers: the points at which predicates test a statement, and the tests that they have in common.
+"""Trial numbers: the points at which predicates test a statement, and the tests that predicates have in common.
 
-A point gives each letter a rational number that its range, the assumed order of letters and the conditions of the
-statement allow. In some points all numbers are of ordinary size, in others one letter is large where another is small.
-Letters that may be negative take all combinations of signs.
+A point gives each symbol a rational number. The range of the symbol, the assumed order of symbols and the conditions of
+the statement allow this number. At some points all numbers are of ordinary size; at other points one symbol is large
+while another is small. Up to four symbols that may be negative take all combinations of signs.
 
-Verbs decide a sign by the letters, and their checks draw other points. Here a statement is accepted only if it is true
-at each point where it has a meaning, and if there is such a point.
+Verbs decide a sign by the assumptions on the symbols, and their checks draw other points. Here a statement is accepted
+only if it is true at each point where it has a meaning, and if there is such a point.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ from derive.steps.record import assumed
 Point: TypeAlias = Mapping[Any, Expr]
 
 TRIED = 24  # points at which a statement is tested
-DRAWN = 240  # points that are drawn until so many fulfil the conditions
-PAIRS, HALVINGS = 4, 10  # pairs of points beside a border; halvings of the way between two points
+DRAWN = 240  # at most so many points are drawn to find points that satisfy the conditions
+PAIRS, HALVINGS = 4, 10  # pairs of points on both sides of a border; halvings of the distance between two points
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
 PRIMES = tuple(primerange(5, 130))
 ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # signs of left minus right
-SMALL = Rational(1, 10**20)  # an imaginary part, compared with the real part, that is a rounding error
+SMALL = Rational(1, 10**20)  # an imaginary part smaller than this part of the real part is a rounding error
 
 
 def trial_points(letters: Iterable[Any], *conditions: Relation, tried: int = TRIED) -> list[Point]:
-    """Return points for these letters and those of the conditions, at which the conditions hold; without letters, one
-    empty point."""
+    """Return points at which the conditions hold. A point has a number for each of these symbols and each symbol of the
+    conditions; without symbols, there is one empty point."""
     chosen = sorted({*letters, *(s for each in conditions for s in letters_of(explicit(each.residual)))}, key=str)
     drawn = islice(_drawn(chosen), DRAWN) if chosen else iter([{}])
     return list(islice((point for point in drawn if _fulfils(point, conditions)), tried))
@@ -55,7 +55,8 @@ def _drawn(letters: list[Any]) -> Iterator[Point]:
 
 
 def _size(i: int, n: int) -> Expr:
-    """Return the number of the letter with index i at point n; any two letters take all pairs of scales."""
+    """Return the size of the number for the symbol with index i at point n. The sizes of any two symbols take all pairs
+    of scales."""
     scale = SCALES[(n % 5 * (i + 1) + n // 5 * (2 * i + 1) + i // 5 * (n % 3)) % 5] if n % 3 else 1
     return Rational(PRIMES[(11 * i + 5 * n + i * n) % 29], 7 + i) * scale
 
@@ -68,12 +69,12 @@ def _fulfils(point: Point, conditions: Iterable[Relation]) -> bool:
 
 
 def may_be_negative(letter: Any) -> bool:
-    """Whether the letter may be negative: it is not declared nonnegative, and it has no range."""
+    """Whether the sign of the symbol is free: the symbol is not declared nonnegative, and it has no range."""
     return not letter.is_nonnegative and range_of(letter) is None
 
 
 def assumptions_about(letters: Iterable[Any]) -> list[Relation]:
-    """Return the assumptions of the page about these letters only, with the given numbers of other letters."""
+    """Return those assumptions of the page that contain only these symbols after the given numbers are substituted."""
     known = set(letters)
     conditions = [explicit(with_numbers(each)) for each in assumed()]
     return [each for each in conditions if letters_of(each.residual) <= known]
@@ -92,7 +93,7 @@ def sign_at(value: Any, point: Point) -> int | None:
 
 
 def holds_at(condition: Relation, point: Point) -> bool:
-    """Whether a condition is true at a point; raise `Undefined` where an inequality compares what is not real."""
+    """Whether a condition is true at a point; raise `Undefined` for an inequality between values that are not real."""
     sign = sign_at(condition.residual, point)
     if sign is None and condition.operator not in ("=", "!="):
         raise Undefined(condition)
@@ -100,7 +101,7 @@ def holds_at(condition: Relation, point: Point) -> bool:
 
 
 def signs(value: Any, points: Iterable[Point]) -> set[int | None]:
-    """Return all signs of a value at the points; None stands for a value that is not real, or not defined."""
+    """Return the set of signs of a value at the points; None is the sign of a value that is not real or not defined."""
     found = set[int | None]()
     for point in points:
         try:
@@ -111,14 +112,14 @@ def signs(value: Any, points: Iterable[Point]) -> set[int | None]:
 
 
 def signs_of(value: Expr, *conditions: Relation) -> set[int | None]:
-    """Return all signs that a value has where the conditions hold."""
+    """Return the set of signs of a value at trial numbers for which the conditions hold."""
     return signs(value, trial_points(letters_of(explicit(value)), *conditions))
 
 
 def sign_found(value: Expr) -> int | None:
-    """Return the sign that a value has at all trial numbers which the assumptions allow; None if it has several.
+    """Return the sign that a value has at all trial numbers which the assumptions allow; None if the sign varies.
 
-    The numbers that the problem gives are substituted. No rule by which a verb decides a sign is used.
+    The numbers that the problem gives are substituted. The rules by which verbs decide a sign are not used.
     """
     known = with_numbers(explicit(value))
     found = signs_of(known, *assumptions_about(letters_of(known)))
@@ -126,16 +127,17 @@ def sign_found(value: Expr) -> int | None:
 
 
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
-    """Whether a statement is true at each point where it has a meaning, and has one at some point.
+    """Whether a statement is true at each point where it has a meaning, and has a meaning at one point at least.
 
-    is_so   whether it is true at a point; None, `Undefined` or `NoNumber` where it has no meaning
+    is_so   a function of a point: whether the statement is true there. It returns None or raises `Undefined` or
+            `NoNumber` if the statement has no meaning there
     """
     found = _judged(points, is_so)
     return bool(found) and all(found)
 
 
 def roots_of(polynomial: Poly) -> list[complex]:
-    """Return the different roots of a polynomial whose coefficients are numbers; raise `NoNumber` if they are not
+    """Return the distinct roots of a polynomial whose coefficients are numbers; raise `NoNumber` if the roots are not
     found."""
     exact = Poly([as_rational(each) for each in polynomial.all_coeffs()], polynomial.gen)
     try:
@@ -145,7 +147,7 @@ def roots_of(polynomial: Poly) -> list[complex]:
 
 
 def as_rational(number: Expr) -> Expr:
-    """Return the number, or a rational number that agrees with it in 40 digits."""
+    """Return a rational number unchanged, and any other number rounded to 40 digits as a rational number."""
     return number if number.is_Rational else Rational(str(number.evalf(40)))
 
 
@@ -157,10 +159,12 @@ def decides(condition: Relation, points: Iterable[Point]) -> bool:
 def just_where(
     conditions: Sequence[Relation], is_so: Callable[[Point], bool | None], letters: Iterable[Any], *given: Relation
 ) -> bool:
-    """Whether a statement is true exactly at those points where all conditions hold, also beside their borders.
+    """Whether a statement is true at exactly those points where all conditions hold, including points close to the
+    borders of the conditions.
 
-    letters   letters of the statement
-    given     conditions under which it is made
+    is_so     as for `everywhere`
+    letters   symbols of the statement
+    given     conditions under which the statement is made
     """
 
     def agrees(point: Point) -> bool | None:
@@ -174,7 +178,8 @@ def just_where(
 
 
 def beside_border(condition: Relation, points: Sequence[Point], *given: Relation) -> list[Point]:
-    """Return pairs of points on the two sides of the border of a condition, by halving the way between two points."""
+    """Return pairs of points close to the border of a condition, one on each side. They are found by halving the
+    distance between two points."""
     ahead, behind = ([point for point in points if _side(condition, point) is side] for side in (True, False))
     pairs = [_narrowed(condition, *ends) for ends in islice(zip(ahead, behind, strict=False), PAIRS)]
     kept = [*given, *(Relation(each, ">", 0) for each in known_order().positive)]
@@ -189,7 +194,7 @@ def _side(condition: Relation, point: Point) -> bool | None:
 
 
 def _narrowed(condition: Relation, one: Point, other: Point) -> tuple[Point, ...]:
-    """Return two points close to each other: at the first one the condition holds, at the second it does not."""
+    """Return two points close to each other: the condition holds at the first point and does not hold at the second."""
     for _ in range(HALVINGS):
         middle = {s: (number + other[s]) / 2 for s, number in one.items()}
         side = _side(condition, middle)

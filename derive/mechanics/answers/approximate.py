@@ -1,5 +1,5 @@
-"""An equation expanded where a letter is small, large, or near a value, to an order in the small quantity.
-Coordinates, rates and accelerations remain unchanged: only the letter is taken to be small.
+"""Expansion of an equation where a symbol is small, large, or near a value, to an order in the small quantity.
+Coordinates, rates and accelerations are not expanded: only this symbol is small, large or near the value.
 """
 
 from __future__ import annotations
@@ -49,18 +49,19 @@ EQUATION_IN_LIMIT = Rule(
 def equation_in_limit(
     equation: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None
 ) -> Quantity:
-    """Expansion of an equation f = 0 where a letter is small, large or near a value: f_0 + f_1 e + ... = 0 with the
-    small quantity e: x, 1/x or x - a.
+    """Expansion of an equation f = 0 where a letter is small, large or near a value: f_0 + f_1 e + ... = 0. The small
+    quantity e is x, 1/x or x - a.
 
-    equation   an equation, such as one of motion
-    letter     a constant that is small or large
-    to         0 if it is small, SymPy's `oo` if it is large, else the value that it is near
+    equation   an equation, such as an equation of motion
+    letter     a constant that is small, large or near a value
+    to         0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
     order      the highest power of the small quantity that is kept; by default only the leading terms
-    An expanded sine of the letter times the time is valid for short times: the sentence says so.
-    Check: numbers; the rest, divided by the last power that is kept, goes to zero with the small quantity.
+    An expanded sine of the letter times the time is valid for short times only: the sentence says so.
+    Check: numerically, the terms that are left out, divided by the last power that is kept, go to zero with the small
+    quantity.
     Outcomes: small, large, near (only the leading terms); first_order, to_order; exact (nothing is left out).
-    Errors: the equation does not contain the letter, or the letter changes with the time; it has no such expansion, or
-    begins beyond that order.
+    Errors: the equation does not contain the letter; the letter changes with the time; the equation has no such
+    expansion; the expansion begins beyond the requested order.
     Source: Taylor, *Classical Mechanics*, sections 9.8 and 9.9 (to the first order in the rate of the Earth).
     """
     left = residual_of("equation_in_limit", equation)

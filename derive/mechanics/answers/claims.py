@@ -66,7 +66,7 @@ LITTLE = 1e-12
 
 
 def one_of(alone: bool, first: bool) -> Predicate:
-    """Whether this is the only unknown, the first of several, or a later one."""
+    """Judge whether the result is the only unknown, the first of several unknowns, or a later one."""
 
     def is_so(facts: Judged) -> bool:
         count = sum(role.startswith("equation_") for role in facts.inputs)
@@ -94,7 +94,8 @@ def double(facts: Judged) -> bool:
 
 
 def only(facts: Judged) -> bool:
-    """Whether this root is the only one kept: the polynomial has other roots, but they are complex or not positive."""
+    """Whether this is the only root that is kept. The polynomial has other roots, but they are complex, not positive
+    although the unknown is, or outside its range."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
     return alone and everywhere(trial_points(_letters(facts)), lambda point: _only_there(facts, point))
 
@@ -104,7 +105,7 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _only_there(facts: Judged, point: Point) -> bool:
-    """Whether, numerically, no other root is possible."""
+    """Whether no other root is possible at this point, or this root is not real there."""
     own = complex(value_at(explicit(facts.result), point))
     there = Poly(_polynomial(facts).as_expr().xreplace(dict(point)), facts.inputs["gen"])
     numbers = sorted(roots_of(there), key=lambda root: abs(root - own))
@@ -127,7 +128,7 @@ def of_several(first: bool) -> Predicate:
 
 
 def where_the_coefficients_last(predicate: Predicate) -> Predicate:
-    """Check that the sentence or its condition excludes that all coefficients vanish, when any number is a root."""
+    """Check also that the sentence excludes that all coefficients vanish, since any number would then be a root."""
 
     def is_so(facts: Judged) -> bool:
         known = [facts.inputs[role] for role in ("excluded", "condition") if role in facts.inputs]
@@ -145,7 +146,7 @@ def absent(facts: Judged) -> bool:
 
 
 def beyond_one(facts: Judged) -> bool:
-    """Whether, numerically, the cosine is greater than 1, or less than -1."""
+    """Whether the cosine is greater than 1 at all trial numbers, or less than -1 at all of them."""
     side = 1 if facts.result.operator == ">" else -1
     return signs_of(side * with_numbers(facts.result.left) - 1) == {1}
 
@@ -165,7 +166,7 @@ def identity(facts: Judged) -> bool:
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
-    """Whether the excluded factor divides the difference, and the quotient still vanishes for the result."""
+    """Whether the difference, divided by the excluded factor, still vanishes for the result."""
     excluded = facts.inputs.get("excluded")
     if excluded is None:
         return True
@@ -186,7 +187,8 @@ def compared(squared: bool) -> Predicate:
 
 
 def always(wanted: bool) -> Predicate:
-    """Whether the difference has one sign for all values of the letters, and this sign fulfils the comparison."""
+    """Judge whether the difference has one sign for all values of its symbols, and whether this sign satisfies the
+    comparison, as wanted."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]
@@ -199,7 +201,7 @@ def always(wanted: bool) -> Predicate:
 
 
 def as_let(equation: bool, reason: bool) -> Predicate:
-    """Whether the step is an equation, which has no symbol, or a value, which has one; and whether it has a reason."""
+    """Judge whether the step is an equation without a symbol or a value with a symbol, and whether it has a reason."""
 
     def is_so(facts: Judged) -> bool:
         letter = facts.symbol is None if equation else facts.symbol is not None
@@ -209,7 +211,8 @@ def as_let(equation: bool, reason: bool) -> Predicate:
 
 
 def near(*places: Any) -> Predicate:
-    """Whether terms are left out, and the letter goes to one of these places, or to a place without a special word."""
+    """Judge whether terms are left out and the symbol goes to one of these limits. Without limits, judge whether it
+    goes to a finite value other than zero."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -246,7 +249,8 @@ def goes_as(wanted: int) -> Predicate:
 
 
 def bent(sign: int) -> Predicate:
-    """Judge numerically, by values a little to both sides of the place: they are below the value there, or above."""
+    """Judge numerically whether the values just before and just after the place are both smaller than the value at the
+    place (sign 1), or both larger (sign -1)."""
 
     def is_so(facts: Judged) -> bool:
         x = Dummy("x", **facts.inputs["letter"].assumptions0)  # the letter that varies has no number
@@ -284,7 +288,8 @@ def _says_what_is_kept(facts: Judged) -> bool:
 
 
 def leading(*places: Any) -> Predicate:
-    """Whether no order is requested, and the letter goes to one of these places, or to one without a special word."""
+    """Judge whether no order is requested and the symbol goes to one of these limits. Without limits, judge whether it
+    goes to a finite value other than zero."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -304,8 +309,8 @@ def to_order(wanted: int | None) -> Predicate:
 
 
 def roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
-    """Test this root, the other root and the coefficient b where the roots are real: at the given numbers, and at trial
-    numbers for each letter without one."""
+    """Test this root, the other root and the coefficient b at all trial numbers for which the roots are real. Symbols
+    with a given number keep this number."""
 
     def is_so(facts: Judged) -> bool:
         quadratic = facts.inputs["quadratic"]
@@ -324,7 +329,7 @@ LARGER = roots_fit(lambda this, other, b: abs(this) > abs(other) and this * othe
 
 
 def whether(real: bool, predicate: Predicate) -> Predicate:
-    """Check also whether the roots are known to be real, or this is unknown."""
+    """Check also that the roots are known to be real and distinct or, if `real` is false, that this is not known."""
     return lambda facts: (sign_known(_discriminant(facts)) == 1) == real and predicate(facts)
 
 
@@ -333,7 +338,8 @@ def _discriminant(facts: Judged) -> Expr:
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
-    """Judge by the sign of the discriminant and, if it is positive, by that of the product of the roots."""
+    """Judge by the sign of the discriminant and, if the discriminant is positive, by the sign of the product of the
+    roots."""
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
@@ -366,8 +372,11 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 
 def names_put_in(facts: Judged, value: Any) -> bool:
-    """Whether the original becomes the result, or an equivalent equation, if only letters are replaced, by values
-    without these letters."""
+    """Whether the original with all stated values substituted is the result, or an equation equivalent to it.
+
+    This is tested only if each value replaces a symbol, no value contains a replaced symbol, no other result is
+    substituted, and the original contains no rate of a replaced symbol.
+    """
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
     if value.operator != "=" or value.left.could_extract_minus_sign():
@@ -393,12 +402,12 @@ def small_there(facts: Judged, small: Any) -> bool:
 
 
 def near_that(facts: Judged, place: Any) -> bool:
-    """Whether the quantity that the sentence calls small vanishes there."""
+    """Whether the quantity that the sentence calls small vanishes if the symbol has this value."""
     return is_zero(facts.inputs["small"].subs(facts.inputs["letter"], place))
 
 
 def highest_power(facts: Judged, power: Any) -> bool:
-    """Whether no higher power is kept, and the power is the requested order."""
+    """Whether the power is the requested order, and no higher power of the small quantity is kept."""
     order, x, to = (facts.inputs[role] for role in ("order", "letter", "to"))
     if order == -1 or to in (oo, -oo):
         return order in (-1, power)
@@ -410,7 +419,7 @@ def for_short_times(facts: Judged, time: Any) -> bool:
 
 
 def goes_to(facts: Judged, place: Any) -> bool:
-    """Whether the named letter approaches the named place."""
+    """Whether the limit that the sentence names is the limit of the approach."""
     approach = facts.inputs["approach"]
     return isinstance(approach, Approach) and is_zero(approach.args[1] - place)
 
@@ -431,7 +440,7 @@ def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
 
 
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
-    """Whether the condition for no root is strict: at the bound there still is a root."""
+    """Whether the condition for no root is a strict inequality: at equality there is still a root."""
     return outcome != "none" or (facts.result.operator == "<" and is_zero(facts.result.right))
 
 
@@ -444,7 +453,8 @@ def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
 
 
 def as_asked_for(facts: Judged, outcome: str) -> bool:
-    """Whether the word is "roots" for an equation, "zeros" for a result, which vanishes for the other factors too."""
+    """Whether the word is "roots" for an equation and "zeros" for any other result, and the whole also vanishes where
+    each factor without the unknown vanishes."""
     given = facts.inputs["equation"]
     beside, whole = facts.inputs.get("elsewhere"), explicit(given)
     whole = whole.residual if isinstance(whole, Relation) else whole
@@ -463,8 +473,8 @@ def as_asked(facts: Judged, outcome: str) -> bool:
 
 
 def word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """Whether the word fits the mark, "at most" for <=, which is that of the first line; and whether the quantity of
-    the sentence is the left side of the comparison, not the bound."""
+    """Whether the word fits the comparison sign of the first line, such as "at most" for <=; and whether the sentence
+    compares the quantity with the bound, not the bound with the quantity."""
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
@@ -477,13 +487,15 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def there_where_told(facts: Judged, outcome: str) -> bool:
-    """Whether the place of an extremum is real exactly where the sentence says so, and between the ends likewise."""
+    """Whether the place of an extremum is real exactly where the sentence says so, and lies between the ends of the
+    interval exactly where the sentence says so."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
     return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
-    """Judge at numbers for which the interval has a positive width and the place is real."""
+    """Judge whether the place lies between the ends exactly where the sentence says so. Trial numbers are used only if
+    they make the width of the interval positive and the place real."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]
@@ -505,7 +517,7 @@ def _between_the_ends_just_where_told(facts: Judged) -> bool:
 
 
 def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
-    """Whether the named ratio goes to its limit when the expansion letter does: h/R with h."""
+    """Whether the named ratio goes to its limit when the expansion symbol goes to its own limit: h/R when h does."""
     goes, approach, to = (facts.inputs[role] for role in ("letter", "approach", "to"))
     if not isinstance(approach, Approach) or approach.args[0] != goes:
         return False

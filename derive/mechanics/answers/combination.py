@@ -35,12 +35,12 @@ COMBINATION = Rule(
 
 def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, symbol: str | None = None) -> Quantity:
     """Number computed from results by a formula: pi Omega/omega, the angle from one apsis to the next.
-    expression   the formula, in letters and in placeholders for the results
+    expression   the formula, with letters and with placeholders for the results
     values       placeholder -> its result; an equation with one letter on its left side counts as its right side
-    symbol       its letter; by default the key
-    Nothing checks that it is what its letter means: it is a definition, and the page calls it one.
+    symbol       the letter of the number; by default the key
+    The number is a definition, and the page calls it one: nothing checks that it has the meaning of its letter.
     Outcomes: generic, named (a formula of letters only).
-    Errors: a result is not a number, such as a vector or an equation that is not solved.
+    Errors: a result is not a number, for example a vector or an equation that is not solved.
     Source: none needed: a definition.
     """
     inputs = {quantity.key: _number(quantity) for quantity in values.values()}
@@ -62,7 +62,7 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
 
 
 def _cancelled(value: Expr) -> Expr:
-    """Simplify a formula as it is usually written, and cancel factors under roots."""
+    """Write a formula in its usual form; also cancel factors under roots if this shortens the formula."""
     plain = presented(value)
     if plain.count_ops() > LARGEST:
         return plain
@@ -74,7 +74,8 @@ def _cancelled(value: Expr) -> Expr:
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:
-    """Return the quantity; or, if it has no plain letter, its value: of an equation, or of x_dot^2."""
+    """Return the quantity. Return only its value if its symbol is an expression such as x_dot^2; return the right side
+    of an equation that is solved for a symbol."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
         return quantity if isinstance(quantity.symbol, Symbol) else explicit(value)
@@ -87,9 +88,9 @@ def _number(quantity: Quantity) -> Quantity | Expr:
 
 @in_results(
     "value",
-    "the value of a formula of answers and of letters: `pi*rate/frequency`, `v - R*w`, `-S` of a force of "
-    "constraint; its terms must fit",
-    formula="value: a formula of answers by their names and of letters",
+    "the value of a formula with answers and letters: `pi*rate/frequency`, `v - R*w`, `-S` for a constraint force `S`; "
+    "all terms must have the same dimension",
+    formula="value: a formula with the names of answers and with letters",
     symbol="symbol",
 )
 def _in_results(formula: Formula, key: str, symbol: str | None = None) -> Quantity:

@@ -67,27 +67,29 @@ def where(
     through: tuple[Relation, Sequence[Quantity]] | None = None,
     for_real: bool = False,
 ) -> Quantity:
-    """Where a quantity is greater than a bound, less, or equal to it: v > 0 where R > a/2, solved for one letter.
+    """Condition for a quantity to be greater than, less than or equal to a bound, solved for one letter: v > 0 where
+    R > a/2.
 
     of       a scalar, any unit
-    mark     one of =, !=, <, >, <=, >=
+    mark     the comparison sign: one of =, !=, <, >, <=, >=
     bound    the bound, of the same unit; 0, or another quantity
-    letter   the unknown: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
-    in its square; or the expression given for a letter, 2b for R, which is solved for one of its letters
+    letter   the unknown: a letter, a rate, or an expression such as `cos(theta)`; the difference is linear in the
+             unknown or in its square. If an expression is given for a letter, such as 2b for R, the relation is solved
+             for one of the letters of this expression
     through  the same condition in other letters, as an intermediate line, and the results for these letters
-    for_real whether it is a discriminant, for real roots
-    Check: a little above the solved bound, at it and a little below, the sign of the difference; and at random
+    for_real whether the quantity is a discriminant and the condition is for real roots
+    Check: the sign of the difference a little above the solved bound, at the bound and a little below it; at random
     points both relations are true, or both false.
-    A divisor of both sides must not vanish, which the page states if it is unknown; in an inequality its sign
-    must be known, by the letters, their ranges or their numbers.
-    Outcomes: solved, squared (for the square of the letter only); for all values of the letters: always, never, equal
-    (it is neither greater nor less, but one of the two was asked for).
-    Errors: the relation cannot be solved for that letter; an unknown mark.
+    A divisor of both sides of an equation must not vanish: the page states this if it is not known. The sign of a
+    divisor of an inequality must be known from the letters, their ranges or their numbers.
+    Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
+    equal (the two sides are equal, so a requested strict inequality never holds).
+    Errors: the relation cannot be solved for that letter; an unknown comparison sign.
     Source: none needed: algebra of inequalities.
     """
     if mark not in TURNED:
-        message = f"`where`: `{mark}` is not a mark"
-        raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
+        message = f"`where`: `{mark}` is not a comparison sign"
+        raise Rejected(Complaint("wrong-argument", message, help=f"the comparison signs are {' '.join(TURNED)}"))
     bound = Integer(bound) if isinstance(bound, int) else bound
     difference = tidied(explicit(number_of(of)) - explicit(value_behind(bound)))
     sign = sign_for_all(difference)
@@ -132,13 +134,13 @@ def where(
 
 
 def _by_way_of(criterion: Relation, stands_for: Sequence[Quantity], difference: Expr) -> list[Form]:
-    """Return the criterion in other letters, whose values are substituted next."""
+    """Return the line with the criterion in other symbols; the next line has the values of these symbols."""
     residual = explicit(with_those(criterion.residual, {q.symbol: q.value for q in stands_for}))
     return [Form(criterion, "solved", nonzero=divided_out(difference, residual, Integer(0)))]
 
 
 def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: Expr, sign: int, key: str) -> Quantity:
-    """Return the true relation, if it holds for all values of the letters or for none."""
+    """Return the relation that is true for all values of the symbols, where the sign of the difference is known."""
     is_true = holds(sign, mark)
     fact = mark if is_true else {1: ">", -1: "<", 0: "="}[sign]
     return establish(
@@ -160,7 +162,8 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
 
 
 def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, Relation]:
-    """Solve for the unknown; or, if an expression was given for a letter, 2b for R, for the first possible letter."""
+    """Solve for the unknown. If an expression was given for a symbol, such as 2b for R, solve for the first symbol of
+    this expression for which it is possible."""
     given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
     if not isinstance(given, Add | Mul):
         unknown = unknown_of("where", letter)
@@ -174,12 +177,12 @@ def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -
 
 
 def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
-    """Whether a positive letter, or a square, is compared with a value that cannot be positive: it is greater."""
+    """Whether the unknown, a positive symbol or a square, is greater than the other side for all values."""
     return bool(alone.is_positive and solved.is_nonpositive) or bool(alone.is_nonnegative and solved.is_negative)
 
 
 def _excluded(difference: Expr, result: Relation) -> Relation | None:
-    """Return the condition that the factor by which both sides of an equation are divided does not vanish."""
+    """Return the condition that the divisor of both sides of an equation does not vanish; None if this is known."""
     if result.operator not in ("=", "!="):
         return None
     factor = tidied(difference / result.residual)
@@ -187,7 +190,8 @@ def _excluded(difference: Expr, result: Relation) -> Relation | None:
 
 
 def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> list[Form]:
-    """Return the lines of the solution: in one step; or for the square of a positive letter, then for the letter."""
+    """Return the lines of the solution: one line, or first a line for the square of a positive symbol and then a line
+    for the symbol itself."""
     alone, solved = result.sides
     divided = divided_out(difference, alone, solved)
     if excluded is not None:
@@ -199,10 +203,11 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
 
 
 def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
-    """Return the difference a little above the bound and at it, and its sign there by the solved relation."""
+    """Return two vectors that are equal if the solved relation is right: the difference at the bound and a little above
+    it, and the truth of the solved relation on both sides, each compared with what the sign of the difference says."""
     alone, place = found.sides
     d = Dummy("d", positive=True)
-    if alone.is_positive and sign_known(place) == -1:  # the other root of x^2 > a, which a positive letter never has
+    if alone.is_positive and sign_known(place) == -1:  # a positive symbol is never the negative root of x^2 = a
         return Integer(1), Integer(0)
     unknown, power = (alone.base, 2) if alone.is_Pow else (alone, 1)
     above = tidied(with_unknown(difference, unknown, _nth(place + d, power)))
@@ -211,7 +216,7 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     if sign is None:
         return at_place, Integer(0)
     says = [Integer(holds(side, found.operator)) for side in (1, 0, -1)]
-    is_so = [Integer(holds(side * sign, mark)) for side in (1, 0, -1)]  # it changes its sign at the bound
+    is_so = [Integer(holds(side * sign, mark)) for side in (1, 0, -1)]  # the difference changes its sign at the bound
     there, expected = [at_place, above, *says], [Integer(0), sign * Abs(above), *is_so]
     return ImmutableDenseMatrix(there), ImmutableDenseMatrix(expected)
 
@@ -221,7 +226,7 @@ def _nth(value: Expr, power: int) -> Expr:
 
 
 def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | None) -> Verdict:
-    """Compare the relations at random points: both hold, or both do not."""
+    """Check at random points that both relations hold, or that neither of them does."""
     seen = 0
     difference, residual = with_numbers(difference), with_numbers(found.residual)
     letters = letters_of(difference) | letters_of(residual)
@@ -246,7 +251,7 @@ def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | No
     excludes=(("results", "bound"),),
     of="where: an answer",
     letter="for: a letter",
-    mark="is: such as `'>'`, `'='` by default",
+    mark="is: a comparison sign such as `'>'`, `'='` by default",
     bound="bound: 0 by default",
     other="results: an answer as the bound",
 )

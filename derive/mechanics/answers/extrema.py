@@ -1,4 +1,4 @@
-"""The greatest and the least value of a result: where its slope vanishes, its value there, and which it is."""
+"""The greatest and the least value of a result: where its slope vanishes, its value there, and the kind of extremum."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ Within = tuple[Expr, Expr]
 
 @in_results(
     "maximum",
-    "where the answer is greatest, and how large then",
+    "where the answer is greatest, and its greatest value",
     of="maximum: an answer",
     letter="for: a letter",
     within="within: two values, `[0, pi/2]`",
@@ -46,9 +46,9 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
     within   its interval; by default all values that the letter can have
-    Check: the value there against those at many other places of the interval.
+    Check: the value at this place is compared with the values at many other places of the interval.
     Outcomes: greatest, least; with a condition, if the place exists only for some values of the letters.
-    Errors: no place, or several, where the slope vanishes and the curvature has that sign; such places have no closed
+    Errors: the slope vanishes with this sign of the curvature at no place, or at several; these places have no closed
     form.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
@@ -57,7 +57,7 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
 
 @in_results(
     "minimum",
-    "where the answer is least, and how small then",
+    "where the answer is least, and its least value",
     of="minimum: an answer",
     letter="for: a letter",
     within="within: two values, `[0, pi/2]`",
@@ -152,7 +152,7 @@ def _extremum(
 
 
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
-    """Return the error that there is not exactly one place."""
+    """Return the error for any number of places other than one."""
     many = "no place" if not count else f"{count} places"
     message = f"`{verb}`: `{of.key}` has {many} with zero slope and this curvature"
     help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
@@ -163,21 +163,22 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
 
 
 def _range_as_interval(x: Symbol) -> Within | None:
-    """Return the interval in which the letter is known to lie."""
+    """Return the range of the symbol as an interval; None if the symbol has no bounded range."""
     known = range_of(x)
     is_bounded = known is not None and known.least.is_finite and known.greatest.is_finite
     return (known.least, known.greatest) if known is not None and is_bounded else None
 
 
 def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
-    """Return role -> condition: that the place is real, and that it lies between the ends."""
+    """Return role -> condition, for the place to be real and to lie between the ends of the interval."""
     found = {} if real is None else {"condition": real}
     return {**found, **{f"inside_{n}": each for n, each in enumerate(dict.fromkeys(room), 1)}}
 
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
-    """Return the conditions for the place to lie between the ends, an empty list if it always does; None if never."""
-    if within is None and (real is not None or not x.is_positive):  # where it exists, it is an allowed value
+    """Return the conditions for the place to lie between the ends of the interval: an empty list if it always lies
+    there, None if it never does."""
+    if within is None and (real is not None or not x.is_positive):  # a place that exists is an allowed value
         return []
     low, high = within or (Integer(0), None)
     found = []
@@ -191,27 +192,29 @@ def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol
 
 
 def _sign_of_distance(ahead: Expr, width: Expr) -> int | None:
-    """Return the sign of a distance from an end for all letters; the interval has a positive width."""
+    """Return the sign that a distance from an end has for all values of the symbols; None if there is no such sign. The
+    width of the interval is taken to be positive."""
     signs = (sign_for_all(tidied(part)) for part in (ahead, ahead / width))
     return next((sign for sign in signs if sign is not None), None)
 
 
 def _apart(condition: Relation) -> Relation:
-    """Write (k m - b^2/2)/m^2 > 0 as b^2 < 2 k m: subtracted terms move to the other side."""
+    """Move subtracted terms to the other side: write (k m - b^2/2)/m^2 > 0 as b^2 < 2 k m."""
     above, below = condition.left.as_numer_denom()
     more, less = sides_without_minus((above / abs(above.as_content_primitive()[0])).expand())
     return Relation(less, "<", more) if below.is_positive and more != 0 and less != 0 else condition
 
 
 def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
-    """Return the zeros of the slope that the given numbers allow; without an interval, those within one turn."""
+    """Return the zeros of the slope that the given numbers allow. Without an interval, return only zeros within one
+    turn."""
     find = zeros_of if within is None else zeros_nearby
     found = find(slope, x) if slope.has(x) else []
     return [Zero(as_one_root(zero.value), zero.exists) for zero in found if truth_known(zero.exists) is not False]
 
 
 def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:
-    """Substitute the numbers of all letters except the one that varies."""
+    """Substitute the numbers of all symbols except the one that varies."""
     varied = Dummy("x", **x.assumptions0)
     return with_numbers(expr.xreplace({x: varied})).xreplace({varied: x})
 
@@ -228,7 +231,8 @@ def _not_exceeded(
     curved: int,
     place: Expr,
 ) -> Verdict:
-    """Check that no value at places spread over the interval, or near the place, exceeds the extreme value."""
+    """Check that no value at places spread over the interval exceeds the extreme value. Without an interval, use places
+    on both sides of the extremum."""
     value, top, place = (_with_numbers_beside(e, x) for e in (value, top, place))
     letters = (letters_of(value) | letters_of(top) | letters_of(place)) - {x}
     conditions = [*told.values(), *assumed()]

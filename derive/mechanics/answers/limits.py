@@ -1,4 +1,4 @@
-"""Limiting cases: the leading terms of a result where a letter is small, large, or near a value."""
+"""Limiting cases: the leading terms of a result where a symbol is small, large, or near a value."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
-MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # far beyond the samples of the other letters
+MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # far beyond the sample numbers of the other symbols
 BORDERS = {"=": "", ">=": "min", "<=": "max"}  # index of the letter for its value on the boundary
 
 
@@ -77,22 +77,22 @@ def limiting_case(
     key: str | None = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """Result in a limiting case, f = c_n e^n + ... with the small quantity e: x, 1/x or x - a.
-    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, whose value, or
-             least or largest value, goes to a limit; or another equation, which `equation_in_limit` expands
-    letter   the letter that is small or large, or a ratio, h/R, whose first letter goes to the limit
-    to       0 if it is small, SymPy's `oo` if it is large, else the value that it is near
+    """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x or x - a.
+    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, whose value,
+             least value or largest value goes to a limit; or another equation, which `equation_in_limit` expands
+    letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
+    to       0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
     order    the highest power of the small quantity that is kept; by default only the leading term
-    For a vector or a tensor, the leading power is that of its largest entry: the others are negligible. Use `put_in` to
-    set letters equal, b = a. The result has a new letter, `symbol` or omega_lim, and results computed from it are
-    approximate.
-    Check: the same terms by adding, multiplying and dividing power series, without a derivative; and numbers,
-    on each side: the rest, divided by the last power that is kept, goes to zero with the small quantity.
+    For a vector or a tensor, the leading power is that of its largest entry: smaller entries are negligible. Use
+    `put_in` to set letters equal, b = a. The result has a new letter, `symbol` or omega_lim. Results computed from it
+    are approximate.
+    Check: the same terms by adding, multiplying and dividing power series, without a derivative; numerically, on each
+    side, the terms that are left out, divided by the last power that is kept, go to zero with the small quantity.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
-    Errors: the result does not contain the letter; the letter changes in the motion and stays finite; the motion
-    does not reach the limit; the result has no such expansion (it oscillates there), has a different one on each side,
-    or has no term up to that order.
+    Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the
+    motion does not reach the limit; the result has no such expansion (it oscillates there), has different expansions on
+    the two sides, or has no term up to the requested order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     solved = _solved_for(of)
@@ -152,7 +152,7 @@ def limiting_case(
 
 
 def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
-    """Return the letter of a limit, which must differ from that of the whole."""
+    """Return the symbol of a limit, which must differ from the symbol of the whole result."""
     if symbol is None:
         return letter_of_limit(whole, x, aim)
     if symbol == str(whole):
@@ -162,13 +162,14 @@ def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
 
 
 def _whole(of: Quantity, name: Any, approach: Approach) -> Any:
-    """Return the letter of the whole: for a series in powers of the same letter, that of the exact value."""
+    """Return the symbol of the whole result. If this result is itself a series for the same limit, return the symbol of
+    its exact value."""
     is_series = of.step.approximates is not None and dict(of.step.roles).get("approach") == approach
     return of.step.approximates if is_series else name
 
 
 def _solved_for(of: Quantity) -> Symbol | None:
-    """Return the letter for which an equation is solved, x of x = f, if f does not contain it; x_min of x >= f."""
+    """Return x for an equation x = f without x in f, and x_min for x >= f; None for any other relation."""
     if not isinstance(of.value, Relation) or of.value.operator not in BORDERS:
         return None
     left, right = of.value.sides
@@ -179,7 +180,7 @@ def _solved_for(of: Quantity) -> Symbol | None:
 
 
 def _what_goes(letter: Any) -> tuple[Expr, Symbol]:
-    """Return the expression that goes to a value on the page, and the letter that moves it: h, the first of h/R."""
+    """Return the expression whose limit the page states, and the symbol that goes to the limit: h for h/R."""
     if isinstance(letter, Mul):
         above = [part for part in Mul.make_args(letter.as_numer_denom()[0]) if isinstance(part, Symbol)]
         if above and above[0] not in (letter / above[0]).free_symbols:
@@ -189,7 +190,7 @@ def _what_goes(letter: Any) -> tuple[Expr, Symbol]:
 
 
 def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
-    """Check that the letter occurs and is constant; a coordinate or the time may only go to infinity."""
+    """Check that the result contains the symbol, and that the symbol is constant or goes to infinity."""
     if x not in value.free_symbols:
         message = f"`limiting_case`: `{of.key}` does not contain {x.name}"
         raise Rejected(Complaint("nothing-to-put-in", message))
@@ -199,7 +200,7 @@ def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
 
 
 def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
-    """Check that the motion reaches the limit, if energy conservation gives the rate of the coordinate that grows."""
+    """Check that the motion reaches infinity, if energy conservation gives the rate of the coordinate that grows."""
     for each in of.ancestors() if aim in (oo, -oo) else ():
         known = each.fact(ByEnergy)
         if known is not None and known.coordinate == x:
@@ -208,7 +209,7 @@ def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
 
 
 def _check_assumed(x: Symbol, aim: Expr) -> None:
-    """Check that near the limit some values of the other letters fulfil all assumptions of the page."""
+    """Check that near the limit all inequalities assumed on the page hold for some values of the other symbols."""
     signs = {">": 1, "<": -1}
     kept = [with_numbers(each.residual * signs[each.operator[0]]) for each in assumed() if each.operator[0] in signs]
     conditions = [each for each in kept if x in each.free_symbols]
@@ -224,7 +225,7 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
 
 
 def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
-    """Return a large number, or numbers on both sides of the limit."""
+    """Return a number of large size for an infinite limit, else one number on each side of the limit."""
     if aim in (oo, -oo):
         return (FAR if aim == oo else -FAR,)
     there = explicit(aim).xreplace(dict(point))
@@ -233,7 +234,7 @@ def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
 
 
 def _added_up(series: Sequence[Series], value: Any, x: Symbol, place: Expr) -> Any:
-    """Add the terms of each entry."""
+    """Return the sum of the terms of the series, entry by entry."""
     added = [tidied_terms(each, x, place) for each in series]
     return ImmutableDenseMatrix(*value.shape, added) if isinstance(value, MatrixBase) else added[0]
 
@@ -247,7 +248,7 @@ def _last_line(found: Any, series: Sequence[Series], x: Symbol, place: Expr, exa
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
-    """Write a polynomial in ascending powers, its leading term as a factor: 2 pi sqrt(l/g) (1 + A^2/16)."""
+    """Write a polynomial in ascending powers with its leading term as a factor: 2 pi sqrt(l/g) (1 + A^2/16)."""
     if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
         return value
     try:
@@ -290,7 +291,7 @@ def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Qua
     known   the same quantity from an independent derivation
     Second route: the known result, entry by entry.
     Outcomes: generic.
-    Errors: the two are not equal; one is derived from the other.
+    Errors: the two results are not equal; one of them is derived from the other.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     values = [explicit(q.value.right if _solved_for(q) is not None else q.value) for q in (found, known)]
@@ -324,14 +325,14 @@ CASE_IN_LETTERS = Rule(
 def case_in_letters(
     found: Quantity, formula: Expr, values: Sequence[Quantity], key: str = "case_in_letters"
 ) -> Quantity:
-    """Limiting case written in the letters of earlier results: 3 g/(2 a S) is M g l/(I_z S).
+    """Limiting case written with the letters of earlier results: 3 g/(2 a S) is M g l/(I_z S).
 
     found    the result in a limiting or a special case, any unit
-    formula  the same in letters
+    formula  the same result in letters
     values   the results with these letters
-    Check: all letters replaced at once, against the limiting case.
+    Check: the formula with all letters replaced at once equals the limiting case.
     Outcomes: generic.
-    Errors: the two are not equal.
+    Errors: the formula and the limiting case are not equal.
     Source: none needed: substitution.
     """
     value = explicit(found.value.right if _solved_for(found) is not None else found.value)

@@ -1,6 +1,7 @@
 """The two roots of a quadratic equation in one formula, the condition under which they are real, and each root.
-An equation a x^2 + b x + c = 0 may be a general one in letters; the values of the letters in this problem are
-substituted after the formula, so the page shows both. If a is zero, the equation is linear and has one root.
+The coefficients of a x^2 + b x + c = 0 may be general symbols. Their values in this problem are substituted after the
+formula, so the page shows the general roots and the roots of this problem. If a is zero, the equation is linear and has
+one root.
 """
 
 from __future__ import annotations
@@ -64,7 +65,8 @@ class Quadratic:
 
 @dataclass(frozen=True)
 class Roots(Fact):
-    """The quadratic equation of the roots: in letters, with values substituted, its unknown, and these values."""
+    """The quadratic equation of the roots, in general symbols and with values substituted; its unknown; and these
+    values."""
 
     missing = "is not the root of a quadratic equation, as `roots` yields it with `together`"
     general: Quadratic
@@ -77,20 +79,21 @@ class Roots(Fact):
         return {q.key: q for q in self.values}
 
     def with_those(self, expr: Expr, those: Sequence[Any]) -> Expr:
-        """Substitute names or values for the letters of some quantities in a formula."""
+        """Substitute names or values for the symbols of the quantities in `values`."""
         return bound(expr, dict(zip((q.symbol for q in self.values), those, strict=True)))
 
 
 def roots_together(
     equation: Quantity, x: Symbol, values: Sequence[Quantity], key: str, keys: Sequence[str], symbols: Sequence[str]
 ) -> tuple[Quantity, ...]:
-    """Both roots of a quadratic equation in one formula, then each separately, the smaller in absolute value first.
-    equation   a x^2 + b x + c = 0, perhaps times a factor without x
+    """Both roots of a quadratic equation in one formula, then each root in a separate step, the smaller in absolute
+    value first.
+    equation   a x^2 + b x + c = 0, possibly times a factor without x
     x          the unknown
     values     quantities for letters of the coefficients
-    key        of the step with both roots; `keys` and `symbols` are those of the separate roots
-    As many steps are returned as there are keys: a single root, or the statement that there is none, counts for all.
-    Check: substituted back into the equation; their sum; the product of the two.
+    key        the key of the step with both roots; `keys` and `symbols` are those of the separate roots
+    There is one step for each key: a single root, or the statement that there is no root, is returned for every key.
+    Check: substituted back into the equation; the sum of the roots; their product.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of, apart = _coefficients(equation, x, values)
@@ -114,8 +117,8 @@ def roots_together(
 
 
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
-    """Return the coefficients of an equation that is quadratic or linear in x, the first one without a minus sign, and
-    the factor of its left side without x, with the values substituted."""
+    """Return the coefficients of an equation that is quadratic or linear in x, and the factor of its left side without
+    x, with the values substituted. The sign is chosen so that the first coefficient has no minus sign."""
     factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))
     polynomial = Mul(*(f for f in factors if x in f.free_symbols)).as_poly(x)
@@ -155,8 +158,8 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
     equation   a x^2 + b x + c = 0
     of         its coefficients, and the quantities for letters in them
     apart      the factor of the left side without x
-    keys       answers that this step gives if there is only one root
-    Check: substituted back into the equation; the sum of the two is -b/a.
+    keys       the requested keys that this step replaces if there is only one root
+    Check: substituted back into the equation; the sum of the two roots is -b/a.
     Outcomes: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (two, one of each sign), linear.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
@@ -190,7 +193,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
 
 
 def character(of: Quadratic) -> str:
-    """Return the outcome for the roots, by the discriminant and by the sign of their product."""
+    """Return the outcome for the roots, from the sign of the discriminant and the sign of the product of the roots."""
     sign = sign_known(of.discriminant)
     if sign == 1:
         return "opposite" if sign_known(of.a * of.c) == -1 else "two"
@@ -207,7 +210,7 @@ def _formula(of: Quadratic) -> Expr:
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
-    """Write k (u +- sqrt(u^2 - w)), where u has the letters that only the coefficient b has: S, not m a^2 S."""
+    """Write k (u +- sqrt(u^2 - w)), where u is the factor of -b with symbols that only b contains: S, not m a^2 S."""
     own = [
         f
         for f in Mul.make_args(-of.b)
@@ -226,7 +229,8 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
 
 
 def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
-    """Return the outcomes of the two roots: of the same sign or of opposite signs, if they are known to be real."""
+    """Return the outcomes of the two roots: whether they have the same sign or opposite signs, or the outcomes for
+    roots that are not known to be real."""
     if real is None:
         return "smaller_where_real", "larger_where_real"
     return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
@@ -256,8 +260,8 @@ def _one_of_two(
     both: Quantity, sign: int, outcome: str, key: str, letter: str | None, stands_for: Sequence[str] = ()
 ) -> Quantity:
     """One of the two roots of a quadratic equation, with the given sign before the square root.
-    Check: substituted back into the equation; 2 c/(-b -+ sqrt(b^2 - 4 a c)), in which the smaller root has the
-    larger denominator.
+    Check: substituted back into the equation; the equivalent form 2 c/(-b -+ sqrt(b^2 - 4 a c)), whose denominator is
+    larger for the smaller root.
     Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (of opposite signs), coinciding.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
@@ -287,18 +291,19 @@ def _one_of_two(
 
 
 def _indexed(name: str, key: str) -> str:
-    """Return the letter of a root by its key: phi_slow_dot for slow_precession, phi_1_dot for roots_1."""
+    """Return the symbol of a root, with an index from its key: phi_slow_dot for slow_precession, phi_1_dot for
+    roots_1."""
     return with_index(name, key.rpartition("_")[2] if key[-1].isdigit() else key.partition("_")[0])
 
 
 def with_index(name: str, index: str | int) -> str:
-    """Return the letter with an index: theta_1, or phi_1_dot for a rate."""
+    """Return the name with an index: theta_1, or phi_1_dot for a rate."""
     order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
     return f"{name.removesuffix(order)}_{index}{order}"
 
 
 def _of_sign(both: Expr, sign: int) -> Expr:
-    """Return the formula with one of the two signs, still one product."""
+    """Return the formula with one of the two signs; the result is still one product."""
     factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
     return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 
@@ -307,7 +312,7 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
     """Statement that there is no real root for the given numbers, b^2 - 4 a c < 0.
 
     Outcomes: none.
-    Check: the numbers substituted in the discriminant by the resultant.
+    Check: the discriminant from the resultant, with the numbers substituted.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of = both.needed(Roots)
@@ -332,12 +337,13 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
 
 
 def _by_resultant(of: Roots) -> Expr:
-    """Return the discriminant Delta by the resultant of the polynomial and its derivative, which is -a Delta."""
+    """Return the discriminant Delta from the resultant of the polynomial and its derivative, which is -a Delta."""
     return tidied(-_resultant(of.quadratic) / of.quadratic.a)
 
 
 def _resultant(here: Quadratic) -> Expr:
-    """Return the resultant of the polynomial, by its values at three points, and its derivative, by Sylvester."""
+    """Return the resultant of the polynomial and its derivative by Sylvester's determinant. The coefficients of the
+    polynomial come from its values at three points."""
     at_none, at_one, at_other = (here.at(Integer(n)) for n in (0, 1, -1))
     second, first = (at_one + at_other) / 2 - at_none, (at_one - at_other) / 2
     slope = [2 * here.a, here.b]
@@ -364,7 +370,8 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
 
     roots   one of the roots, as `roots` yields them with `together`
     Check: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
-    Outcomes: positive, negative, vanishing, conditional (not known from the letters); linear (b^2, a being zero).
+    Outcomes: positive, negative, vanishing, conditional (the sign depends on the letters); linear (b^2, since a is
+    zero).
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of = roots.needed(Roots)
@@ -395,9 +402,9 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: 
 
     roots    one of the roots, as `roots` yields them with `together`
     letter   the letter to solve for
-    distinct whether two different roots are required, b^2 - 4 a c > 0
+    distinct whether two distinct roots are required, b^2 - 4 a c > 0
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
-    substituted in the equation, the condition is shown in letters first.
+    substituted in the equation, the condition is first shown in letters.
     Check: as `where`.
     Outcomes: those of `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.

@@ -1,7 +1,7 @@
 """Roots of a polynomial equation in one letter: linear, quadratic, and of higher degree where it factors.
 
-For a positive unknown only the roots that can be positive are kept. If it depends on the letters whether a root is real
-or positive, the page states the condition with it.
+For a positive unknown only the roots that can be positive are kept. If a root is real or positive only for some values
+of the symbols, the page states the condition next to the root.
 """
 
 from __future__ import annotations
@@ -69,24 +69,25 @@ def roots(
     together: str | None = None,
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
-    """Roots of an equation in one letter, x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic factor, x = -b/a
-    for each linear one; only the positive ones if the unknown is positive, in ascending order.
-    equation   a polynomial in the letter; or a result that is not an equation, for its zeros
-    letter     the unknown: a letter, a coordinate, a rate, or such as `cos(theta)`
-    values     quantities for letters of the coefficients, substituted after the formula: with `together`
-    together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a); then
-               each separately, the smaller in absolute value first. A single root, or the statement that there is
-               none, then counts for all of the keys
+    """Roots of an equation in one letter, in ascending order: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic
+    factor, x = -b/a for each linear factor. If the unknown is positive, only positive roots are kept.
+    equation   a polynomial equation in the letter; or a result that is not an equation, for its zeros
+    letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
+    values     quantities for letters of the coefficients, substituted after the formula for both roots
+    together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
+               separate step follows for each root, the smaller in absolute value first. A single root, or the
+               statement that there is no root, counts for all keys
     keys       keys of the steps; by default the letter, with _1, _2 if there are several
     key        the beginning of the keys in place of the letter
-    symbols    the letters of the roots; by default that of the unknown, with _1, _2 if there are several
-    Check: substituted back into the equation; by Vieta the sum and the product of all roots
-    agree with the coefficients.
-    Factors that vanish elsewhere, sin(theta) if cos(theta) is the unknown, are stated, or assumed not to vanish.
-    Outcomes: single, double, only (the others are not positive, or complex), several, following (those after it),
-    none (no root is real), none_positive, none_reached (a sine or a cosine would be greater than 1 or less than -1); of
-    the two together: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (one of each sign), linear.
-    Errors: it is not a polynomial in the letter, or has a factor of a degree above two.
+    symbols    the letters of the roots; by default the letter of the unknown, with _1, _2 if there are several
+    Check: substituted back into the equation; by Vieta, the sum and the product of all roots agree with the
+    coefficients.
+    Factors without the unknown, such as sin(theta) if cos(theta) is the unknown, are stated or assumed not to vanish.
+    Outcomes: single, double, only (any other root is complex or not positive), several (the first of several roots),
+    following (a later root), none (no root is real), none_positive, none_reached (a sine or a cosine would be greater
+    than 1 or less than -1); for both roots in one formula: two, none, double, conditional (by the sign of
+    b^2 - 4 a c), opposite (one of each sign), linear.
+    Errors: the equation is not a polynomial in the letter, or it has a factor of a degree above two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
     unknown = unknown_of("roots", letter)
@@ -207,7 +208,7 @@ def _step(
 
 
 def _name(unknown: Expr, letter: str, number: int) -> Expr:
-    """Return the letter of a root; a value of cos(theta) has the name cos(theta), with the letter of the angle."""
+    """Return the symbol of a root. For the unknown cos(theta) it is cos(theta), with the given letter for the angle."""
     if not isinstance(unknown, Symbol):
         return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
     if not letter and not number:
@@ -216,7 +217,8 @@ def _name(unknown: Expr, letter: str, number: int) -> Expr:
 
 
 def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
-    """Return the factors that must not vanish, except those that the condition excludes already: cos(theta_0) > 0."""
+    """Return the factors that must not vanish, without those factors that the condition already makes nonzero, such as
+    cos(theta_0) if cos(theta_0) > 0."""
     excluded = may_vanish(divisor)
     if excluded is None or condition is None or condition.operator != ">" or not is_zero(condition.right):
         return excluded
@@ -244,7 +246,7 @@ ROOTS_ABSENT = Rule(
 
 
 def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, key: str) -> Quantity:
-    """State that there is no root: the discriminant is negative; or the largest root is not positive."""
+    """State that there is no root, since the discriminant is negative or the largest root is not positive."""
     last = _ascending(list(every))[-1] if real else every[0]
     mark = "=" if real and is_zero(last.value) else "<"
     if real:
@@ -270,7 +272,7 @@ def _asked(equation: Quantity) -> str:
 
 
 def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
-    """Return the common factor of all coefficients: P of P (R u - r)."""
+    """Return the common factor of all coefficients, such as P of P (R u - r)."""
     found = {root.coefficients: root.times for root in every}
     return tidied(polynomial.LC() / Mul(*(c[0] ** times for c, times in found.items())))
 
@@ -297,8 +299,8 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
 
 
 def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
-    """Return the condition for an angle with this sine or cosine; without the boundary, where the other function
-    vanishes, if the equation was divided by that function."""
+    """Return the condition for an angle with this sine or cosine to exist. The condition is a strict inequality if the
+    equation contains the other function, which vanishes where the inequality becomes an equation."""
     if not isinstance(unknown, sin | cos) or root.value in (1, -1):
         return None
     exists, _ = within_one(root.value)
@@ -308,7 +310,7 @@ def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | Non
 
 
 def _by_resultant(root: RootOf) -> Expr:
-    """Return the discriminant D by the resultant of the quadratic factor and its derivative, which is -a D."""
+    """Return the discriminant D from the resultant of the quadratic factor and its derivative, which is -a D."""
     a, b, c = root.coefficients
     x = Dummy("x")
     return -resultant(a * x**2 + b * x + c, 2 * a * x + b, x) / a
@@ -345,7 +347,8 @@ def _is_plain(polynomial: Poly) -> bool:
 
 
 def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
-    """Return a quadratic polynomial that is a square as a double linear factor."""
+    """Return a linear factor, with multiplicity two, of a quadratic polynomial that is a square; return any other
+    polynomial unchanged, with multiplicity one."""
     if polynomial.degree() == 2:
         a, b, c = polynomial.all_coeffs()
         if is_zero(b**2 - FOUR * a * c):
@@ -354,10 +357,10 @@ def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
 
 
 def _condition(root: RootOf, unknown: Expr) -> Relation | None:
-    """Return the condition for the root to be real, or positive if required."""
+    """Return the condition for the root to be real or, if a positive root is required, to be positive."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        lost = sign_known(c) or sign_for_all(unknown) == 1  # no root of a x^2 + c if a = 0; or it is 0
+        lost = sign_known(c) or sign_for_all(unknown) == 1  # D = 0: no root as a = 0, or the root 0
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
     if sign_for_all(unknown) == 1 and root.sign_where_real() is None:
@@ -366,13 +369,14 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
 
 
 def _sum_of_squares(root: RootOf) -> bool:
-    """Whether the discriminant b^2 - 4 a c is positive, since the product of the roots is negative."""
+    """Whether the product of the roots is known to be negative, so that b^2 - 4 a c is positive."""
     a, _, c = root.coefficients
     return sign_known(a * c) == -1
 
 
 def _ascending(found: list[RootOf]) -> list[RootOf]:
-    """Sort the roots in ascending order, if it is known: by numbers, by signs, or within one quadratic factor."""
+    """Sort the roots in ascending order by their numbers; without numbers, swap two roots if the first is known to be
+    the larger one."""
     numbers = [with_numbers(root.value) for root in found]
     if all(number.is_real and not number.free_symbols for number in numbers):
         order = sorted(range(len(found)), key=lambda i: numbers[i].evalf(30))
@@ -408,7 +412,8 @@ def _assumed(unknown: Expr) -> dict[str, bool]:
 def _in_results(
     equation: Quantity, letter: Letter, key: str, root: str | None = None, symbols: Symbols = ()
 ) -> tuple[Quantity, ...] | Quantity:
-    """Return all roots or the chosen one; the keys of zeros are those of the request, the keys of roots the letter."""
+    """Return all roots, or the root that the author chose. Zeros have keys that begin with the requested name; the keys
+    of roots are made from the unknown."""
     begins = None if isinstance(equation.value, Relation) else key
     found = checked(roots)(equation, letter, symbols=tuple(symbols) or None, key=begins)
     return found if root is None else _chosen(found, root)
@@ -440,7 +445,11 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
         raise Rejected(Complaint("wrong-type", message, help=help_line, argument="root"))
     fitting = [root for root in found if CHOICES[which](root, found)]
     if len(fitting) != 1:
-        raise _no_choice(which, "no root is known to be so" if not fitting else f"{len(fitting)} are so", found)
+        raise _no_choice(
+            which,
+            "no root is known to have this property" if not fitting else f"{len(fitting)} roots have this property",
+            found,
+        )
     return fitting[0]
 
 

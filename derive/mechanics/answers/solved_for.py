@@ -1,4 +1,4 @@
-"""Linear equations solved for unknowns: accelerations, tensions, multipliers, any letter."""
+"""Linear equations solved for unknowns: accelerations, tensions, multipliers or any other symbols."""
 
 from __future__ import annotations
 
@@ -39,15 +39,15 @@ MOST = 6  # unknowns that are eliminated together
 def solved_for(
     equations: Quantity | Sequence[Quantity], *unknowns: Any, keys: Sequence[str] | None = None
 ) -> tuple[Quantity, ...]:
-    """Solution of n linear equations for n unknowns by Cramer's rule, u_i = det A_i/det A; one equation: u = -b/a.
+    """Solution of n linear equations for n unknowns by Cramer's rule, u_i = det A_i/det A; for one equation, u = -b/a.
 
     equations   one equation or several
-    unknowns    letters, rates, accelerations (`x.acceleration`), or such as `theta.rate**2`, `cos(theta)`
+    unknowns    letters, rates, accelerations (`x.acceleration`), or expressions such as `theta.rate**2`, `cos(theta)`
     keys        keys of the steps; by default the letters of the unknowns
-    Check: all values substituted back into all equations, and the unknowns eliminated one after another.
-    Outcomes: alone (one equation), several, following (the second of several unknowns and those after it).
-    Errors: another number of equations than of unknowns; equations that are not linear in them, or that do not
-    determine them.
+    Check: all values substituted back into all equations; elimination of the unknowns one after another.
+    Outcomes: alone (one equation), several (the first of several unknowns), following (a later unknown).
+    Errors: the numbers of equations and of unknowns differ; the equations are not linear in the unknowns, or do not
+    determine the unknowns.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 3.3.
     """
     given = (equations,) if isinstance(equations, Quantity) else tuple(equations)
@@ -106,7 +106,7 @@ def _solution(
     excluded: Any,
     key: str,
 ) -> Quantity:
-    """Return the step of one unknown."""
+    """Return the step for one unknown."""
     above = matrix.copy()
     above[:, i] = right
     unknown = wanted[i]
@@ -153,7 +153,8 @@ def _written(matrix: Matrix) -> Expr:
 
 
 def eliminated(matrix: Matrix, right: Matrix) -> list[Expr]:
-    """Gaussian elimination: take each unknown from the equation with its simplest factor, put it into the others."""
+    """Solve by Gaussian elimination: for each unknown, use the equation in which the unknown has its simplest factor,
+    and eliminate the unknown from all other equations."""
     rows = [[*(matrix[i, j] for j in range(matrix.cols)), right[i]] for i in range(matrix.rows)]
     n = matrix.cols
     for column in range(n):
@@ -199,6 +200,6 @@ def _key_of(unknown: Expr) -> str:
     unknowns="for: letters, rates, accelerations, forces",
 )
 def _in_results(equations: Sequence[Quantity], unknowns: Letters, key: str) -> tuple[Quantity, ...]:
-    """Solve with the name as the key if there is one unknown, else with a numbered key for each."""
+    """Solve the equations. The requested name is the key of a single unknown; several unknowns have numbered keys."""
     keys = [key] if len(unknowns) == 1 else [f"{key}_{i + 1}" for i in range(len(unknowns))]
     return checked(solved_for)(tuple(equations), *unknowns, keys=keys)

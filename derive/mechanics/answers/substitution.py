@@ -1,4 +1,4 @@
-"""Substitution of results and values in an equation or another value."""
+"""Substitution of results and values in an equation or a value."""
 
 from __future__ import annotations
 
@@ -63,15 +63,15 @@ def put_in(
     """Value or equation with other results, or values of letters, substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
-    others   results, each for its letter; equations with only a letter, a rate, its square or a
-    cosine on their left; mappings of letters or coordinates to values
-    values   of letters by their names, `theta=0`: those at one instant
-    again    an earlier result that is derived once more in this way and must be the same
-    They are substituted one after another, in this order, the values last. If a coordinate is given as a function of
-    others, or of the time, its rates are substituted too.
-    Check: the letters of the original replaced all at once by their final values; the earlier result.
-    Outcomes: results, values (letters only), zero (with these values), identity (an equation that then always holds),
-    again.
+    others   results, each substituted for its letter; equations whose left side is only a letter, a rate, the square
+             of a rate, or a cosine; mappings of letters or coordinates to values
+    values   values of letters at one instant, by the names of the letters: `theta=0`
+    again    an earlier result that this substitution must reproduce
+    The results are substituted one after another, in this order, then the values. If a coordinate is given as a
+    function of other coordinates or of the time, its rates are substituted too.
+    Check: all letters of the original replaced at once by their final values; the earlier result.
+    Outcomes: results, values (letters only), zero (with these values), identity (an equation that always holds after
+    the substitution), again.
     Errors: nothing to replace; an equation that is not solved for a letter; a relation that cannot hold; a place
     that the motion does not reach.
     Source: none needed: substitution.
@@ -145,7 +145,8 @@ def _kept_facts(
 def _at_one_moment(
     of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement], result: Any
 ) -> list[AtOneMoment]:
-    """Return the fact that a coordinate or a rate has a constant value, here or in a substituted result."""
+    """Return the fact that the result holds only at the instant when a coordinate or a rate has a given value. The
+    values may come from this substitution or from an earlier one."""
     moving = coordinates_of(of, *rests)
     every = {rate(q, n) if n else q: q for q in moving for n in range(len(RATES))}
     if of.fact(Constant) is not None and not result.free_symbols & {*every, TIME}:
@@ -158,7 +159,7 @@ def _at_one_moment(
 
 
 def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]]:
-    """Return the results, and the values of letters."""
+    """Separate the results from the values of symbols."""
     results: list[Quantity] = []
     given: dict[Any, Any] = {}
     for each in others:
@@ -172,8 +173,8 @@ def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]
 
 
 def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
-    """Return the replacements by a result: its letter, and the rates of a coordinate that it gives for the whole
-    motion; for a conserved momentum also the rate of its coordinate."""
+    """Return the replacements by a result: for its symbol and, if it gives a coordinate for the whole motion, for the
+    rates of this coordinate. A conserved momentum also replaces the rate of its coordinate."""
     kept = quantity.fact(KeptMomentum)
     if kept is not None:
         target, value = rate(kept.coordinate), kept.turning
@@ -209,7 +210,8 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """Return the letter that a result replaces; a root, a limit or a series may replace the unknown or the whole."""
+    """Return the symbol that a result replaces. If this symbol does not occur, a root replaces its unknown, and a limit
+    or a series replaces the symbol of the whole result."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
@@ -217,7 +219,8 @@ def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
 
 
 def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[Replacement]:
-    """Return the rates of a coordinate, or of a rate, that depends on others or on the time; the highest first."""
+    """Return the replacements for the time derivatives of a coordinate, or of a rate, that is given as a function of
+    coordinates, rates or the time; the highest derivative first."""
     order = next((n for q in moving for n in (0, 1) if target == (rate(q, n) if n else q)), None)
     letters = {rate(q, n) if n else q for q in moving for n in range(len(RATES))} | {TIME}
     if order is None or not isinstance(target, Symbol) or not value.free_symbols & letters:
@@ -230,7 +233,7 @@ def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[R
 
 
 def _values(of: Quantity, given: Mapping[Any, Any], named: Mapping[str, Any], value: Any) -> list[Replacement]:
-    """Return the letters, with their values at that instant."""
+    """Return the symbols with their values at one instant."""
     letters = {s.name: s for s in value.free_symbols}
     pairs: list[tuple[Expr, Any]] = [(unknown_of("put_in", target), at) for target, at in given.items()]
     for name, at in named.items():
@@ -261,7 +264,8 @@ def _plain(of: Quantity, target: Expr, at: Any) -> Expr:
 
 
 def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity, told: list[Replacement]) -> Any:
-    """Return the value after these replacements, at least one of which must apply; add them to the list."""
+    """Return the value after these replacements, and add the replacements that apply to `told`; reject a call in which
+    none applies."""
     before = value
     for target, at in pairs:
         put = partial(_replaced, target, at)
@@ -292,7 +296,7 @@ def _mapped(value: Any, target: Expr, at: Expr) -> Any:
 
 
 def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
-    """Return the final value of each letter, after all later substitutions."""
+    """Return the final value of each replaced symbol, after all later substitutions."""
     final: dict[Symbol, Expr] = {}
     for target, at in reversed(told):
         final = {**final, **{letter: bound(v, final) for letter, v in meaning(target, at).items()}}
@@ -300,7 +304,7 @@ def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
 
 
 def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
-    """Return the original with each letter replaced by its final value."""
+    """Return the original with all symbols replaced at once by their final values."""
     final = _final(told)
     if isinstance(value, Relation):
         return Relation(bound(value.left, final), value.operator, bound(value.right, final))
@@ -308,8 +312,8 @@ def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
 
 
 def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
-    """Simplify a value; sort an equation of motion by its accelerations; drop the positive factors of any other
-    relation to zero."""
+    """Simplify a value. Sort an equation of motion by its accelerations. In any other relation to zero, drop positive
+    factors."""
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(presented))
     if not isinstance(value, Relation):
@@ -329,7 +333,8 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
 
 
 def _energy_by_terms(value: Expr) -> Expr | None:
-    """Write (1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a bracket: keep T and U in separate terms."""
+    """Write an energy with separate terms for T and U: (1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a
+    bracket."""
     moving = list(coordinates_in(value))
     squares = [rate(q) ** 2 for q in moving if value.has(rate(q))]
     if not squares or value.as_numer_denom()[1].free_symbols:
@@ -347,7 +352,8 @@ def _is_identity(result: Any) -> bool:
 
 
 def _check_reached(of: Quantity, rests: Sequence[Quantity], told: Sequence[Replacement]) -> None:
-    """Check that the motion reaches a substituted place; a place that was found from the motion has its condition."""
+    """Assume that the motion reaches a substituted position. A position that was derived from the motion needs no
+    assumption. Reject a position if the motion turns back before it."""
     for speed in {id(a): a for quantity in (of, *rests) for a in quantity.ancestors() if a.fact(ByEnergy)}.values():
         found = any(each.rests_on(speed) for each in rests)
         for target, place in told:
@@ -356,7 +362,7 @@ def _check_reached(of: Quantity, rests: Sequence[Quantity], told: Sequence[Repla
 
 
 def _is_place_of(target: Expr, place: Expr, speed: Quantity, moving: Mapping[Symbol, str]) -> bool:
-    """Whether a constant is substituted for the coordinate of a motion, or for a function of it in the rate."""
+    """Whether a constant is substituted for the coordinate of this motion, or for a function of this coordinate."""
     known = speed.fact(ByEnergy)
     return (
         known is not None
@@ -366,7 +372,7 @@ def _is_place_of(target: Expr, place: Expr, speed: Quantity, moving: Mapping[Sym
 
 
 def _check_holds(of: Quantity, result: Any) -> None:
-    """Reject an equation between two different numbers, which never holds."""
+    """Reject an equation that never holds: the difference of its sides is known not to vanish."""
     if isinstance(result, Relation) and result.operator == "=" and not is_zero(result.residual):
         if explicit(result.residual).is_nonzero:
             message = f"`{of.key}` cannot hold with these values: it would be {result}"
@@ -374,7 +380,7 @@ def _check_holds(of: Quantity, result: Any) -> None:
 
 
 def _name(of: Quantity, symbol: str | None) -> Any:
-    """Return the letter of the original; if this is a derivative, the key serves as the letter."""
+    """Return the symbol of the original; if this symbol is a derivative, return a symbol made from the key."""
     if isinstance(of.value, Relation):
         return None
     if symbol is not None:
@@ -388,7 +394,7 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _key_for(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> str:
-    """Return the key of the result: tension_at_theta, motion_x_with_tension."""
+    """Return the default key of the result, such as tension_at_theta or motion_x_with_tension."""
     if there:
         return f"{of.key}_at_" + "_".join(dict.fromkeys(letter_of(target).name for target, _ in there))
     return f"{of.key}_with_" + "_".join(quantity.key for quantity in rests)
@@ -399,7 +405,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 
 @in_results(
     "put_in",
-    "the answer with these substituted",
+    "the answer with these results and values substituted",
     one_of=("results", "values"),
     of="put_in: an answer",
     results="results",
@@ -413,7 +419,8 @@ def _in_results(
     values: Values = NONE,
     symbol: str | None = None,
 ) -> Quantity:
-    """Substitute the values of a state, which may contain more than this answer needs."""
+    """Substitute results and the values of a state. The state may contain coordinates and rates that this answer does
+    not contain."""
     there = {s.name for quantity in (of, *results) for s in explicit(quantity.value).free_symbols}
     state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
     for name in (name for name in values if name not in there | state):

@@ -1,4 +1,4 @@
-"""Steps of plain algebra: the value for particular vectors or letters, the length of a vector, any other by `let`."""
+"""Steps of plain algebra: the value for particular vectors or symbols, the length of a vector, and `let`."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
     general      a result for a vector with unspecified components
     particular   the vector to substitute: same symbol, same axes
     Check: the law itself, evaluated with the particular vector from the start.
-    Errors: the general result does not contain that vector's components; the vector is of another kind, or a rotation
-    about another point.
+    Errors: the general result does not contain the components of that vector; the vector is of another kind, or it is a
+    rotation about another point.
     Source: none needed: substitution.
     """
     _check_same_kind(general, particular)
@@ -87,7 +87,7 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
 
 
 def _check_same_kind(general: Quantity, particular: Quantity) -> None:
-    """Check that the particular vector is of the kind of the general one, and rotates about the same point."""
+    """Check that the two vectors are of the same kind and, if both are rotations, about the same point."""
     opened = next((q for q in general.ancestors() if q is not general and q.symbol == particular.symbol), None)
     if opened is None:
         return
@@ -223,7 +223,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
 
 
 def _rate_of_square(of: Quantity) -> list[RateOfSquare]:
-    """Return the fact for d(v.v)/dt = 2 v.dv/dt, if the rate of the vector is known by particles."""
+    """Return the fact for d(v.v)/dt = 2 v.dv/dt, if the rate of the vector is known from particles."""
     known = of.fact(RateByParticles)
     return [] if known is None else [RateOfSquare(of.value, known)]
 
@@ -254,11 +254,12 @@ def let(
     law          a function of the quantities; it gives an expression, or an equation as SymPy's `Eq(left, right)`
     kind         the kind of the quantity, "force", "time"; by default it has only the dimension of the expression
     because      the reason, in the words of the script: "by Newton's second law"
-    It has the subject of the quantities, as far as they agree, and changes with the coordinates and the time that it
-    contains. If all its quantities have mass points and forces, it has them too. Nothing checks that it is what its
-    letter means: if it is an answer, the page calls it a definition.
-    Outcomes: generic, because (with the reason that is given), equation, equation_because.
-    Errors: no such kind; the expression is not a scalar; an equation with a letter or a kind, or one that always holds.
+    The result has the subject on which its quantities agree. It changes if it contains a coordinate or the time. If all
+    its quantities have mass points and forces, it has them too. Nothing checks that the result has the meaning of its
+    letter: if the result is an answer, the page calls it a definition.
+    Outcomes: generic, because (with the given reason), equation, equation_because.
+    Errors: no such kind; the expression is not a scalar; an equation with a letter or a kind, or one that always or
+    never holds.
     Source: none needed: a definition.
     """
     if kind is not None and kind not in KINDS:
@@ -319,6 +320,6 @@ def _sort_of(is_equation: bool, has_reason: bool) -> str:
 
 
 def _facts_of(quantities: Sequence[Quantity]) -> list[Fact]:
-    """Return the mass points and forces of all quantities, if each of them has some of one motion."""
+    """Return the mass points and forces of all quantities together; an empty list if one of them has none."""
     known = [matter for q in quantities if (matter := q.fact(Matter)) is not None]
     return [sum(known[1:], known[0])] if known and len(known) == len(quantities) else []

@@ -48,8 +48,8 @@ def poisson_bracket(
     coordinates   all coordinates; not needed if f or g is a Hamiltonian or was derived from one
     among         steps; if the bracket is a number times one of them, the result is shown with the symbol of this step
     Second route: {q, p} = 1, antisymmetry, and the rules for {f + h, g}, {f h, g} and {u(f), g}, applied to the
-    formulas; if g is a Hamiltonian, the bracket plus the partial derivative of f by time is the rate of f along every
-    motion, with f as a function of t and accelerations from d'Alembert's principle.
+    formulas; if g is a Hamiltonian, the bracket plus the partial derivative of f with respect to time is the rate of f
+    along every motion, with f as a function of t and accelerations from d'Alembert's principle.
     Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero, generic.
     Errors: the coordinates are not given; f or g contains a rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 9.5.
@@ -139,7 +139,8 @@ def _function(of: Any, pairs: Pairs) -> Any:
 
 
 def _derivatives(f: Expr, g: Expr, pairs: Pairs) -> list[tuple[Integer, Symbol, Symbol]]:
-    """Return, for each product that does not vanish, its sign and the variables by which f and g are differentiated."""
+    """Return, for each product that does not vanish, its sign and the variables with respect to which f and g are
+    differentiated."""
     found: list[tuple[Integer, Symbol, Symbol]] = []
     for q, p in pairs:
         for sign, u, v in ((Integer(1), q, p), (Integer(-1), p, q)):
@@ -155,7 +156,7 @@ def _written(value: Expr) -> Expr:
 
 
 def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
-    """Return the line that shows the result as a number times one of the known functions."""
+    """Return the line that shows the result as a number times one of these steps; no line if there is no such step."""
     for known in among:
         ratio = tidied(value / explicit(known.value)) if value != 0 else ZERO
         if ratio.is_number and ratio != 0:
@@ -182,7 +183,7 @@ def _of_letters(f: Symbol, g: Symbol, pairs: dict[Symbol, Symbol]) -> Expr:
 
 
 def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
-    """Return each part h of f with the factor df/dh of its bracket, so {f, g} is the sum of df/dh {h, g}."""
+    """Return pairs (df/dh, h) for the parts h of f, so that {f, g} is the sum of df/dh {h, g}."""
     if f.is_Add:
         return [(Integer(1), term) for term in f.args]
     if f.is_Mul:
@@ -197,7 +198,7 @@ def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
 
 
 def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Expr]:
-    """Return {f, H} plus the partial derivative of f by time, and df/dt along the motion.
+    """Return {f, H} plus the partial derivative of f with respect to time, and df/dt along the motion.
 
     df/dt has f as a function of t. The sums (m a - F) . dr/dq with the factors df/dp, which vanish by d'Alembert's
     principle, eliminate the accelerations.

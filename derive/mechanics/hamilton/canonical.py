@@ -51,7 +51,7 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     and magnetic forces, and of m v . d(dr/dq)/dt; for a given L, the sum of p dH/dp, minus H, is L again.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
     time), changing (neither); work_energy (T + U, but a force outside L does work), work (a force outside L does work,
-    and H is not T + U); given_conserved, given_changing, given_work (the same for a given L).
+    and H is not T + U); given_conserved, given_changing, given_work (the corresponding cases of a given L).
     Errors: the momenta do not determine the rates, or too many must be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """

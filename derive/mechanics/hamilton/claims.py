@@ -1,4 +1,4 @@
-"""Predicates of Hamiltonian mechanics: conditions under which an outcome, or a fact of its sentence, is correct."""
+"""Predicates of Hamiltonian mechanics: each judges whether an outcome, or a statement of its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -24,14 +24,16 @@ def is_equation_of(facts: Judged, letter: Symbol) -> bool:
 
 
 def pushed(facts: Judged, beside: bool) -> bool:
-    """An equation for the rate of the momentum; whether its right side has terms other than -dH/dq."""
+    """Whether the result is an equation for the rate of the momentum. Its right side must have terms in addition to
+    -dH/dq if `beside` is true, and only -dH/dq otherwise."""
     H, q = explicit(facts.inputs["hamiltonian"]), facts.inputs["coordinate"]
     more = not is_zero(explicit(facts.result.right) + diff(H, q))
     return is_equation_of(facts, facts.inputs["momentum"]) and more == beside
 
 
 def conserved(kind: str | None) -> Predicate:
-    """The coordinate has this kind, and the rate of its momentum vanishes by d'Alembert's principle."""
+    """Judge whether the coordinate has this kind (None: neither an angle nor a length, or L is not an energy), and
+    whether the rate of its momentum vanishes by d'Alembert's principle."""
 
     def is_so(facts: Judged) -> bool:
         L, q = facts.quantities["lagrangian"], facts.inputs["coordinate"]
@@ -45,7 +47,8 @@ def conserved(kind: str | None) -> Predicate:
 
 
 def seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
-    """Whether momenta are conserved, and whether a prescribed motion leaves a kinetic energy at rest."""
+    """Judge whether constant momenta are used, and whether a prescribed motion causes a kinetic energy where all rates
+    vanish."""
 
     def is_so(facts: Judged) -> bool:
         kept = [role for role in facts.quantities if role.startswith("constant_")]
@@ -65,7 +68,8 @@ def constants(facts: Judged) -> int:
 
 
 def keeps_along_the_motion(facts: Judged) -> bool:
-    """The second function is the Hamiltonian of a Lagrangian, and the first one is constant along its motions."""
+    """Whether the second function is the Hamiltonian of a Lagrangian, and the first function is constant along the
+    motions of this Hamiltonian."""
     other: Quantity = facts.quantities["g"]
     space = other.needed(PhaseSpace)
     L = space.lagrangian
@@ -78,7 +82,7 @@ def keeps_along_the_motion(facts: Judged) -> bool:
 
 
 def bracket_as_told(facts: Judged, outcome: str) -> bool:
-    """The bracket contains f and g in this order, and pairs each coordinate with its momentum."""
+    """Whether the symbol of the bracket contains f and g in this order, and pairs each coordinate with its momentum."""
     named = [facts.quantities[role].symbol if role in facts.quantities else facts.inputs[role] for role in ("f", "g")]
     own = all(p.name == f"p_{q.name}" for q, p in facts.symbol.pairs)
     return own and list(facts.symbol.args[:2]) == named

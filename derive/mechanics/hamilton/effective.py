@@ -120,7 +120,7 @@ def _pushed(matter: Matter, q: Coordinate) -> Expr:
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
-    """Return the coordinates that remain without those of the constant momenta."""
+    """Return the coordinates of the Lagrangian without the coordinates of the constant momenta."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate

@@ -1,4 +1,4 @@
-"""Facts that results pass, in addition to their value, to the steps that use them."""
+"""Facts that results, in addition to their values, pass to later steps."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from derive.steps.step import Fact, Quantity, Route
 
 @dataclass(frozen=True)
 class Constant(Fact):
-    """A momentum that is constant, with its coordinate."""
+    """The cyclic coordinate of a constant momentum."""
 
     missing = "is not a momentum of a cyclic coordinate from `conserved`"
     coordinate: Coordinate
@@ -29,7 +29,8 @@ class Constant(Fact):
 
 @dataclass(frozen=True)
 class SeenWith(Fact):
-    """The context of an effective potential energy: the Lagrangian, the constant momenta, and their matter."""
+    """The context of an effective potential energy: the Lagrangian, the constant momenta, and the mass points and
+    forces."""
 
     missing = "is not an effective potential energy"
     lagrangian: Quantity
@@ -37,7 +38,8 @@ class SeenWith(Fact):
     matter: Matter
 
     def with_values(self, values: Mapping[Symbol, Expr]) -> SeenWith | None:
-        """The same with values for the symbols of some momenta; None if other symbols have values."""
+        """Return the same fact with values for the symbols of some momenta; None if a symbol that is not a constant
+        momentum has a value."""
         if not isinstance(self.matter, ReducedMatter) or not set(values) <= {p.symbol for p in self.constants}:
             return None
         rates = tuple((v, tidied(bound(found, values))) for v, found in self.matter.rates)
@@ -59,16 +61,17 @@ class PhaseSpace(Fact):
 
     @property
     def in_rates(self) -> dict[Symbol, Expr]:
-        """Each momentum as a function of the rates, which the mass points have confirmed."""
+        """Each momentum as a function of the rates; the mass points have confirmed these functions."""
         return {p.symbol: explicit(p.value) for p in self.momenta}
 
 
 @dataclass(frozen=True)
 class ReducedMatter(Matter):
-    """Matter whose cyclic coordinates move by their constant momenta: the forces along the other coordinates.
+    """Mass points and forces with respect to the coordinates that are not cyclic. The rates of the cyclic coordinates
+    follow from their constant momenta.
 
-    whole   the matter with all its coordinates
-    rates   the rates of the cyclic coordinates, in terms of the others and the constants
+    whole   the mass points and forces with all coordinates
+    rates   the rates of the cyclic coordinates, in terms of the other coordinates and the constant momenta
     """
 
     whole: Matter = field(default_factory=Matter)

@@ -151,7 +151,8 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
     of   the Lagrangian, J, of a system with given forces, couples or damping
     q    one of the coordinates of the system
-    Second route: Q is the derivative by q_dot of the power of all these forces, sum of F . v, with F held constant.
+    Second route: Q is the derivative of the power of all these forces, sum of F . v, with respect to q_dot, with F held
+    constant.
     Outcomes: generic, zero.
     Errors: all forces on the system have a potential energy.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
@@ -200,7 +201,7 @@ def _works(load: Load, q: Coordinate) -> list[Expr]:
 
 
 def _slope(load: Load, q: Coordinate, moving: Sequence[Symbol]) -> Expr:
-    """Return the derivative of the power F . v by q_dot, with F held constant."""
+    """Return the derivative of the power F . v with respect to q_dot, with F held constant."""
     velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * diff(v, q.rate) for f, v in zip(load.force, velocity, strict=True)))
 

@@ -1,4 +1,4 @@
-"""Predicates of Lagrangian mechanics: conditions under which an outcome, or a fact of its sentence, is correct."""
+"""Predicates of Lagrangian mechanics: each judges whether an outcome, or a statement of its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from derive.steps.trial_numbers import Point, everywhere, trial_points
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
-    """With the rate of this fact, the momentum has its conserved value."""
+    """Whether the momentum has its conserved value if the rate from this fact is substituted."""
     momentum, value = value_of_role(facts, "momentum"), value_of_role(facts, "value")
     there = momentum.xreplace({rate(fact.coordinate): fact.turning})
     as_named = (fact.momentum, fact.coordinate) == (facts.quantities["momentum"].symbol, facts.inputs["coordinate"])
@@ -45,7 +45,7 @@ def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
 
 
 def with_momenta(facts: Judged, fact: WithMomenta) -> bool:
-    """The equation no longer contains the rates of the coordinates with conserved momenta."""
+    """Whether the equation is free of the rates of all coordinates with conserved momenta."""
     return not explicit(facts.result).has(*(rate(kept.coordinate) for kept in fact.kept))
 
 
@@ -54,7 +54,7 @@ def force_of_its_constraint(facts: Judged, fact: ForceOf) -> bool:
 
 
 def _in_rates(facts: Judged) -> Expr:
-    """The result with the momenta of the mass points substituted for their symbols."""
+    """Return the result with the symbols of the momenta replaced by the momenta of the mass points."""
     L: Quantity = facts.quantities["lagrangian"]
     matter = L.needed(Matter)
     letters = {q.name: q for q in matter.coordinates}
@@ -64,7 +64,7 @@ def _in_rates(facts: Judged) -> Expr:
 
 
 def _is_conserved(facts: Judged) -> bool:
-    """Its rate along the motion, with accelerations eliminated by d'Alembert's principle, vanishes.
+    """Whether the rate of the result along the motion vanishes. D'Alembert's principle eliminates the accelerations.
 
     A constraint force does no work for velocities that the constraint allows.
     """
@@ -76,14 +76,14 @@ def _is_conserved(facts: Judged) -> bool:
 
 
 def _is_energy(facts: Judged) -> bool:
-    """The result is the kinetic energy of the mass points plus the potential energy."""
+    """Whether the result is the kinetic energy of the mass points plus the potential energy."""
     L = facts.quantities["lagrangian"]
     whole = L.needed(Matter).kinetic_energy() + explicit(L.needed(Energies).potential.value)
     return bool(equal(_in_rates(facts), whole))
 
 
 def _is_worked_on(facts: Judged) -> bool:
-    """Its rate along the motion is not only -dL/dt."""
+    """Whether forces that are not in L have a power, so that the rate of the result is not only -dL/dt."""
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
     power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
@@ -96,7 +96,7 @@ def _energy(conserved: bool, whole: bool, worked: bool = False) -> Predicate:
 
 
 def _given(conserved: bool, worked: bool) -> Predicate:
-    """The outcome for a Lagrangian that is given, so not a difference of two energies."""
+    """Judge the outcome for a given Lagrangian, which is not a difference of two energies."""
 
     def is_so(facts: Judged) -> bool:
         L = facts.quantities["lagrangian"]
@@ -120,7 +120,12 @@ ENERGIES = {
 
 
 def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> Predicate:
-    """An equation; whether its right side contains -dL/dt, and other power, and whether it is never positive."""
+    """Judge the right side of an equation for a rate of energy.
+
+    in_time   whether it contains -dL/dt; None if it is zero
+    worked    whether it contains the power of forces
+    lost      whether it is never positive; None if this does not matter
+    """
 
     def is_so(facts: Judged) -> bool:
         if facts.result.operator != "=" or is_zero(facts.result.right) != (in_time is None):
@@ -135,8 +140,8 @@ def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> 
 
 
 def _never_gains(power: Expr, moving: tuple[Symbol, ...]) -> bool:
-    """The power vanishes at rest, is even in the rates, and is nowhere convex along any of their combinations: no
-    principal minor of its second derivatives, with a minus sign, is negative."""
+    """Whether the power vanishes at rest, is even in the rates and is concave in the rates, so that it is never
+    positive. It is concave if no principal minor of minus its second derivatives is negative."""
     rates = [rate(q) for q in moving]
     at_rest = power.xreplace(dict.fromkeys(rates, Integer(0)))
     turned = power.xreplace({v: -v for v in rates})
@@ -147,12 +152,13 @@ def _never_gains(power: Expr, moving: tuple[Symbol, ...]) -> bool:
 
 
 def noether_symmetry(facts: Judged) -> bool:
-    """With no rates and no prescribed motion, only the gain of L under the shift remains."""
+    """Whether the shift leaves L unchanged: L gains no time derivative."""
     return is_zero(facts.inputs["gain"])
 
 
 def shifted_as_told(facts: Judged, outcome: str) -> bool:
-    """The derivative of L at the shifted coordinates by the shift, at zero shift, is the right side."""
+    """Whether the right side is the derivative, with respect to epsilon at epsilon = 0, of L at coordinates shifted by
+    epsilon xi."""
     L, small = facts.quantities["lagrangian"], Dummy("epsilon")
     moving = L.needed(Matter).coordinates
     shifted: dict[Symbol, Expr] = {}
@@ -173,7 +179,7 @@ not_cyclic: Predicate = negated(cyclic)
 
 
 def by_its_coordinate(facts: Judged, outcome: str) -> bool:
-    """The derivative is by the coordinate in the sentence."""
+    """Whether the symbol is a derivative with respect to the coordinate that the sentence names."""
     return isinstance(facts.symbol, Partial) and facts.symbol.args[1] == facts.inputs["coordinate"]
 
 
@@ -182,14 +188,16 @@ def free_bodies(facts: Judged) -> int:
 
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
-    """The page replaces a distance |u| by u only if it assumes u > 0."""
+    """Whether the page assumes u > 0 for each distance |u| that a step replaces by u, and the sentence mentions
+    stretched springs exactly if one of these assumptions is about a spring."""
     sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
     of_springs = any(side in assumed_in_words() for side in sides)
     return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")
 
 
 def equation_of(facts: Judged, q: Any) -> bool:
-    """The factors of the accelerations are proportional to the second derivatives of L by q_dot and each rate."""
+    """Whether the factors of the accelerations are proportional to the second derivatives of L with respect to q_dot
+    and each rate."""
     L, moving = value_of_role(facts, "lagrangian"), facts.quantities["lagrangian"].coordinates
     residual = explicit(facts.result).residual
     inertia = {s: diff(L, rate(q), rate(s)) for s in moving}
@@ -215,8 +223,8 @@ def has_rates(condition: Expr) -> bool:
 
 
 def is_stretched(facts: Judged) -> bool:
-    """Whether the rate of change of the condition along its steepest displacement differs from 1, numerically: the
-    displacement comes from virtual work, (J J^T)^-1 J a."""
+    """Whether the gradient of the condition with respect to the position of the particle does not have length 1. The
+    gradient (J J^T)^-1 J a comes from virtual work, and its length is computed numerically."""
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
         return False
@@ -237,7 +245,8 @@ Told = Callable[[Judged, str], bool]
 
 
 def of_its_coordinate(facts: Judged, outcome: str) -> bool:
-    """The stated value is that of the momentum, and the equation contains the rate of its coordinate."""
+    """Whether the equation sets the momentum equal to the stated value, and contains the rate of the coordinate of this
+    momentum."""
     moving = rate(facts.inputs["coordinate"]) in letters_in(facts.result)
     return (
         moving
@@ -263,8 +272,9 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 
 
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
-    """The factor of each multiplier in the equation is the derivative of a stated function by its coordinate or its
-    rate, except for the term of a friction force that is proportional to the multiplier."""
+    """Whether the factor of each multiplier in the equation is the derivative of a stated function with respect to the
+    coordinate of the equation, or to its rate. The generalized force may contain a friction term that is proportional
+    to a multiplier; this term is not counted."""
     q = facts.inputs["coordinate"]
     if facts.words["between"] not in ("coordinates", "rates", "both"):
         return False

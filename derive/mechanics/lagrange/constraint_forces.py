@@ -450,7 +450,9 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
         names = ", ".join(each.force.name for each in problem.constraints)
         how = "contradict" if _contradict(problem.constraints) else "repeat"
         message = f"the constraints kept by {names} {how} one another, so the forces are not determined"
-        return Rejected(Complaint("constraints", message, help="remove those that follow from the others"))
+        return Rejected(
+            Complaint("constraints", message, help="remove constraints that follow from the other constraints")
+        )
     bare = next((q.name for i, q in enumerate(problem.solved) if not any(matrix[i, :count])), None)
     what = f"no mass moves with {bare}" if bare else "the mass matrix is singular"
     return Rejected(Complaint("no-inertia", f"the accelerations are not determined: {what}"))

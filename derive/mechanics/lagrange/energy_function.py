@@ -94,10 +94,10 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
 
     of   the Lagrangian, J
     Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates; for a given L,
-    the derivative of L by a common factor of all rates, minus L, and the rate of h by the energy identity.
+    the derivative of L with respect to a common factor of all rates, minus L, and the rate of h by the energy identity.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
     time), changing (neither); work_energy (T + U, but a force outside L does work), work (a force outside L does work,
-    and h is not T + U); given_conserved, given_changing, given_work (the same for a given L).
+    and h is not T + U); given_conserved, given_changing, given_work (the corresponding cases of a given L).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
     moving = coordinates_of(of)
@@ -156,7 +156,7 @@ ENERGY_FUNCTION_RATE = Rule(
 
 def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
     """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt - sum of lambda df/dt, where dL/dt
-    and df/dt are partial derivatives by time, for constraints f = 0.
+    and df/dt are partial derivatives with respect to time, for constraints f = 0.
 
     of   the energy function h, J
     Steps derive the generalized forces Q. For a constraint linear in the rates, the terms without rates replace df/dt.

@@ -1,4 +1,4 @@
-"""Facts that results pass, in addition to their value, to the steps that use them."""
+"""Facts that results, in addition to their values, pass to later steps."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ForceOf(Fact):
-    """The constraint that a force keeps, and the equations that gave the force."""
+    """The constraint of a constraint force, and the linear equations from which the force was solved."""
 
     missing = "is not the force of a constraint"
     constraint: Constraint
@@ -41,7 +41,7 @@ class KeptMomentum(Fact):
 
 @dataclass(frozen=True)
 class WithMomenta(Fact):
-    """An equation of motion with conserved values of momenta: the Lagrangian, and these values."""
+    """The Lagrangian of an equation of motion, and the conserved values of momenta that the equation contains."""
 
     missing = "is not an equation of motion with substituted values of conserved momenta"
     lagrangian: Quantity
@@ -50,7 +50,7 @@ class WithMomenta(Fact):
 
 @dataclass(frozen=True)
 class FromLagrangian(Fact):
-    """The Lagrangian of an equation of motion or a momentum."""
+    """The Lagrangian from which an equation of motion or a momentum was derived."""
 
     missing = "does not come from a Lagrangian"
     lagrangian: Quantity
@@ -71,13 +71,13 @@ class Energies(Fact):
 
 
 def energies_of(lagrangian: Quantity) -> Energies | None:
-    """The two energies of a Lagrangian; None for a given one."""
+    """Return the two energies of a Lagrangian; None for a Lagrangian that is given as a formula."""
     return None if lagrangian.fact(Varied) is not None else lagrangian.needed(Energies)
 
 
 @dataclass(frozen=True)
 class Varied(Matter):
-    """First variations of a given Lagrangian, in place of mass points and forces.
+    """The first variations of a given Lagrangian, which take the place of mass points and forces.
 
     function   the Lagrangian
     """
@@ -100,20 +100,23 @@ class Varied(Matter):
         raise Rejected(Complaint("given-lagrangian", "the kinetic energy of a given Lagrangian is unknown"))
 
     def momentum_along(self, q: Symbol) -> Expr:
-        """The derivative of L when only the rate of q varies."""
+        """Return the derivative of L with respect to the rate of q."""
         return slope(self.function, rate(q))
 
     def turning_along(self, q: Symbol) -> Expr:
-        """The derivative of L when only q varies."""
+        """Return the derivative of L with respect to q."""
         return slope(self.function, q)
 
     def inertia_along(self, q: Symbol) -> Expr:
-        """Minus the first variation of the action by q, per unit of time: dp/dt minus the derivative of L by q."""
+        """Return dp/dt minus the derivative of L with respect to q: minus the variational derivative of the action."""
         return by_functions_of_time(self.momentum_along(q), self.coordinates) - self.turning_along(q)
 
     def further_routes(self, q: Symbol) -> dict[str, Route]:
-        """The rate of the energy of q alone, minus the part that the other coordinates, as functions of time, add, is
-        the power of the forces along q: this needs no derivative of L by q."""
+        """Return the second route by the energy identity, which needs no derivative of L with respect to q.
+
+        The energy of q alone is q_dot p - L. Its rate, plus the rate of L with the other coordinates as functions of
+        time, is the power of the forces along q.
+        """
 
         def power(found: Any) -> tuple[Any, Any]:
             others = [s for s in self.coordinates if s != q]
@@ -126,7 +129,7 @@ class Varied(Matter):
         return {"energy_identity": power}
 
     def change_along(self, shift: Mapping[Symbol, Expr]) -> Expr:
-        """The first-order change of L when every coordinate is shifted by a formula."""
+        """Return the first-order change of L if the coordinates are shifted by these formulas."""
         small = Dummy("epsilon", real=True)
         moved: dict[Symbol, Expr] = {}
         for q, x in shift.items():

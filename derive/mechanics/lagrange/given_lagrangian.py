@@ -2,7 +2,7 @@
 
 Second routes use variations of L instead of bodies: momenta and forces are the first-order changes of L when a rate or
 a coordinate varies. The energy identity dh/dt + dL/dt = sum of q_dot (d/dt dL/dq_dot - dL/dq), where dL/dt is a partial
-derivative, checks an equation of motion without a derivative of L by the coordinate.
+derivative, checks an equation of motion without a derivative of L with respect to the coordinate.
 
 Source: Landau, Lifshitz, *Mechanics*, sections 2 and 6; Goldstein, Poole, Safko, *Classical Mechanics*, section 2.3.
 """
@@ -134,14 +134,16 @@ def _take_as_real(base: Expr) -> None:
 
 
 def energy_of(matter: Varied) -> Expr:
-    """Return h, the sum of q_dot p minus L; the sum is the derivative of L by a common factor of all rates."""
+    """Return h, the sum of q_dot p minus L. The sum is the derivative of L with respect to a common factor of all
+    rates."""
     stretch = Dummy("u", real=True)
     rates = {rate(q): (1 + stretch) * rate(q) for q in matter.coordinates}
     return slope(bound(matter.function, rates), stretch).xreplace({stretch: ZERO}) - matter.function
 
 
 def rate_of_energy(matter: Varied) -> Expr:
-    """Return dh/dt by the energy identity: the sum of q_dot (dp/dt - dL/dq) minus the partial derivative of L by time.
+    """Return dh/dt by the energy identity: the sum of q_dot (dp/dt - dL/dq), minus the partial derivative of L with
+    respect to time.
 
     The identity is true for all functions q(t), not only for motions.
     """

@@ -227,7 +227,7 @@ def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
 
 
 def _has_some_fractions(factor: Expr) -> bool:
-    """Whether some terms of a sum have a numeric denominator and others do not."""
+    """Whether some terms of a sum have a numeric denominator and other terms do not."""
     below = {term.as_coeff_Mul()[0].q > 1 for term in Add.make_args(factor)} if factor.is_Add else set()
     return len(below) == 2
 

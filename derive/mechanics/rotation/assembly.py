@@ -1,7 +1,7 @@
-"""Composite bodies: parts at any place and in any orientation, and cavities; mass, centre of mass, inertia tensor.
+"""Composite bodies: parts in any position and orientation, and cavities; mass, centre of mass, inertia tensor.
 
-The tensor of each part about its centre is rotated to the axes of the whole and shifted by the parallel-axis theorem;
-then the tensors of all parts are added, and those of cavities subtracted.
+The tensor of each part about its centre of mass is rotated to the axes of the whole and shifted by the parallel-axis
+theorem. Then the tensors of all parts are added, and the tensors of cavities are subtracted.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class PointMass(Body):
 
 
 def minus(part: Body | PlacedPart) -> PlacedPart:
-    """A cavity of a body: `Composite(ball, minus(Ball(r, m).at(0, 0, d)))`."""
+    """Return a part as a cavity of a body: `Composite(ball, minus(Ball(r, m).at(0, 0, d)))`."""
     placed = part if isinstance(part, PlacedPart) else _placed(part)
     return replace(placed, sign=-placed.sign)
 
@@ -96,12 +96,12 @@ def _placed(part: Any) -> PlacedPart:
 class Composite(Body):
     """A composite body: `Composite(Rod(l, m).at(0, 0, -l/2), Ball(R, M).at(0, 0, -l), points={"pivot": (0, 0)})`.
 
-    parts    bodies in place, or `.at(x, y, z)` for the place of the centre of mass, or with `of=` of another point;
-             `.turned("x", angle)` rotates about that point; `minus(part)` is a cavity
-    mass     of the whole, if it is uniform and the masses of the parts are proportional to their sizes
-    points   names for places of the whole, such as a pivot
-    Two parts of one sort need names: `Rod(l, m).named("upper rod").at(...)`.
-    Errors: no part; two parts of the same name; a mass that vanishes; parts of different dimensions with one mass.
+    parts    bodies; `.at(x, y, z)` moves the centre of mass of a body to this position, or with `of=` another of its
+             points; `.turned("x", angle)` rotates the body about that point; `minus(part)` is a cavity
+    mass     the mass of a uniform whole, whose parts have masses in proportion to their sizes
+    points   names for positions in the whole, such as a pivot
+    Two parts of one shape need names: `Rod(l, m).named("upper rod").at(...)`.
+    Errors: no part; two parts with the same name; a mass that vanishes; one mass for parts of different dimensions.
     """
 
     id: ClassVar[str] = "body_of_several_parts"
@@ -133,12 +133,12 @@ class Composite(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """Empty: only its parts have measures."""
+        """Empty: only the parts of a composite body have measures."""
         return {}
 
     @property
     def boundary(self) -> None:
-        """None: only its parts have one."""
+        """None: only the parts of a composite body have a boundary."""
         return None
 
     def points(self) -> Mapping[str, Point]:
@@ -151,7 +151,7 @@ class Composite(Body):
         raise Rejected(Complaint("no-region", "a body of several parts has no single region of integration"))
 
     def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
-        """A sum over the parts, with cavities subtracted."""
+        """Return the sum of the integrals over the parts, with cavities subtracted."""
         total: Any = None
         for part in self.parts:
             found = part.body.over_mass(lambda r, part=part: integrand(point.seen(part.seen(r))), ORIGIN)
@@ -160,7 +160,7 @@ class Composite(Body):
 
     @property
     def flat_across(self) -> str | None:
-        """The axis along which no part has an extent, if there is one; "x" for a body that lies on another axis."""
+        """The first axis along which the body has no extent; None if there is no such axis."""
         return next((axis for k, axis in enumerate("xyz") if all(is_zero(r[k]) for _, r in self.particles())), None)
 
     @cached_property
@@ -170,7 +170,7 @@ class Composite(Body):
 
     @property
     def density(self) -> Quantity:
-        """The step that gives its mass."""
+        """The step that derives the mass: of the first part if one mass is given, else of the whole."""
         return self.shares[0] if self.shares else self.whole_mass
 
     def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity:
@@ -185,12 +185,12 @@ class Composite(Body):
 
 
 def PointMasses(*masses: tuple[Expr, Sequence[Any]]) -> Composite:
-    """Particles rigidly connected by massless links: `PointMasses((m, (a, 0, 0)), (2*m, (0, a, a)))`."""
+    """Return a body of particles connected by massless links: `PointMasses((m, (a, 0, 0)), (2*m, (0, a, a)))`."""
     return Composite(*(_placed(PointMass(as_expr(mass))).at(*place) for mass, place in masses))
 
 
 def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:
-    """The parts, where each that is not a particle has a name: the given one, or its id."""
+    """Return the parts, each with a name unless it is a particle: the given name, or the name of its shape."""
     found = [
         part if isinstance(part.body, PointMass) or part.body.called else part.named(part.body.id.replace("_", " "))
         for part in parts
@@ -210,7 +210,8 @@ def _index(part: PlacedPart) -> str:
 
 
 def _shared(body: Composite, mass: Expr) -> tuple[tuple[Quantity, ...], tuple[PlacedPart, ...]]:
-    """The steps for the masses of the parts of a uniform body, proportional to their sizes, and the parts."""
+    """Return the steps for the masses of the parts of a uniform body, which are proportional to the sizes of the parts,
+    and the parts with these masses."""
     if len({part.body.filling for part in body.parts}) > 1 or any(isinstance(p.body, PointMass) for p in body.parts):
         message = "one mass cannot be divided between volumes, areas, lengths and particles"
         raise Rejected(Complaint("parts", message, help="give each part a mass"))
@@ -232,11 +233,11 @@ SHARE_OF_MASS = Rule(
 
 
 def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
-    """Mass of a part of a uniform body, M times its size divided by that of the whole.
+    """Mass of a part of a uniform body, M times the size of the part divided by the size of the whole.
 
     body   the whole
-    part    one of its parts, or a cavity
-    mass   of the whole
+    part   one of its parts, or a cavity
+    mass   the mass M of the whole
     Second route: the density of the whole integrated over the part.
     Outcomes: part, hole.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
@@ -277,7 +278,7 @@ TOTAL_MASS = Rule(
 def _total_mass(body: Composite) -> Quantity:
     """Mass of the whole, the sum of the masses of the parts.
 
-    body   its parts
+    body   the whole, with its parts
     Second route: the integral of dm over all parts.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
@@ -305,11 +306,11 @@ CENTRE_OF_PARTS = Rule(
 
 
 def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Quantity:
-    """Centre of mass, r_C = (m_1 r_1 + m_2 r_2 + ...)/M, from a point.
+    """Centre of mass relative to a point, r_C = (m_1 r_1 + m_2 r_2 + ...)/M.
 
-    body    its parts
+    body    the whole, with its parts
     start   the point
-    Second route: the integral of r dm over all parts; the mean place of their equimomental particles.
+    Second route: the integral of r dm over all parts; the mean position of their equimomental particles.
     Outcomes: generic, cut_out.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
@@ -350,7 +351,7 @@ TENSOR_OF_PARTS = Rule(
 def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Quantity:
     """Inertia tensor of the whole about a point, the sum of the tensors of the parts.
 
-    body    its parts
+    body    the whole, with its parts
     point   the point, and the axes
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of all parts.
     Outcomes: isotropic, two_equal, diagonal, generic.
@@ -384,17 +385,17 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
 
 
 def _told(point: Point) -> str:
-    """The word for a point; the centre of the whole is "centre_of_mass", since parts have other centres."""
+    """Return the word for a point. The centre of the whole is "centre_of_mass", since each part also has a centre."""
     return "centre_of_mass" if point.name == "centre" else point.name
 
 
 def _for_the_whole(part: Quantity) -> Quantity:
-    """A quantity of a part without its subject, since the sum belongs to the whole."""
+    """Return a quantity of a part without its subject, since the sum belongs to the whole."""
     return replace(part, subject=NOTHING)
 
 
 def _steiner(mass: Expr, d: Any) -> Any:
-    """m (d.d 1 - d d)."""
+    """Return the term of the parallel-axis theorem, m (d.d 1 - d d)."""
     return scaled(mass, MatAdd(scaled(Dot(d, d), Identity(3)), scaled(Integer(-1), Outer(d, d))))
 
 
@@ -415,9 +416,9 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
     """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d).
 
     body    the whole
-    part    one of its parts, rotated by R, its centre of mass at d from the point
+    part    one of its parts; it is rotated by R, and its centre of mass is at d from the point
     point   the point, and the axes
-    Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part in its place.
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part.
     Outcomes: turned_there (its centre is at the point), moved, turned_moved.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
@@ -470,8 +471,8 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
 
     part    the part
     point   the point
-    d       the displacement, from the place and the rotation of the part
-    Second route: the mean position of its particles in their places.
+    d       the displacement, from the position and the rotation of the part
+    Second route: the mean position of the particles of the part.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
 

@@ -1,4 +1,4 @@
-"""Predicates of rotation: conditions under which an outcome, or a fact that its sentence names, is correct."""
+"""Predicates of rotation: each judges whether an outcome, or a statement of its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -34,7 +34,8 @@ def is_away_from_the_centre(facts: Judged) -> bool:
 
 
 def entry(*pairs: str, round_body: bool = False) -> Predicate:
-    """The entry of a tensor, by the index of its symbol; optionally, the body must be round by its particles."""
+    """Judge whether the result is one of these entries of a tensor, by the index of its symbol. With `round_body`, the
+    particles must also show that the body is round."""
 
     def is_so(facts: Judged) -> bool:
         return facts.symbol.name[-2:] in pairs and (not round_body or is_round(facts))
@@ -43,7 +44,7 @@ def entry(*pairs: str, round_body: bool = False) -> Predicate:
 
 
 def is_mirrored(facts: Judged) -> bool:
-    """A diagonal entry; by integration, moments of the mass that are odd in x, in y or in z vanish."""
+    """Whether the result is a diagonal entry, and integrals over the mass that are odd in x, in y or in z vanish."""
     body, point = facts.subject.body, facts.subject.point
     odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
     return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
@@ -66,7 +67,8 @@ def _moments_of(tensor: Any) -> list[Expr]:
 
 
 def tensor(different: int | None, round_body: bool = False) -> Predicate:
-    """A diagonal tensor with this number of different moments; None for a tensor that is not diagonal."""
+    """Judge whether the result is a diagonal tensor with this number of distinct moments; if no number is given,
+    whether it is not diagonal."""
 
     def is_so(facts: Judged) -> bool:
         tensor = facts.result
@@ -90,7 +92,7 @@ def moments(different: int, diagonal: bool) -> Predicate:
 
 
 def axis_of(different: int, alone: bool | None = None) -> Predicate:
-    """The number of different moments; and whether the moment of this axis is the single one beside two equal ones."""
+    """Judge the number of distinct moments, and whether the moment of this axis differs from two equal moments."""
 
     def is_so(facts: Judged) -> bool:
         moments, k = facts.inputs["moments"], int(facts.symbol.name[-1]) - 1
@@ -106,7 +108,8 @@ def axis_of_symmetry(facts: Judged) -> bool:
 
 
 def moments_compared(wanted: str) -> Predicate:
-    """All moments equal; one always greater; or a relation at which the moments are equal."""
+    """Judge whether all moments are equal ("always"), their differences have fixed signs ("never"), or the result is a
+    relation for which all moments are equal."""
 
     def is_so(facts: Judged) -> bool:
         moments = facts.inputs["moments"]
@@ -135,12 +138,14 @@ def about_that_axis(facts: Judged, letter: Any) -> bool:
 
 
 def steady_component(facts: Judged, along: Any) -> bool:
-    """The equation `slow` contains its rate, which is of second order, and the linear equation does not contain it."""
+    """Whether the equation `slow` contains the rate of the component along the axis, and the linear equation does not
+    contain this component. Its rate is of second order."""
     return explicit(facts.quantities["slow"].value).has(rate(along)) and not explicit(facts.result).has(along)
 
 
 def to_first_order(facts: Judged, speed: Any) -> bool:
-    """With that speed about the axis, the terms of first order in the small components give the linear equation."""
+    """Whether the linear equation consists of the first-order terms in the small components, if the component along the
+    axis has this speed."""
     exact, small = explicit(facts.quantities["motion"].value).residual, Symbol("s_small", real=True)
     across = [facts.inputs["small_1"], facts.inputs["small_2"]]
     along = facts.inputs["along"]
@@ -151,24 +156,24 @@ def to_first_order(facts: Judged, speed: Any) -> bool:
 
 
 def another_component(facts: Judged, letter: Any) -> bool:
-    """The small components are the other two components of the same vector."""
+    """Whether the small components and the component along the axis are three distinct components of one vector."""
     named = [facts.inputs[role] for role in ("along", "small_1", "small_2")]
     return len(set(named)) == 3 and letter.name.rpartition("_")[0] == named[0].name.rpartition("_")[0]
 
 
 def small_one(which: str) -> Naming:
-    """Its rate is in the linear equation that the sentence names at that point."""
+    """Judge whether this linear equation contains the rate of the named component."""
     return lambda facts, letter: explicit(facts.quantities[which].value).has(rate(letter))
 
 
 def moment_across(facts: Judged, moment: Any) -> bool:
-    """The result times this moment is the magnitude of the angular momentum."""
+    """Whether the result times this moment has the magnitude of the angular momentum."""
     L = explicit(facts.inputs["momentum"])
     return is_zero((explicit(facts.result) * explicit(moment)) ** 2 - sum((c**2 for c in L), Integer(0)))
 
 
 def turned_by(facts: Judged, angle: Any) -> bool:
-    """The tensor is rotated by that angle about the named axis, by its components."""
+    """Whether the result is the tensor along axes rotated by this angle about the named axis."""
     i = AXES.index(facts.words["along"])
     turn = Matrix.eye(3)
     j, k = (i + 1) % 3, (i + 2) % 3
@@ -185,7 +190,7 @@ def across(facts: Judged) -> Any:
 
 
 def turns(wanted: str) -> Predicate:
-    """The component along the axis is negative if and only if the outcome is left-handed."""
+    """Judge whether the component along the axis is negative, for "left", or not, for any other word."""
 
     def is_so(facts: Judged) -> bool:
         along = tidied(explicit(Dot(facts.result, facts.inputs["axis"])))
@@ -195,7 +200,8 @@ def turns(wanted: str) -> Predicate:
 
 
 def cosine_is(wanted: int | None, of: Callable[[Any], Any] = lambda cosine: cosine) -> Predicate:
-    """Parallel, opposite, perpendicular for the cosine 1, -1, 0; None for any other cosine."""
+    """Judge whether the cosine is 1 (parallel), -1 (opposite) or 0 (perpendicular), or for None whether it is none of
+    these."""
 
     def is_so(facts: Judged) -> bool:
         cosine = of(facts.result)
@@ -213,7 +219,8 @@ def rotation_cos(angle: Expr) -> Expr:
 
 
 def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
-    """Whether the rate vanishes in space and in the body; None in space: the rate in the body was not substituted."""
+    """Judge whether the rate vanishes in space and in the body. For `in_space=None`, judge whether the rate in the body
+    was not substituted."""
 
     def is_so(facts: Judged) -> bool:
         seen = facts.inputs.get("in_body")
@@ -225,9 +232,9 @@ def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
 
 
 def euler(torque: bool, coupled: str) -> Predicate:
-    """Whether a torque acts, and whether products of components remain.
+    """Judge whether a torque acts, and where products of components of omega remain.
 
-    coupled   "here": in this equation; "elsewhere": only in another; "nowhere"
+    coupled   "here": in this equation; "elsewhere": only in another equation; "nowhere"; empty if this does not matter
     """
 
     def is_so(facts: Judged) -> bool:
@@ -246,7 +253,7 @@ def euler(torque: bool, coupled: str) -> Predicate:
 
 
 def given_as(sort: str) -> Predicate:
-    """The verb in the script is of this sort, and the components are the given ones."""
+    """Judge whether the verb of the script begins with this word, and the result has the given components."""
 
     def is_so(facts: Judged) -> bool:
         given = all(is_zero(one - other) for one, other in zip(facts.result, facts.inputs["given"], strict=True))
@@ -260,7 +267,7 @@ def all_is_added(facts: Judged) -> bool:
 
 
 def moved(moved: bool, turned: bool) -> Predicate:
-    """Whether the part is displaced, and whether its axes differ from those of the whole."""
+    """Judge whether the part is displaced, and whether its axes differ from the axes of the whole."""
 
     def is_so(facts: Judged) -> bool:
         way, turn = facts.inputs.get("way"), facts.inputs["turn"]
@@ -270,7 +277,7 @@ def moved(moved: bool, turned: bool) -> Predicate:
 
 
 def beside_the_axis(facts: Judged) -> bool:
-    """Whether the centre of mass of some part, by its particles, is off the axis."""
+    """Whether the centre of mass of some part is off the axis. The centre is computed from particles."""
     about, k = facts.subject.point, "xyz".index(str(facts.subject.axis))
     for part in facts.subject.body.parts:
         mean = sum((m * about.seen(r) for m, r in part.particles), start=about.position * 0) / part.mass
@@ -284,7 +291,7 @@ def with_moments(facts: Judged) -> int:
 
 
 def is_flat(facts: Judged) -> bool:
-    """No particle is out of the plane, and the moment is about an axis in the plane."""
+    """Whether all particles are in the x-y plane, and the moment is about the x or y axis."""
     body = facts.subject.body
     return all(is_zero(place[2]) for _, place in body.particles()) and facts.subject.axis in ("x", "y")
 
@@ -295,12 +302,12 @@ def on_its_axis(facts: Judged) -> bool:
 
 
 def part_of_sign(sign: int) -> Predicate:
-    """The part has the stated name; a cavity has a negative sign."""
+    """Judge whether the part has this sign, which is negative for a cavity, and whether it has the stated name."""
     return lambda facts: facts.inputs["sign"] == sign and facts.words["part"] == facts.inputs["part_of"].called
 
 
 def edges_along_the_axes(facts: Judged, outcome: str) -> bool:
-    """If the sentence mentions edges, all limits of the coordinates are constant."""
+    """Whether all limits of the Cartesian coordinates are constant, if the sentence mentions edges."""
     if "edged" not in facts.words:
         return True
     body = facts.subject.body
@@ -314,7 +321,8 @@ def turned_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def inward(facts: Judged, outcome: str) -> bool:
-    """The sentence mentions the centre of mass unless the tensor is about another point."""
+    """Whether the sentence names the centre of mass, or for the outcome "outward" another point; and whether its
+    mention of edges is correct."""
     about_centre = facts.words.get("about") in {"centre", "centre_of_mass"}
     return about_centre != (outcome == "outward") and edges_along_the_axes(facts, outcome)
 
@@ -327,7 +335,8 @@ def _sign(value: Expr) -> int | None:
 
 
 def order_is(wanted: str) -> Predicate:
-    """The rank of the moment about the axis: the greatest, the least, between the others, or equal to one of them."""
+    """Judge whether the moment about the axis is the greatest, the least, between the other two moments ("unstable"),
+    or equal to one of them ("marginal"); whether the other two are equal; or whether the order is unknown."""
 
     def is_so(facts: Judged) -> bool:
         moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
@@ -351,8 +360,8 @@ def excess_is(sign: int | None) -> Predicate:
 
 
 def root_is(grows: bool, *squares: str) -> Predicate:
-    """Whether the square of the rate is negative, and the outcome of its step; a square of unknown sign gets the
-    form of a positive one."""
+    """Judge whether the square of the rate is negative, as `grows` says, and its step has one of these outcomes. A
+    square of unknown sign counts as not negative."""
 
     def is_so(facts: Judged) -> bool:
         word = facts.quantities["squared"].step.outcome
@@ -370,13 +379,14 @@ def of_their_kinds(facts: Judged, outcome: str) -> bool:
 
 
 def of_their_kinds_by_euler(facts: Judged, outcome: str) -> bool:
-    """The sentence names Euler's equations if and only if the axes are principal axes."""
+    """Whether each input has the kind of its role, and the sentence names Euler's equations if and only if the axes are
+    principal axes."""
     along_principal_axes = is_zero(facts.inputs["inertia"] - Matrix.diag(*facts.inputs["inertia"].diagonal()))
     return of_their_kinds(facts, outcome) and along_principal_axes == ("euler" in facts.words)
 
 
 def vanish_again(facts: Judged, outcome: str) -> bool:
-    """Products of inertia vanish here too, if an earlier tensor about another point has none."""
+    """Whether the word "kept" is used only if an earlier tensor about another point also has no products of inertia."""
     tensor = facts.quantities["inertia"]
     before = [e.value for e in tensor.ancestors() if isinstance(e.value, MatrixBase) and e.value.shape == (3, 3)]
     again = any(each.is_diagonal() and each != tensor.value for each in before)
@@ -388,7 +398,8 @@ def rate_of_the_component(facts: Judged, outcome: str) -> bool:
 
 
 def inward_or_outward(facts: Judged, outcome: str) -> bool:
-    """The tensor about the centre of mass is the smaller one: the outcome says at which point the shift begins."""
+    """Whether the sentence names the point from which the centre is measured, and the outcome is "outward" exactly if
+    the shift begins at the centre of mass."""
     if facts.words["start"] != facts.quantities["centre"].needed(CountedFrom).start.name:
         return False
     if "entry" not in facts.quantities:  # a product of inertia that vanishes about the centre of mass
@@ -398,8 +409,8 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
-    """The axis of the whole in the sentence is the index of the moment's symbol, I_z, and is parallel to the axis of
-    the part."""
+    """Whether the axis of the whole that the sentence names is the index of the symbol, as in I_z, and is parallel to
+    the axis of the part."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles
@@ -410,13 +421,13 @@ def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
 
 
 def component_of_its_letter(facts: Judged, outcome: str) -> bool:
-    """The axis of the component is the last index of its symbol, v_x."""
+    """Whether the result is the component of the vector along the axis in the index of its symbol, as in v_x."""
     index = facts.symbol.name.rpartition("_")[2]
     return index in AXES and is_zero(explicit(facts.inputs["vector"])[AXES.index(index)] - explicit(facts.result))
 
 
 def rates_of_its_equations(facts: Judged, outcome: str) -> bool:
-    """Each named equation contains the rate of its component: the third says that the last component is constant."""
+    """Whether each of the three named equations contains the rate of its component."""
     letters = (facts.inputs["around"], facts.inputs["beside"], facts.inputs["along"])
     named = [facts.quantities[role].value for role in ("first", "second", "third")]
     return all(rate(w) in explicit(equation).free_symbols for w, equation in zip(letters, named, strict=True))

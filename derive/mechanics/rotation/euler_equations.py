@@ -76,7 +76,7 @@ class RigidBody(Placeable, OfParticles):
     centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m
     about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; by default the pivot if the
               centre of mass is not at the pivot
-    look      a body whose shape is drawn instead, with its centre at the centre of mass
+    look      a body whose shape is drawn in place of this body, with its centre at the centre of mass
     """
 
     mass: Expr | None = None

@@ -1,4 +1,4 @@
-"""Facts about rotation that results pass to the steps that use them."""
+"""Facts about rotation that results pass to later steps."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class Disturbed(Fact):
-    """A disturbed steady rotation about a principal axis.
+    """A perturbed steady rotation about a principal axis.
 
-    axis    "x", "y" or "z"
-    speed   its rate
-    of      the rate of its angular momentum, whose components all vanish for the steady rotation
+    axis    the index of the axis: 0, 1 or 2 for x, y or z
+    speed   the rate of the steady rotation
+    of      the rate of the angular momentum; all its components vanish for the steady rotation
     """
 
     missing = "is not an equation of a disturbed rotation"
@@ -64,7 +64,11 @@ class Disturbed(Fact):
 
 @dataclass(frozen=True)
 class RateOfMomentum(Fact):
-    """The rate of an angular momentum: from the particles of the body, with the components of omega that change."""
+    """The rate of an angular momentum.
+
+    of       the same rate from the particles of the body
+    moving   the components of omega, which change
+    """
 
     missing = "is not the rate of an angular momentum"
     of: RateByParticles
@@ -76,14 +80,14 @@ class RateOfMomentum(Fact):
 
 
 class RateByParticles(Fact):
-    """The rate of change of a quantity of a body, without equations of motion; a subclass for each quantity."""
+    """The rate of change of a quantity of a body, without equations of motion. Each quantity has a subclass."""
 
     missing = "does not come from particles"
 
     def rate(self) -> Any:
-        """The sum over the particles, by their accelerations."""
+        """Return the rate as a sum over the particles, from their accelerations."""
         raise NotImplementedError
 
     def in_any_axes(self, torque: Any) -> Any:
-        """The rate for a torque and a body whose tensor is not diagonal."""
+        """Return the rate for this torque along any body axes: the tensor may have products of inertia."""
         raise NotImplementedError

@@ -1,4 +1,4 @@
-"""Check of a derived moment of inertia that defines a body: it needs the same mass and the centre of mass."""
+"""Check of a derived moment of inertia that defines a body: the mass, the point and the axis must be right."""
 
 from __future__ import annotations
 

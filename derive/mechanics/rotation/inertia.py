@@ -49,7 +49,7 @@ Pair = tuple[int, int]
 
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
 MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # the entries that remain if the planes normal to the axes are mirror planes
-ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # the different entries that remain by symmetry about the z axis
+ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # the distinct entries that remain by symmetry about the z axis
 
 
 INERTIA_TENSOR = Rule(
@@ -74,8 +74,9 @@ def inertia_tensor(
     body         a body with mass M
     about        a named point of the body: "centre", "corner", "apex", ...
     coordinates  "cartesian" or "cylindrical", if the body has both
-    The axes are the body axes. A step derives each of the six entries; for a body that is round about z, only the two
-    different entries that symmetry leaves; for a body with mirror planes normal to its three axes, only the moments.
+    The axes are the body axes. A step derives each of the six entries. For a body that is round about z, steps derive
+    only the two distinct entries that symmetry leaves. For a body with mirror planes normal to its three axes, steps
+    derive only the moments.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, whose centre of
     mass is that of the body; for a body defined by a position map, a numerical sum over its cells.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; for a

@@ -37,7 +37,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
     moments has opposite signs for slightly greater and slightly smaller values of the symbol.
     Outcomes: special (for one value of the symbol), always (the moments are equal for all values of the symbols), never
     (one moment is greater for all values of the symbols).
-    Errors: all three moments are different; the equation does not have exactly one positive root for the symbol.
+    Errors: all three moments are distinct; the equation does not have exactly one positive root for the symbol.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     one, other = _two_to_compare(moments)

@@ -82,7 +82,7 @@ PERTURBED_ROTATION = Rule(
 
 
 def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int, key: str) -> Quantity:
-    """Derive one of the two linear equations, by the derivatives of Euler's equation at the steady rotation.
+    """Derive one of the two linear equations from the derivatives of Euler's equation at the steady rotation.
 
     Source: that of `linearised_rotation`.
     """
@@ -221,8 +221,9 @@ def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
 def _by_curvatures(disturbed: Disturbed) -> Expr:
     """Return Omega^2 from the conserved quantities T and L^2.
 
-    Euler's equations are omega_dot = -(grad T x grad(L^2/2))/(I_x I_y I_z), with gradients by the components of omega.
-    Near the z axis, Omega^2 is the product of the two curvatures of L^2/2 - I_z T, times omega^2/(I_x I_y)^2.
+    Euler's equations are omega_dot = -(grad T x grad(L^2/2))/(I_x I_y I_z), with gradients with respect to the
+    components of omega. Near the z axis, Omega^2 is the product of the two curvatures of L^2/2 - I_z T, times
+    omega^2/(I_x I_y)^2.
     """
     moments, moving = disturbed.moments, disturbed.moving
     energy = sum((I * w**2 for I, w in zip(moments, moving, strict=True)), ZERO) / 2

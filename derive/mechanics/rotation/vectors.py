@@ -95,7 +95,7 @@ class RateOfEnergy(RateByParticles):
 
 @dataclass(frozen=True)
 class RateOfTurning(RateByParticles):
-    """The rate of the angular momentum L = I w in space: the sum of m r x a; its component along L is that of N."""
+    """The rate of the angular momentum L = I w in space: the sum of m r x a. Along L it has the component of N."""
 
     inertia: Quantity
     omega: Quantity
