@@ -42,7 +42,7 @@ class Described:
     told      given values, other than symbols, that prose can mention by their keys
     several   names of bodies; the name of each answer begins with the name of its body
     results   quantities computed from answers; each has a name, and the names of the answers that it uses
-    without   keys, each with the names of the answers that do not depend on it
+    without   keys, each with the names of the answers that do not depend on the key
     assumed   relations between symbols that are assumed to hold
     """
 
@@ -107,7 +107,7 @@ def stock_script(name: str) -> Stock:
 def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Iterator[None]:
     """Add places in the file to the errors of a verb: the key of the wrong argument, or else `place`.
 
-    A verb does not know the file.
+    Verbs do not depend on files, so their errors have no places.
     """
     try:
         yield

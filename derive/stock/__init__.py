@@ -1,1 +1,1 @@
-"""Scripts of the engine. A problem names one under `solve:` and describes the whole system under `given:`."""
+"""Scripts of the engine, for a `solve:` that names one: `given:` then describes the whole system."""

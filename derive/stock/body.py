@@ -73,7 +73,7 @@ class OneOfManyKeys(Questions, BodyKeys):
 
 @dataclass(frozen=True)
 class GivenBody(Questions):
-    """The keys of a body, or of several, and the questions about them."""
+    """The keys of one body or of several bodies, and the questions about them."""
 
     body: BodyKeys | None = key("the body", BODY)
     bodies: Mapping[Word, OneOfManyKeys] = key(
@@ -94,13 +94,13 @@ class Asked:
 
     @property
     def prefix(self) -> str:
-        """Return the beginning of the names of its answers: the name of the body, or nothing for a single body."""
+        """Return how the names of the answers begin: with the name of the body, or with nothing for a single body."""
         return f"{self.described.called.replace(' ', '_')}_" if self.described.called else ""
 
 
 @dataclass(frozen=True)
 class DescribedBodies(Described):
-    """Bodies in symbols."""
+    """Described bodies, whose values are expressions in the declared symbols."""
 
     bodies: tuple[Asked, ...] = ()
 
@@ -149,7 +149,7 @@ def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: I
 
 
 def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
-    """Return the questions about one body; any that it does not specify come from the questions for all bodies."""
+    """Return the questions about one body; missing ones are taken from the questions for all bodies."""
     about, origin = own.about or others.about, own.origin or others.origin
     directions = Directions(known)
     direction = own.direction or others.direction
@@ -201,7 +201,7 @@ class BodyAnswers(Answers[Asked]):
         return self._of_mass("mass")
 
     def _of_mass(self, name: str) -> Quantity:
-        """Return the step that derives the density, or the one that derives the mass from the density or the parts."""
+        """Return the step that derives the density or the mass; reject the name if its value is given."""
         if isinstance(self.body, PointMass) or name == "density" and isinstance(self.body, Composite):
             self._has_no(name)
         found = self.body.density
@@ -241,7 +241,10 @@ class BodyAnswers(Answers[Asked]):
 
     @answer
     def parallel_axes(self) -> Quantity:
-        """Move the tensor from the centre of mass to `about`; if these are one point, from the origin of the axes."""
+        """Return the tensor about `about`, moved from the centre of mass by the parallel-axis theorem.
+
+        If `about` is the centre of mass, the tensor is moved from the origin of the body's axes.
+        """
         if self.about == "centre":
             start = self.body.reference
             there = inertia_tensor(self.body, start, key=f"{start.replace(' ', '_')}_tensor")

@@ -55,7 +55,7 @@ from derive.stock.keys.results import RESULTS, read_results
 AXES = "xyz"
 VECTORS = ("spin", "angular_momentum", "torque")
 CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their symbols
-MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # of an angular velocity that changes
+MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # a changing angular velocity
 KINDS_OF_COMPONENTS = {
     "moments": "moment of inertia",
     "rates": "angular speed",
@@ -102,7 +102,7 @@ class RotationKeys(Record):
 
 @dataclass(frozen=True)
 class DescribedRotation(Described):
-    """A rotation in symbols."""
+    """A described rotation, whose values are expressions in the declared symbols."""
 
     body: DescribedBody | None = None
     moments: tuple[Expr, ...] = ()
@@ -173,7 +173,7 @@ def _components(written: RotationKeys, name: str, kind: str, known: InLetters) -
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
-    """Return, for the `rate` of a disturbed rotation and for the `torque`, the answers that do not depend on it."""
+    """Return, for each of `rate` (of a disturbed rotation) and `torque`, the answers that do not depend on this key."""
     asks = {*RotationAnswers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")

@@ -55,7 +55,7 @@ from derive.stock.keys.deferred import told_at_part
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
 
-SYSTEM = "system"  # the name of its drawing
+SYSTEM = "system"  # the key of the drawing of a system
 
 
 class SystemAnswers(StockAnswers[DescribedSystem]):
@@ -325,10 +325,10 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def potential_at_rest(self) -> Quantity:
         """Return the function that is stationary at equilibria.
 
-        It is the effective potential energy if some but not all momenta are constant, or if the only coordinate is
-        driven. Otherwise it is the Lagrangian if a coordinate is driven or forces are given, and the potential energy
-        if not. With constraints it is never the effective potential energy. If the Lagrangian is given, it is never
-        the potential energy.
+        This function is the effective potential energy if some but not all momenta are constant, or if the only
+        coordinate is driven. Otherwise it is the Lagrangian if a coordinate is driven or forces are given, and the
+        potential energy if not. With constraints it is never the effective potential energy, and with a given Lagrangian
+        it is never the potential energy.
         """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian

@@ -101,7 +101,7 @@ class ByName:
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every offered name that can be derived; for any other result, the error."""
+        """Return the steps of every offered name that can be derived, and the error of every result that cannot."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:
@@ -161,7 +161,7 @@ class ByName:
         return found
 
     def _one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
-        """Return the step called `name` among the steps of the answer `own`: by its key, or by `own` and its number."""
+        """Return the step called `name` among the steps of the answer `own`: by its key or by a number."""
         by_key = _called(name, {q.key: q for q in found})
         if len(by_key) == 1:
             return by_key[0]

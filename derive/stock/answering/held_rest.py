@@ -15,7 +15,7 @@ from derive.steps.step import Quantity
 def rest_with_forces(
     motions: Sequence[Quantity], coordinates: Mapping[str, Coordinate], forces: Sequence[Symbol]
 ) -> tuple[Quantity, ...]:
-    """Return the positions and forces that solve the static equations; there must be as many as equations.
+    """Return the positions and forces that solve the static equations, if there are as many unknowns as equations.
 
     motions   the equations of motion, one for each coordinate
     """

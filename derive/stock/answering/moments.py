@@ -17,7 +17,10 @@ SOLUTION = "solution"
 
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
-    """Return the positions and velocities at which the requested motions begin; the first value of each counts."""
+    """Return the positions and velocities at which the requested motions begin.
+
+    If several results give a value for one coordinate, the first value counts.
+    """
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:

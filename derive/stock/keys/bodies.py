@@ -163,7 +163,7 @@ class DescribedBody:
 
     @property
     def point_names(self) -> tuple[str, ...]:
-        """Return its points. A body of parts or with named points has only its centre, its origin and these names."""
+        """Return the names of its points; with parts or named points, only `centre`, `origin` and the named points."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts
@@ -338,7 +338,7 @@ class Bodies:
 
 
 class WithVariables(InLetters):
-    """The symbols of a description and of a position map."""
+    """The symbols of a description, and the variables of a position map."""
 
     def __init__(self, others: InLetters, variables: Mapping[str, Declared]):
         self.variables = variables

@@ -1,4 +1,4 @@
-"""Objects that a description specifies, such as bodies and forces, but that are made only when an answer needs them.
+"""Objects that a description specifies, such as bodies and forces. Each is made only when an answer needs it.
 
 The verbs that make these objects check what moves and what is constant. Such checks need the record of a run, which has
 the coordinates and the numbers of symbols.

@@ -145,7 +145,7 @@ class ImpactKeys(Record):
         places: Places,
         letters: InLetters,
     ) -> DescribedImpact:
-        """Return the impact in symbols; `forces` has the symbols of the constraint forces."""
+        """Read the impact in its symbols; `forces` has the symbols of the constraint forces."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
         if not both:
             rejected("missing-key", "`impact` needs `impulses` or `collisions`", self.places[""])
@@ -186,7 +186,7 @@ def _value(
 
 @dataclass(frozen=True)
 class DescribedImpact:
-    """An impact in symbols; `letters` are the symbols of its impulses."""
+    """A described impact; `letters` are the symbols of its impulses."""
 
     acts: tuple[Deferred[Impulse | Collision], ...]
     at: tuple[tuple[str, Expr], ...]

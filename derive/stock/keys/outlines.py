@@ -52,8 +52,8 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 def drawn_turning(answers: Any, has_angle: bool) -> None:
     """Draw a body with its axes at the point about which it rotates, and its axis of rotation.
 
-    If the angular velocity is known at one instant only, it replaces the axis. If `has_angle`, a second drawing shows
-    the angle between the angular velocity and the angular momentum.
+    If the angular velocity is known at one instant only, its arrow replaces the axis. If `has_angle`, a second drawing
+    shows the angle between the angular velocity and the angular momentum.
     """
     body, described = answers.body, answers.described
     if not isinstance(body.boundary, Round | Faces):
@@ -76,7 +76,7 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
 def drawn_free(answers: Any, turns: bool) -> None:
     """Draw a body with known principal moments; if it `turns`, also its angular velocity and its angular momentum.
 
-    The two vectors are drawn in different directions, whatever the questions are.
+    The two vectors always have distinct directions in the drawing.
     """
     vectors = (answers.changing, answers.angular_momentum) if turns else ()
     drawing("body", principal_outline(answers.described.moments, *vectors))

@@ -124,14 +124,14 @@ class SystemKeys(Record):
 
 @dataclass(frozen=True)
 class DescribedSystem(Described):
-    """A system in symbols.
+    """A described system, whose values are expressions in its symbols.
 
     coordinates   the name of each coordinate, its kind, and whether it is positive
-    particles, bodies, rolling, acting   its parts, in the order of the file; `acting` is everything else
-    conserved     symbols of constant momenta by coordinates; `kept` are constant momenta with given values
+    particles, bodies, rolling, acting   the parts of the system, in the order of the file; `acting` has the others
+    conserved     the symbols of constant momenta, by coordinate; `kept` has the constant momenta with given values
     at, at_rest   the state about which motions are linearised, by values or by the name of an equilibrium
     impact        what happens at one instant
-    brought       symbols of constraint forces and constant momenta, with their places
+    brought       the symbols of constraint forces and of constant momenta, with their positions in the file
     named         the places that have names
     given         a Lagrangian that replaces all bodies, and its kind
     """
@@ -284,7 +284,7 @@ def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
 
 
 def _brought(written: SystemKeys) -> list[Word]:
-    """Return the symbols that the description introduces in addition to its coordinates, with their places."""
+    """Return the symbols that the description introduces in addition to its coordinates."""
     forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
     return [*(force for force in forces if force), *(symbol for symbol, _ in _symbols(written.conserved).values())]
 
