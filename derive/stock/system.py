@@ -327,8 +327,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
         This function is the effective potential energy if some but not all momenta are constant, or if the only
         coordinate is driven. Otherwise it is the Lagrangian if a coordinate is driven or forces are given, and the
-        potential energy if not. With constraints it is never the effective potential energy, and with a given Lagrangian
-        it is never the potential energy.
+        potential energy if not. With constraints it is never the effective potential energy; with a given Lagrangian it
+        is never the potential energy.
         """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
