@@ -1,12 +1,12 @@
-"""Make or repair the environment in `.venv`, or leave it unchanged. Run by `make`, with the standard library only.
+"""Make or repair the environment in `.venv` if necessary. `make` runs this script; it needs no installed packages.
 
-Only built packages whose files have the digests in `locks/` are installed, so no code of an unknown package runs. These
-packages then install derive itself, without access to any registry.
+Only built packages whose files have the digests in `locks/` are installed, so no code of an unknown package runs. The
+installed packages then install derive itself, without access to any registry.
 
-A stamp file in `.venv` shows `make` that the environment fits `pyproject.toml` and `locks/`: `.runtime` for the
-packages that derive and typeset, `.tests` also for the linters and the test suite. The file `.unfinished` exists while
-packages are being installed. If it exists at the start, an installation was interrupted and the environment is made
-again.
+A stamp file in `.venv` shows `make` that the environment fits `pyproject.toml` and `locks/`. The stamp `.runtime` is
+for the packages that derive and typeset; `.tests` is for these and for the linters and the test suite. The file
+`.unfinished` exists while packages are being installed. If `.unfinished` exists at the start, an earlier installation
+was interrupted, and the environment is made from the beginning.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ OLDEST = (3, 11)
 
 
 class Stopped(Exception):
-    """The environment cannot be made; the message is one line with the fix."""
+    """The environment cannot be made; the message is one line that includes the fix."""
 
 
 @contextmanager
@@ -66,7 +66,7 @@ def works(uv: str | None) -> bool:
 
 
 def has_venv() -> bool:
-    """Return whether this Python works without uv; Debian packages these modules separately."""
+    """Return whether this Python can make an environment without uv; Debian packages the modules separately."""
     return bool(importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip"))
 
 
@@ -83,7 +83,7 @@ def check_tools(uv: str | None) -> None:
 
 
 def run(command: list[str], failed: str) -> None:
-    """Run a command quietly; if it fails, raise `Stopped` with the lines that give the reason, without addresses."""
+    """Run a command quietly; if it fails, raise `Stopped` with the lines that give the reason, without URLs."""
     done = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
         lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]

@@ -1,4 +1,4 @@
-"""Write docs/errors.md: every code of an error, with its messages, its cause, its fix and an example.
+"""Write docs/errors.md: every error code, with its messages, its cause, its fix and an example.
 
 The messages come from the code, the examples from golden outputs of the tests, and the causes and fixes from
 tools/errors.yaml.
@@ -28,15 +28,15 @@ _BEGINNING = """\
 
 Made by `tools/errors.py` from the code, the tests and `tools/errors.yaml`; do not edit it.
 
-An error message states the place (file, line, column), a code such as `wrong-kind`, and what is wrong. It shows the
-line, and a fix if there is one. All errors of a file are reported at once; earlier outputs stay unchanged. In the
+An error message states the file, the line and the column, a code such as `wrong-kind`, and what is wrong. It shows
+the line, and a fix if there is one. All errors of a file are reported at once; earlier outputs stay unchanged. In the
 messages below, `…` replaces names and numbers of your problem.
 """
 
 
 @cache
 def messages() -> dict[str, list[str]]:
-    """Return every code that the modules of derive raise, with its messages in the order of the modules."""
+    """Return every error code that the modules of derive raise, with its messages in the order of the modules."""
     found: dict[str, list[str]] = {}
     for file in sorted((ROOT / "derive").rglob("*.py")):
         for code, message in _raised_in(ast.parse(file.read_text(encoding="utf-8"))):
@@ -68,7 +68,7 @@ def _code_at(call: ast.Call) -> int | None:
 
 
 def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list[ast.expr]]:
-    """Return the last value of each name in a scope, above the given line."""
+    """Return the last value that each name in a scope gets before the given line."""
     found: dict[str, list[ast.expr]] = {}
     assigned = [node for node in ast.walk(scope) if isinstance(node, ast.Assign) and node.lineno < before]
     for node in sorted(assigned, key=lambda each: each.lineno):
@@ -104,7 +104,7 @@ def _texts(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 3) -> 
 
 @cache
 def examples() -> dict[str, str]:
-    """Return the shortest golden error of each code."""
+    """Return, for each code, the shortest example in the golden outputs of the tests."""
     found: dict[str, list[str]] = {}
     for file in sorted(EXAMPLES.rglob("*.txt")):
         for said in _each_complaint(file.read_text(encoding="utf-8")):

@@ -1,4 +1,4 @@
-"""Write docs/gallery.md; `--pictures` takes new pictures in Chromium, from the pages that `make library` has built.
+"""Write docs/gallery.md. `--pictures` also takes new pictures in Chromium, of pages that `make library` has built.
 
 A picture shows the beginning of a problem's page in a browser; the YAML of the problem is below it.
 """
@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "gallery"
 WIDTH, HEIGHT = 860, 1060
 
-# name of a problem -> what its page shows
+# the name of a problem -> what the page of this problem shows
 SHOWN = {
     "turning_hoop": "A system on rotating axes: equilibria, and the conditions of their stability",
     "double_pendulum": "Two coordinates, their equations of motion and the normal modes",

@@ -1,6 +1,6 @@
-"""Write `locks/`, the installed packages with the digests of their files: `python -P -m tools.locks`.
+"""Write `locks/`, which lists the packages to install with the digests of their files: `python -P -m tools.locks`.
 
-The versions are those of `constraints.txt`. `uv` finds the files of each for every platform, and `locks/` names no
+The versions come from `constraints.txt`. `uv` finds the files of each version for every platform; `locks/` names no
 registry.
 """
 
@@ -25,7 +25,7 @@ _ENTRY = re.compile(r"^([a-z0-9][a-z0-9._-]*)==.*(?:\n +--hash=.*)*", re.MULTILI
 
 
 def entries(text: str) -> dict[str, str]:
-    """Return name -> entry of a lock, for each package: its version, its conditions and its digests."""
+    """Return, for the name of each package in a lock, its entry: its version, its conditions and its digests."""
     return {found[1]: found[0] for found in _ENTRY.finditer(text)}
 
 

@@ -1,4 +1,4 @@
-"""Write the page of all rules, and the list of rules with checks only, from the records next to the verbs."""
+"""Write the page of all rules, and the list of rules that have only checks, from the records next to the verbs."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ by another path through the physics, its *checks* test the result. A rule withou
 
 
 def rules() -> list[Rule]:
-    """Return the rules of the loaded modules, by name."""
+    """Return the rules of the loaded modules, in the order of their names."""
     modules = [module for name, module in sys.modules.items() if name.startswith("derive.")]
     found = {each for module in modules for each in vars(module).values() if isinstance(each, Rule)}
     return sorted(found, key=lambda rule: rule.name)
 
 
 def verbs() -> str:
-    """Return a table with a row for each verb that a script can call, with what it yields."""
+    """Return a table with a row for each verb that a script can call: its name, and what it yields."""
     public = {name: each for name, each in vars(derive.mechanics).items() if isfunction(each) and name[0] != "_"}
     asked: dict[str, str] = {}
     for name, verb in RESULT_VERBS.items():

@@ -1,4 +1,4 @@
-"""Write the JSON schemas of the author's files, for editors, from the keys that the readers accept."""
+"""Write the JSON schemas of the author's files, which text editors use, from the keys that the readers accept."""
 
 from pathlib import Path
 

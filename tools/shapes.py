@@ -34,7 +34,7 @@ def _line(name: str, shape: type[Body]) -> str:
 
 
 def _how_it_lies(shape: type[Body]) -> str:
-    """Return the first sentence about a shape, without its name."""
+    """Return the first sentence about a shape, without the name of the shape."""
     first = " ".join((shape.__doc__ or "").split(".")[0].split())
     return re.sub(r"^(A|An|The|Half of a) (thin )?(uniform )?", lambda m: "half of a " * ("Half" in m[0]), first)
 
@@ -49,7 +49,7 @@ def _points(shape: type[Body]) -> str:
 
 
 def _made(shape: Any) -> Any:
-    """Return a body with a symbol for each size; None if its corners can be anywhere."""
+    """Return a body with a symbol for each size, or None if the corners of the shape can be anywhere."""
     if shape in (Triangle, Wedge):
         a, h, d, l = symbols("base height foot length", positive=True)
         face = Triangle.on_base(a, h, M, d)

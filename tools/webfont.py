@@ -1,7 +1,7 @@
 """Write `templates/html/math.woff`: the glyphs of STIX Two Math that formulas on web pages need.
 
-Run it with the font as its argument where `fonttools` is installed; the package `ziamath`, among others, includes the
-font. The subset keeps the licence of the font, the SIL Open Font License.
+The argument is the file of the font, which the package `ziamath`, for example, includes. `fonttools` must be installed.
+The subset keeps the licence of the font, the SIL Open Font License.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Any
 
 FONT = Path(__file__).parent.parent / "templates" / "html" / "math.woff"
 
-# In thousandths of the size: the width of root signs (794 to 1212 in the font), the gap between a tall sign and its
-# contents, and how far a sign reaches into its stroke.
+# In thousandths of the font size: the width of root signs (794 to 1212 in the font), the gap between a tall root sign
+# and its contents, and the length by which a root sign overlaps the stroke above its contents.
 ROOT_WIDTH, ROOT_SPACE, CORNER = 900, 110, 35
 LATIN, GREEK = range(0x20, 0x7F), [*range(0x391, 0x3AA), *range(0x3B1, 0x3CA), 0x3D1, 0x3D5, 0x3D6, 0x3F1, 0x3F5]
 BOLD, ITALIC, BOLD_ITALIC = range(0x1D400, 0x1D41A), range(0x1D434, 0x1D468), range(0x1D468, 0x1D49C)
@@ -27,7 +27,7 @@ CHARACTERS = sorted({*LATIN, *GREEK, *BOLD, *ITALIC, *BOLD_ITALIC, *GREEK_ITALIC
 
 
 def subset(whole: str, made: Path) -> None:
-    """Write the glyphs of these characters, their larger variants, and the tables for mathematics."""
+    """Write the glyphs of `CHARACTERS`, their larger variants, and the tables for mathematics."""
     from fontTools import subset as of_font
 
     options = of_font.Options()

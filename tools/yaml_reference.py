@@ -22,10 +22,12 @@ Made by `tools/yaml_reference.py` from the schemas that `derive schema` gives ed
 described in [problems.md](problems.md), [yaml-alone.md](yaml-alone.md) and [references.md](references.md). A key in
 bold is required.
 
-An *expression* is a formula of declared letters, or a number with its unit: `2*a`, `sqrt(g/l)`, `2 cm`, `900 rpm`.
+An *expression* is a formula of declared symbols, or a number with its unit: `2*a`, `sqrt(g/l)`, `2 cm`, `900 rpm`.
 """
 
-MANY = 8  # if two tables share at least this number of keys, the second does not list them again
+MANY = (
+    8  # if a table contains all keys of an earlier one with at least this number of keys, it does not list them again
+)
 Schema = dict[str, Any]
 
 
@@ -63,14 +65,14 @@ class Sections:
         self.tables.append("\n".join([*lines, ""]))
 
     def _shared_with_another(self, keys: Schema) -> tuple[str, Schema]:
-        """Return the title of an earlier table with many keys, all of them among these, and its keys; else empty."""
+        """Return the title and the keys of an earlier table with many keys, all of which are among `keys`, if any."""
         for title, other in self._titled.items():
             if MANY <= len(other) < len(keys) and all(keys.get(name) == under for name, under in other.items()):
                 return f"[{title}](#{_anchor(title)})", other
         return "", {}
 
     def _holds(self, schema: Schema, name: str) -> str:
-        """Describe in words the values allowed there."""
+        """Describe in words the values that a schema allows."""
         if "anyOf" in schema:
             return _either(list(dict.fromkeys(self._holds(each, name) for each in schema["anyOf"])))
         if "enum" in schema:

@@ -1,7 +1,8 @@
-"""Scripts of the engine: `solve: system` names one, and `given:` then describes what a script would have stated.
+"""Scripts of the engine: `solve: system` names one, and `given:` then describes the whole system.
 
-Each is a module of `derive/stock` with one `STOCK`: the keys allowed under `given:`, their meaning once the letters
-are known, and the answers derived from them. They are loaded by name, as a problem's own script is.
+Each script of the engine is a module of `derive/stock`. Its `STOCK` has the keys that are allowed under `given:`, the
+function that reads their values in the declared symbols, and the class that derives the answers. The module is loaded
+by its name.
 """
 
 from __future__ import annotations
@@ -36,13 +37,13 @@ NOWHERE: Mapping[str, Place] = MappingProxyType({})
 class Described:
     """The description that a problem gives.
 
-    letters   those that it introduces itself, coordinates and their rates
-    chosen    those that stand for its numbers, which are `measured`
-    told      values other than letters that prose may mention by their keys
-    several   names of bodies, each of which precedes the names of the answers of that body
-    results   quantities computed from answers; each has its name, and the names of the answers that it uses
-    without   keys on which some answers do not depend, with the names of these answers
-    assumed   relations between letters that are assumed to hold
+    letters   the symbols that the description introduces itself, such as coordinates and their rates
+    chosen    the symbols that replace the numbers of the description; `measured` are these numbers
+    told      given values, other than symbols, that prose can mention by their keys
+    several   names of bodies; the name of each answer begins with the name of its body
+    results   quantities computed from answers; each has a name, and the names of the answers that it uses
+    without   keys, each with the names of the answers that do not depend on the key
+    assumed   relations between symbols that are assumed to hold
     """
 
     letters: Mapping[str, Declared] = field(default_factory=dict)
@@ -56,7 +57,7 @@ class Described:
 
     @property
     def made(self) -> dict[Word, tuple[Word, ...]]:
-        """Return the names of the answers that each result uses, by the name of the result."""
+        """Return, for the name of each result, the names of the answers that the result uses."""
         return {result.name: result.uses for result in self.results}
 
 
@@ -67,7 +68,7 @@ class Answering(Protocol):
         """Return the answers by the names that parts ask for; one name may mean several steps."""
 
     def every(self) -> dict[str, Any]:
-        """Return every name that parts may ask for, each with its steps or with why it cannot be derived."""
+        """Return every name that parts may ask for, with its steps or with the error that prevents its derivation."""
 
 
 @dataclass(frozen=True)
@@ -75,8 +76,8 @@ class Stock:
     """A script of the engine.
 
     keys      the keys allowed under `given:`
-    read      their meaning in the declared letters, after an error for each value that has no meaning
-    answers   the answers of a description
+    read      returns the description in the declared symbols; collects an error for each value that cannot be read
+    answers   the class that derives the answers of a description
     """
 
     keys: type[Record]
@@ -86,7 +87,7 @@ class Stock:
 
 @dataclass(frozen=True)
 class StockScript:
-    """A script of the engine that a problem names, and the place of its name."""
+    """A script of the engine that a problem names, and where the problem names it."""
 
     stock: Stock
     returns: Place
@@ -104,7 +105,10 @@ def stock_script(name: str) -> Stock:
 
 @contextmanager
 def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Iterator[None]:
-    """Show the error of a verb, which does not know the file, where it was asked for or at the wrong argument's key."""
+    """Add places in the file to the errors of a verb: the key of the wrong argument, or else `place`.
+
+    Verbs do not depend on files, so their errors have no places.
+    """
     try:
         yield
     except DeriveError as error:
@@ -113,16 +117,16 @@ def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Itera
 
 
 def in_keys(help_line: str | None) -> str | None:
-    """Return the help line of a verb for a script in the form for a file."""
+    """Return the help line of a verb in its form for a YAML file; verbs write help lines for scripts."""
     if help_line and help_line.startswith(DECIDES):
         return f"state it under `given:`, as `assume: [{help_line.removeprefix(DECIDES).strip()}]`"
     return help_line.in_file if isinstance(help_line, Spelled) else help_line
 
 
 class InLetters:
-    """A description, read in its letters, of which `t` is always the time.
+    """Reads the values of a description in its symbols, of which `t` is always the time.
 
-    Each reading returns a value or raises what is wrong.
+    Each method that reads returns a value or raises an error.
     """
 
     def __init__(self, letters: Mapping[str, Declared]):
@@ -130,27 +134,29 @@ class InLetters:
         self.numbers = NumbersAsLetters(self.letters)
 
     def also(self, letters: Mapping[str, Declared]) -> InLetters:
-        """Return a reader that has these letters too; equal numbers still share one letter."""
+        """Return a reader that also has these symbols; equal numbers still get the same symbol."""
         found = InLetters({**self.letters, **letters})
         found.numbers = self.numbers
         return found
 
     @property
     def chosen(self) -> dict[str, Declared]:
-        """The letters that stand for numbers."""
+        """Return the symbols that replace numbers."""
         known = self.numbers.letters.symbols
         return {name: known[name] for name in known if name not in self.letters}
 
     def unused(self, name: Word, help_line: str) -> str:
-        """Return the name of a letter that the description introduces; nothing else may have that name."""
+        """Return the name of a new symbol; reject a name that is already a symbol."""
         if name in self.letters:
-            message = f"`{name}` stands for something else already"
+            message = f"`{name}` already denotes something else"
             rejected("letter-clash", message, name.place, help_line)
         return str(name)
 
     def value(self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False) -> Expr:
-        """Read a constant expression of a kind; if letters of that kind are positive, it must not be known to be
-        negative, nor to be zero unless `or_zero`."""
+        """Read a constant expression of a kind.
+
+        If quantities of this kind are positive, a negative expression is rejected; zero is allowed only with `or_zero`.
+        """
         found = self.constant(node, name, kind, of)
         if (
             found.is_nonpositive
@@ -162,7 +168,7 @@ class InLetters:
         return found
 
     def constant(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
-        """Read an expression of a kind that neither changes in time nor depends on a coordinate."""
+        """Read an expression of a kind, and reject it if it depends on time, on a coordinate or on a rate."""
         found = self.of_kind(node, name, kind, of)
         coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
         moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}
@@ -174,9 +180,9 @@ class InLetters:
         return found
 
     def of_kind(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
-        """Read an expression of the dimension of a kind, with either sign, or a number; zero has any dimension.
+        """Read a number, or an expression with the dimension of a kind. Zero may have any dimension.
 
-        of   how many of them there are; the letters of numbers depend on this
+        of   how many such values there are; the symbol of a number depends on this
         """
         wanted, is_a = dimension_of_kind(kind), kind_with_article(kind)
         if isinstance(node, Scalar) and (letter := self.numbers.letter(node, name, kind, of)) is not None:
@@ -190,17 +196,17 @@ class InLetters:
         return expr
 
     def read(self, node: Tree, name: str, is_a: str = "an expression") -> tuple[Expr, Dimension]:
-        """Read an expression of any dimension."""
+        """Read an expression of any dimension; return it with its dimension."""
         if isinstance(node, Scalar) and not node.empty:
             return read_expression(node, self.letters, lambda number, kind: self.numbers.letter(number, name, kind))
         faults = Faults()
         wrong_type(faults, f"`{name}`", is_a, node)
         faults.stop()
-        raise AssertionError  # the error has been raised
+        raise AssertionError  # `stop` has raised the error
 
 
 def each(readings: Iterable[Callable[[], T]]) -> list[T]:
-    """Return what all readings yield, or raise the errors of all."""
+    """Call all readings and return their results; if some fail, raise all their errors together."""
     faults, found = Faults(), []
     for reading in readings:
         with faults:
@@ -210,7 +216,7 @@ def each(readings: Iterable[Callable[[], T]]) -> list[T]:
 
 
 def attempted(faults: Faults, reading: Callable[..., T], *of: Any) -> T | None:
-    """Return what a reading yields; None after an error, which `faults` collects."""
+    """Return the result of a reading; after an error, add the error to `faults` and return None."""
     with faults:
         return reading(*of)
     return None

@@ -43,7 +43,7 @@ from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
 SIZES = ("length", "area", "volume")
-# answers that depend on each key, by the beginning of their names
+# for each key, the beginnings of the names of the answers that depend on this key
 DEPENDING = {
     "about": ("inertia_tensor", "parallel", "moment", "radius", "turned", "principal", "perpendicular"),
     "origin": ("centre_of_mass",),
@@ -56,7 +56,9 @@ DEPENDING = {
 class Questions(Record):
     """The questions about a body, in addition to its description."""
 
-    about: Word | None = key("the point of its tensor and of the axes of its moments: `apex`, `corner`, `pivot`", TEXT)
+    about: Word | None = key(
+        "the point about which its inertia tensor and its moments are taken: `apex`, `corner`, `pivot`", TEXT
+    )
     origin: Word | None = key("the point from which its centre of mass is measured", TEXT)
     direction: Tree | None = key("the axis of `moment_about`: `diagonal`, `x` or components", DIRECTION)
     turned: Mapping[Word, Tree] = key(
@@ -71,7 +73,7 @@ class OneOfManyKeys(Questions, BodyKeys):
 
 @dataclass(frozen=True)
 class GivenBody(Questions):
-    """The keys of a body, or of several, and the questions about them."""
+    """The keys of one body or of several bodies, and the questions about them."""
 
     body: BodyKeys | None = key("the body", BODY)
     bodies: Mapping[Word, OneOfManyKeys] = key(
@@ -92,13 +94,13 @@ class Asked:
 
     @property
     def prefix(self) -> str:
-        """Return what precedes the names of its answers, if there are several bodies."""
+        """Return how the names of the answers begin: with the name of the body, or with nothing for a single body."""
         return f"{self.described.called.replace(' ', '_')}_" if self.described.called else ""
 
 
 @dataclass(frozen=True)
 class DescribedBodies(Described):
-    """Bodies in symbols."""
+    """Described bodies, whose values are expressions in the declared symbols."""
 
     bodies: tuple[Asked, ...] = ()
 
@@ -119,7 +121,7 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
 
 
 def _without(written: GivenBody) -> tuple[tuple[Word, set[str]], ...]:
-    """Return, for each key that specifies a point or an axis, the answers that do not depend on it."""
+    """Return, for each key that specifies a point or an axis, the answers that do not depend on this key."""
     own = {f"{name.replace(' ', '_')}_": keys for name, keys in written.bodies.items()}
     asks = [*BodyAnswers(Asked(DescribedBody("", (), True))).asks()]
     every = {f"{prefix}{name}" for prefix in own or [""] for name in asks}
@@ -147,7 +149,7 @@ def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: I
 
 
 def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
-    """Return the questions about one body; missing ones are those for all bodies."""
+    """Return the questions about one body; missing ones are taken from the questions for all bodies."""
     about, origin = own.about or others.about, own.origin or others.origin
     directions = Directions(known)
     direction = own.direction or others.direction
@@ -183,7 +185,7 @@ class BodyAnswers(Answers[Asked]):
 
     @answer_for_each("centre_of_mass_{}", lambda self: AXES)
     def centre_component(self, axis: str) -> Quantity:
-        """Return the step of a component, or a step that reads it off."""
+        """Return the step that derived this component, or a new step that takes it from the vector."""
         key = f"centre_of_mass_{axis}"
         along = key if axis != "z" else "centre_of_mass_on_axis"
         centre = self.centre_of_mass
@@ -199,7 +201,7 @@ class BodyAnswers(Answers[Asked]):
         return self._of_mass("mass")
 
     def _of_mass(self, name: str) -> Quantity:
-        """Return the step that derives the density from the mass, or the mass from the density or from the parts."""
+        """Return the step that derives the density or the mass; reject the name if its value is given."""
         if isinstance(self.body, PointMass) or name == "density" and isinstance(self.body, Composite):
             self._has_no(name)
         found = self.body.density
@@ -213,14 +215,16 @@ class BodyAnswers(Answers[Asked]):
             self._has_no(name)
         found = self.body.extent
         if not isinstance(found, Quantity):
-            message = f"the {name} of {self.told} is not a step: it is known"
-            rejected("no-such-answer", message, None, "ask for `density`, which shows it")
+            message = f"the {name} of {self.told} is known, so it is not a step"
+            rejected("no-such-answer", message, None, "ask for `density`: its step shows this size")
         return found
 
     def _has_no(self, name: str) -> NoReturn:
         fills = f"it fills {'an' if self.body.filling == 'area' else 'a'} {self.body.filling}: ask for `density`"
         parts = isinstance(self.body, Composite)
-        help_line = "ask for `mass`, the sum of the masses of its parts" if parts else f"{fills}, which shows that"
+        help_line = (
+            "ask for `mass`, the sum of the masses of its parts" if parts else f"{fills}, whose step shows this size"
+        )
         help_line = "its mass is given" if isinstance(self.body, PointMass) else help_line
         rejected("no-such-answer", f"`{name}` is not an answer about {self.told}", None, help_line)
 
@@ -230,14 +234,17 @@ class BodyAnswers(Answers[Asked]):
 
     @answer_for_each("inertia_tensor_{}", lambda self: map("".join, combinations_with_replacement(AXES, 2)))
     def entry(self, pair: str) -> Quantity:
-        """Return the step of an entry of the tensor, or a step that reads it off."""
+        """Return the step that derived this entry, or a new step that takes it from the tensor."""
         tensor = self.inertia_tensor
         found = next((parent for parent in tensor.parents if parent.key == f"{tensor.key}_{pair}"), None)
         return found or tensor_entry(tensor, pair, key=f"{tensor.key}_{pair}")
 
     @answer
     def parallel_axes(self) -> Quantity:
-        """Move the tensor from the centre to its point; if that is the centre, from the origin of the body's axes."""
+        """Return the tensor about `about`, moved from the centre of mass by the parallel-axis theorem.
+
+        If `about` is the centre of mass, the tensor is moved from the origin of the body's axes.
+        """
         if self.about == "centre":
             start = self.body.reference
             there = inertia_tensor(self.body, start, key=f"{start.replace(' ', '_')}_tensor")
@@ -301,9 +308,9 @@ class BodyAnswers(Answers[Asked]):
     def under_key(self, name: Word, own: str, key: str, letter: dict[str, str], tensor: Mapping[str, str]) -> Quantity:
         """Return an answer under the key of a result.
 
-        own      its name without the name of the body
-        letter   the symbol of the result, if it is chosen
-        tensor   the symbol and the key of its tensor, if that is about another point
+        own      the name of the answer without the name of the body
+        letter   the symbol of the result, if the author chose one
+        tensor   the symbol and the key of the tensor, if the tensor is about another point
         """
         axis = own[-1]
         if own == "inertia_tensor":
@@ -322,7 +329,7 @@ class BodyAnswers(Answers[Asked]):
 
 
 class BodiesAnswers(StockAnswers[DescribedBodies]):
-    """The quantities of one body, or of several; then their names begin with the name of the body."""
+    """The quantities of one body or of several. With several, each name begins with the name of its body."""
 
     what = "a body"
 
@@ -353,7 +360,7 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         direction: Axis | None,
         symbol: str | None,
     ) -> Quantity:
-        """Return an answer about another point or axis than the given one."""
+        """Return an answer about a point or axis other than the given one."""
         prefix = max((prefix for prefix in self.of if wanted.startswith(prefix)), key=len, default=None)
         if prefix is None:
             rejected("no-such-answer", f"`{wanted}` is not an answer of one of these bodies", wanted.place)

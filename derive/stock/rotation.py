@@ -55,7 +55,7 @@ from derive.stock.keys.results import RESULTS, read_results
 AXES = "xyz"
 VECTORS = ("spin", "angular_momentum", "torque")
 CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their symbols
-MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # for a rotation that changes
+MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # a changing angular velocity
 KINDS_OF_COMPONENTS = {
     "moments": "moment of inertia",
     "rates": "angular speed",
@@ -82,7 +82,7 @@ class RotationKeys(Record):
         "the principal moments of inertia of any body, about x, y and z, in place of `body`",
         list_of(SCALAR, "three moments of inertia, `[A, B, C]`", length=3),
     )
-    about: Word | None = key("the point that is fixed; by default the centre of mass", TEXT)
+    about: Word | None = key("the fixed point; by default the centre of mass", TEXT)
     rate: Tree | None = key("the constant rate of rotation", SCALAR)
     along: Tree | None = key("the axis of rotation: `diagonal`, `x` or components", DIRECTION)
     rates: tuple[Tree, ...] = key(
@@ -94,7 +94,7 @@ class RotationKeys(Record):
         list_of(SCALAR, "three angular speeds", length=3),
     )
     torque: tuple[Tree, ...] = key(
-        "the components along its axes of the torque on a body that rotates in any way; by default none",
+        "the components, along the body's axes, of the torque on a body whose rotation is not given; by default 0",
         list_of(SCALAR, "three torques", length=3),
     )
     results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
@@ -102,7 +102,7 @@ class RotationKeys(Record):
 
 @dataclass(frozen=True)
 class DescribedRotation(Described):
-    """A rotation in symbols."""
+    """A described rotation, whose values are expressions in the declared symbols."""
 
     body: DescribedBody | None = None
     moments: tuple[Expr, ...] = ()
@@ -158,12 +158,12 @@ def _check_together(written: RotationKeys, faults: Faults) -> None:
     if not {"body", "moments"} & there:
         faults.error("missing-key", "`given` needs `body` or `moments`", written.places[""])
     if written.along is not None and written.rate is None:
-        message = "a rotation along an axis needs its `rate`"
+        message = "a rotation about an axis needs its `rate`"
         faults.error("missing-key", message, written.places["along"], help="write `rate: omega`")
 
 
 def _components(written: RotationKeys, name: str, kind: str, known: InLetters) -> tuple[Expr, ...]:
-    """Return the three components of a key; moments of inertia must be possible for a body."""
+    """Read the three components of a key; reject moments of inertia that no body can have."""
     reading = known.value if name == "moments" else known.of_kind
     found = tuple(each([partial(reading, node, f"each of {name}", kind, 3) for node in getattr(written, name)]))
     if found and name == "moments":
@@ -173,7 +173,7 @@ def _components(written: RotationKeys, name: str, kind: str, known: InLetters) -
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
-    """Return the answers that do not depend on the `rate` of a disturbed rotation, or not on the `torque`."""
+    """Return, for each of `rate` (of a disturbed rotation) and `torque`, the answers that do not depend on this key."""
     asks = {*RotationAnswers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
@@ -185,7 +185,7 @@ def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
 
 
 def _point(written: RotationKeys, body: DescribedBody | None) -> str:
-    """Return the point at rest: a point of the body, or for a body specified by its moments, whether it is held."""
+    """Return the point at rest; a body that is specified by its moments has only a centre of mass and a fixed point."""
     if written.body is not None:
         return body.point(written.about) if body is not None and written.about else "centre"
     if written.about is None:
@@ -209,7 +209,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         if described.body is not None:
             drawn_turning(self, "angle_between" in asked)
         elif described.about in ("centre", CENTRE_OF_MASS):
-            turns = {"changing", "angular_momentum"} <= vars(self).keys()  # whether the answers have needed them
+            turns = {"changing", "angular_momentum"} <= vars(self).keys()  # whether both have been derived
             drawn_free(self, turns and not (described.rate or described.start or described.torque))
         return found
 
@@ -230,12 +230,12 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
 
     @property
     def is_given(self) -> bool:
-        """Return whether the angular velocity is given, constant or at one instant."""
+        """Return whether the angular velocity is given, as a constant or at one instant."""
         return bool(self.described.along or self.described.rates or self.described.start)
 
     @answer
     def spin(self) -> Quantity:
-        """Return the constant angular velocity, or the one at one instant."""
+        """Return the given angular velocity, which is constant or known at one instant."""
         if self.described.start:
             return momentary_angular_velocity(self.described.start, self.about, key="spin")
         if self.described.rates:
@@ -255,7 +255,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
 
     @cached_property
     def changing(self) -> Quantity:
-        """Return an angular velocity that changes in any way."""
+        """Return an angular velocity that may change in any way."""
         return changing_angular_velocity(self.about)
 
     @answer
@@ -296,7 +296,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
             message = "Euler's equations need principal axes, but the axes of this body are not principal"
             rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
         if self.described.along or self.described.rates:
-            message = "Euler's equations need a body that rotates in any way, but its rotation is given"
+            message = "Euler's equations describe an unknown rotation, but the rotation of this body is given"
             rejected("is-steady", message, None, "leave out `along` and `rates`")
         rate = rate_in_space(self.changing_momentum, self.changing)
         acting = self.described.torque
@@ -369,7 +369,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         return tangent_between(*self._sides(name), angle=CONES[name], key=f"{name}_tangent")
 
     def _sides(self, name: str) -> tuple[Quantity, Quantity]:
-        """Return the two vectors of the angle of that name."""
+        """Return the two vectors that enclose the angle of this name."""
         axis, omega, L = self.axis_of_symmetry, self.spin, self.angular_momentum
         return {"body_cone": (axis, omega), "space_cone": (L, omega), "tilt": (axis, L)}[name]
 

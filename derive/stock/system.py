@@ -55,7 +55,7 @@ from derive.stock.keys.deferred import told_at_part
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
 
-SYSTEM = "system"  # the name of its drawing
+SYSTEM = "system"  # the key of the drawing of a system
 
 
 class SystemAnswers(StockAnswers[DescribedSystem]):
@@ -79,7 +79,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return answers
 
     def asks(self) -> dict[str, Any]:
-        """Return every name that a part may ask for, also about an impact."""
+        """Return every name that a part may ask for, including those of an impact."""
         return super().asks() | (self.of_impact.asks() if self.of_impact is not None else {})
 
     @cached_property
@@ -115,7 +115,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def parts_by_name(self) -> dict[str, Any]:
-        """Return the particles and bodies on which forces may act by name."""
+        """Return, by name, the particles and bodies on which forces may act."""
         return {**self.particles, **self.bodies}
 
     @cached_property
@@ -184,15 +184,13 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def equilibria(self) -> tuple[Quantity, ...]:
-        """Return equilibria; where forces keep constraints, the positions and forces that the equations determine."""
+        """Return the equilibria; with constraint forces, the positions and forces that solve the static equations."""
         if self.described.given is not None or not self.system.constraints:
             return self.stationary
         letters = {each.force for each in self.system.constraints}
         if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
-            message = "sliding friction does not act at rest: static friction can have any value up to its greatest"
-            help_line = (
-                "ask for the equilibria without friction; with static friction there is a range of them around each"
-            )
+            message = "sliding friction does not act at rest: static friction can have any value up to a maximum"
+            help_line = "ask for the equilibria without friction; static friction allows a range around each of them"
             raise Rejected(Complaint("friction-at-rest", message, help=help_line))
         forces = [each.force for each in self.system.constraints]
         return rest_with_forces(self.equations_of_motion, self.independent, forces)
@@ -220,7 +218,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         if len(self.normal_modes) != 1:
             raise Rejected(Complaint("wrong-argument", "`period` is about one frequency, but there are several"))
         if self.normal_modes[0].value == 0:
-            message = "nothing drives the system back to this state, so it does not oscillate about it"
+            message = "nothing drives the system back to this state, so there is no oscillation about it"
             raise Rejected(Complaint("no-oscillation", message, help="is each body held where it should be?"))
         return period(self.normal_modes[0])
 
@@ -228,14 +226,14 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def no_slip(self) -> tuple[Quantity, ...]:
-        kept = "forces keep the conditions of rolling here, so `no_slip` eliminates nothing"
+        kept = "constraint forces enforce rolling here, so `no_slip` eliminates no coordinate"
         solved = [each for each in self.rolling if isinstance(each, Quantity)]
         return _some(solved, kept if self.rolling else "nothing rolls in this system")
 
     @answer
     def angular_velocity(self) -> tuple[Quantity, ...]:
         in_space = [angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane]
-        message = "no body of this system rotates in space: in a plane its angular velocity is the rate of an angle"
+        message = "no body of this system rotates in space: in a plane the angular velocity is the rate of an angle"
         return _some(in_space, message)
 
     @answer
@@ -259,7 +257,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @answer_for_each("conserved_{}", lambda self: self.coordinates)
     def one_conserved(self, name: str) -> Quantity:
         if name not in self.cyclic:
-            conserved(self.lagrangian, self.coordinates[name])  # raises the error if its momentum is not constant
+            conserved(self.lagrangian, self.coordinates[name])  # raises the error if this momentum is not constant
         return self.cyclic[name]
 
     @answer_for_each("constant_{}", lambda self: dict(self.described.kept))
@@ -293,7 +291,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     found[name] = conserved(self.lagrangian, q, value=own)
                 except Rejected as refused:
                     if name in letters or any(each.code != "not-cyclic" for each in refused.complaints):
-                        raise  # otherwise a force acts along it, so its momentum is not constant
+                        raise  # otherwise a force acts along q, so the momentum of q is not constant
         return found
 
     @cached_property
@@ -306,8 +304,9 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def reduced(self) -> Quantity:
-        """Return the Lagrangian, or the Routhian if momenta are constant, coordinates remain and no cyclic one is
-        given.
+        """Return the Routhian if some but not all coordinates are cyclic and `at` gives no cyclic coordinate.
+
+        Otherwise return the Lagrangian.
         """
         is_left = self.cyclic and len(self.cyclic) < len(self.coordinates)
         return self.routhian if is_left and not self._has_place_of_cyclic else self.lagrangian
@@ -318,13 +317,19 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def independent(self) -> dict[str, Coordinate]:
-        """Return the coordinates that remain after rolling expresses some by the others."""
+        """Return the coordinates that remain in the Lagrangian after the conditions of rolling eliminated some."""
         moving = self.lagrangian.coordinates
         return {name: q for name, q in self.coordinates.items() if q.symbol in moving}
 
     @cached_property
     def potential_at_rest(self) -> Quantity:
-        """Return the effective potential if something rotates or a momentum is constant, else the potential energy."""
+        """Return the function that is stationary at equilibria.
+
+        This function is the effective potential energy if some but not all momenta are constant, or if the only
+        coordinate is driven. Otherwise it is the Lagrangian if a coordinate is driven or forces are given, and the
+        potential energy if not. With constraints it is never the effective potential energy; with a given Lagrangian it
+        is never the potential energy.
+        """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
@@ -340,11 +345,14 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def stationary(self) -> tuple[Quantity, ...]:
-        """Return the states at which that potential energy, or the Lagrangian, is stationary."""
+        """Return the states at which `potential_at_rest` is stationary."""
         return equilibria(self.potential_at_rest)
 
     def _stability_at(self, at: Quantity | Mapping[Any, Expr]) -> tuple[Quantity, ...]:
-        """Decide stability by the potential energy, or by small motions if gyroscopic forces may stabilise it."""
+        """Decide stability by the potential energy, or by small motions if the potential energy does not decide.
+
+        Gyroscopic forces may stabilise a state at which the potential energy has no minimum.
+        """
         try:
             return (stability(self.potential_at_rest, at),)
         except Rejected as refused:
@@ -359,7 +367,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def state(self) -> dict[Any, Expr] | Quantity | None:
-        """Return the state about which the motion is small, if one is given."""
+        """Return the given state about which motions are linearised, if there is one."""
         if self.described.at_rest is not None:
             return self.by_name.one("equilibria", self.described.at_rest, self.described.at_rest.place)
         found = {self.coordinates[name]: value for name, value in self.described.at}
@@ -381,7 +389,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.described.given is not None or bool(self.system.given_forces)
 
     def _check_letters(self) -> None:
-        """Check that a symbol of the description and steps with the same symbol are of one kind."""
+        """Check that all steps with a symbol that the description introduces are of one kind."""
         run = current_run.get()
         established = run.established if run is not None else []
         for name, place in self.described.brought.items():
@@ -393,7 +401,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
 
 def _some(found: Iterable[Quantity], otherwise: str) -> tuple[Quantity, ...]:
-    """Return them, or say why there are none."""
+    """Return the quantities as a tuple; if there are none, raise an error with the message `otherwise`."""
     some = tuple(found)
     if not some:
         raise Rejected(Complaint("wrong-argument", otherwise))

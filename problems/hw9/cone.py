@@ -1,4 +1,4 @@
-"""A circular cone: its principal moments and axes about its centre of mass, by way of its apex."""
+"""A circular cone: its principal moments and axes about its centre of mass, from the tensor about its apex."""
 
 from derive.figures import centre_mark, drawing, outline
 from derive.given import *

@@ -36,7 +36,7 @@ def solve(
     curvature = stability(U, {theta: 0}, letter=radius, key="curvature")
     minimum = where(curvature, ">", 0, radius, key="minimum_condition")
 
-    # Once more, with x, y and theta free and the contact force in their equations.
+    # The second solution: x, y and theta are free, and the contact force is in their equations.
     kept = [constraint(q, place.value, force=f"lambda_{place.key}") for q, place in zip((x, y), centre)]
     free = System(slab.placed(-theta, point(x, y)), weight(gravity), *kept)
     equations = equations_of_motion(lagrangian(free, symbol="L_free", key="free_lagrangian"), derivatives=False)

@@ -1,4 +1,4 @@
-"""A spinning top: at which rates it precesses steadily, and how fast it must spin to sleep upright."""
+"""A spinning top: at which rates it precesses steadily, and how fast it must spin to be stable when upright."""
 
 from derive.figures import sketch
 from derive.given import *

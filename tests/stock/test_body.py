@@ -172,7 +172,7 @@ DISC = "{shape: disc, radius: R, mass: M}"
         (
             "{shape: disc, radius: R, mass: M}",
             "area",
-            "the area of a disc is not a step: it is known",
+            "the area of a disc is known, so it is not a step",
             "ask for `density`",
         ),
         ("{shape: particle, mass: M}", "length", "`length` is not an answer about a particle", "its mass is given"),

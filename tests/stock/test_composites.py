@@ -116,7 +116,7 @@ def test_the_centre_of_a_half_disc_is_asked_back(tmp_path: Path) -> None:
 def test_where_nothing_drives_it_back_there_is_no_period(tmp_path: Path) -> None:
     text = half_disc("centre_of_mass").replace("potential_energy", "period")
     (found,) = complaints(tmp_path, text)
-    assert found.message == "nothing drives the system back to this state, so it does not oscillate about it"
+    assert found.message == "nothing drives the system back to this state, so there is no oscillation about it"
 
 
 @pytest.mark.parametrize(("held", "is_constant"), [("centre_of_mass", True), ("circle_centre", False)])

@@ -104,7 +104,7 @@ def test_a_routhian_that_nobody_asked_for_leaves_the_radius_its_letter(tmp_path:
             "9: `the momentum of psi` must be an angular momentum, but `C*lambda` is a moment of inertia",
         ),
         (("conserved: {psi: L}", "conserved: {psi: positive p_1}"), ""),
-        (("conserved: {psi: L}", "conserved: {psi: C}"), "9: `C` stands for something else already"),
+        (("conserved: {psi: L}", "conserved: {psi: C}"), "9: `C` already denotes something else"),
     ],
 )
 def test_a_constant_momentum_has_a_letter(edit: tuple[str, str], said: str, tmp_path: Path) -> None:

@@ -151,7 +151,7 @@ def test_the_body_is_drawn_with_its_axis(tmp_path: Path) -> None:
         (("along: diagonal", "along: [1, 0]"), "7: `along` must be a direction or three components"),
         (("along: diagonal", "rates: [omega, 0, 0]"), "7: `rate` and `rates` are both given"),
         (("rate: omega", "rate: a"), "6: `rate` must be an angular speed, but `a` is a length"),
-        (("  rate: omega\n", ""), "6: a rotation along an axis needs its `rate`"),
+        (("  rate: omega\n", ""), "6: a rotation about an axis needs its `rate`"),
         ((BLOCK_IS, f"{BLOCK_IS}\n  moments: [A, B, C]"), "5: `moments` and `body` are both given"),
         ((BLOCK_IS, "moments: [A, B]"), "5: `moments` must be three moments of inertia, `[A, B, C]`, but it is a list"),
         (
@@ -161,7 +161,7 @@ def test_the_body_is_drawn_with_its_axis(tmp_path: Path) -> None:
         ((BLOCK_IS, "moments: [A, B, C]"), "5: a body specified by its moments has no diagonal"),
         ((f"  {BLOCK_IS}\n", ""), "5: `given` needs `body` or `moments`"),
         (("along: diagonal", "about: edge"), "7: a cuboid has no point `edge`"),
-        (("answer: torque", "answer: euler_equations"), "11: Euler's equations need a body that rotates in any way"),
+        (("answer: torque", "answer: euler_equations"), "11: Euler's equations describe an unknown rotation"),
         (("answer: torque", "answer: tork"), "11: a rotation has no answer called `tork`"),
         (("  along: diagonal\n", ""), "5: the rotation of this body is not specified"),
     ],

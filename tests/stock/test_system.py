@@ -86,8 +86,8 @@ def test_a_letter_that_the_description_brings_in_is_not_declared(tmp_path: Path)
     )
     found = [c for c in complaints(tmp_path, text) if c.code == "letter-clash"]
     assert [(c.message, c.place.line if c.place else 0) for c in found] == [
-        ("`l` stands for something else already", 9),
-        ("`m` stands for something else already", 10),
+        ("`l` already denotes something else", 9),
+        ("`m` already denotes something else", 10),
     ]
 
 

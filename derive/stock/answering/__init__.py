@@ -1,1 +1,1 @@
-"""What parts may ask for by name, each derived when it is first asked for."""
+"""Answers that parts ask for by name. Each answer is derived when it is first needed."""

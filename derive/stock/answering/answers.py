@@ -1,4 +1,4 @@
-"""Answers of a description: quantities under the names by which parts ask for them, each derived once.
+"""Answers of a description: quantities with the names that parts ask for. Each is derived once.
 
     class BallAnswers(Answers[Ball]):
         @answer
@@ -29,15 +29,15 @@ W = TypeVar("W", bound=Described)
 
 
 class answer(cached_property[T]):
-    """An answer with the name of the property."""
+    """An answer whose name is the name of the property."""
 
 
 class ForEach(Generic[T]):
     """Answers with one name for each coordinate, axis or symbol.
 
-    pattern   their names, with `{}` for the coordinate, axis or symbol
-    each      returns these of the answers of a description
-    method    derives one of them
+    pattern   the names, with `{}` in place of the coordinate, axis or symbol
+    each      returns the coordinates, axes or symbols
+    method    derives the answer for one of these
     """
 
     def __init__(self, pattern: str, each: Callable[[Any], Iterable[str]], method: Callable[[Any, str], T]):
@@ -60,12 +60,15 @@ class ForEach(Generic[T]):
 def answer_for_each(
     pattern: str, each: Callable[[Any], Iterable[str]]
 ) -> Callable[[Callable[[Any, str], T]], ForEach[T]]:
-    """Make a method the answers of all names of that pattern."""
+    """Decorate a method that derives the answer for each name of the pattern."""
     return partial(ForEach, pattern, each)
 
 
 class Answers(Generic[D]):
-    """The answers of one thing: a system, a body, a rotation, an impact; `found` are those with one name for each."""
+    """The answers about one system, body, rotation or impact.
+
+    `found` has the derived answers of methods with `answer_for_each`, by name.
+    """
 
     def __init__(self, described: D):
         self.described = described
@@ -85,8 +88,8 @@ class Answers(Generic[D]):
 class StockAnswers(Answers[W]):
     """The answers of a whole description, and results computed from them.
 
-    what          the kind of description, in an error: "a rotation"
-    coordinates   those of a system, by name
+    what          the kind of description, for errors: "a rotation"
+    coordinates   the coordinates of a system, by name
     """
 
     what: ClassVar[str] = ""
@@ -103,13 +106,13 @@ class StockAnswers(Answers[W]):
 
     @property
     def elsewhere(self) -> Callable[..., Quantity] | None:
-        """Return what derives an answer of a body about another point or axis, if there is a body."""
+        """Return the function that derives an answer of a body about another point or axis, if there is a body."""
         return None
 
     def solve(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return the answers by the names that parts ask for, and draw what is described."""
+        """Return the answers by the names that parts ask for, and draw the described objects."""
         return self.by_name.answers(asked)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return every answer that parts may ask for, or why it cannot be derived."""
+        """Return the steps of every name that parts may ask for, or the error that prevents their derivation."""
         return self.by_name.every()

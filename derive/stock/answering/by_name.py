@@ -1,7 +1,13 @@
-"""Answers by their names, each derived when it is first needed, for parts and for results computed from answers.
+"""Answers by name, for parts and for results. Each answer is derived when it is first needed.
 
-A name is one of those that a description offers, in the singular or in the plural; one of its steps, by its number; the
-name of a result; or the key of any step on which one of these depends. The order of earlier questions does not matter.
+A name may be
+
+- the name of an answer that the description offers, in the singular or in the plural;
+- such a name with a number, for one of the steps of the answer;
+- the name of a result;
+- the key of a step on which one of these depends.
+
+The order of earlier questions does not matter.
 """
 
 from __future__ import annotations
@@ -31,12 +37,12 @@ _ALIKE = 0.85  # a name at least this similar to an offered one is a typing erro
 class ByName:
     """The answers of one description, including results computed from answers.
 
-    asks          every name that it offers
+    asks          every name that the description offers, with the function that derives its steps
     what          the kind of description: "a rotation"
     results       results computed from answers
-    coordinates   the coordinates of the results
-    again         makes the same answers from the start, with nothing derived
-    elsewhere     the answer of a result about another point or axis than the given one
+    coordinates   the coordinates that results may use
+    again         makes the same answers again, with nothing derived
+    elsewhere     derives an answer of a body about a point or axis other than the given one
     """
 
     def __init__(
@@ -58,7 +64,7 @@ class ByName:
         self.asks |= {name: partial(one.made, *given) for name, one in self.results.items()}
 
     def answers(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return each answer that a part asks for; every rejected one is reported at the part that asks for it."""
+        """Return each answer that a part asks for; an error is reported at the part that asks for the answer."""
         offered_first = sorted(asked, key=lambda name: self.offered(name) is None)
         try:
             found = dict(each([partial(self._answer, name) for name in offered_first]))
@@ -83,7 +89,7 @@ class ByName:
         if leading is not None:
             return _called(name, with_ancestors(self._derived(leading, name.place)))
         for own in (own for own in self.asks if name.startswith(f"{own}_")):
-            self._derived(own, name.place)  # raises the error if it cannot be derived
+            self._derived(own, name.place)  # raises the error if `own` cannot be derived
         help_line = did_you_mean(name, (*self.asks, *self._there())) or f"you may ask for {', '.join(self.asks)}"
         message = (
             f"{self.what} has no answer called `{name}`" if self.what else f"`{name}` is not the name of an answer"
@@ -91,11 +97,11 @@ class ByName:
         rejected("no-such-answer", message, name.place, help_line)
 
     def offered(self, name: str) -> str | None:
-        """Return the name under which it is offered: unchanged, or in the other number, `frequencies`."""
+        """Return the offered form of a name, singular or plural (`frequency` for `frequencies`), or None."""
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return everything under the offered names; for a result also why it cannot be derived."""
+        """Return the steps of every offered name that can be derived, and the error of every result that cannot."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:
@@ -106,7 +112,7 @@ class ByName:
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
-        """Derive a name on the current record, or on an empty one if a symbol that it may need is taken."""
+        """Derive a name on the current record; after an error, on an empty record, where all symbols are free."""
         try:
             return self._derived(name, None)
         except DeriveError:
@@ -136,7 +142,7 @@ class ByName:
         return self._known[name]
 
     def _by_number(self, name: Word) -> tuple[Quantity, ...]:
-        """Return the step with the key `frequency_2`, or the second step of `frequency`."""
+        """Return the step that a name such as `frequency_2` denotes: by its key, or the second step of `frequency`."""
         numbered = _NUMBERED.fullmatch(name)
         own = self.offered(numbered[1]) if numbered else None
         if numbered is None or own is None:
@@ -145,7 +151,7 @@ class ByName:
         return (one,) if one is not None else ()
 
     def one(self, several: str, name: str, place: Place | None = None) -> Quantity:
-        """Return the step with another name among those of an offered name, or reject the other name."""
+        """Return the step called `name` among the steps of the answer `several`; reject any other name."""
         steps = self._derived(several, place)
         found = self._one_of(several, name, steps)
         if found is None:
@@ -155,7 +161,7 @@ class ByName:
         return found
 
     def _one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
-        """Return the step with another name among the steps of a name: by its key, or by its number after that name."""
+        """Return the step called `name` among the steps of the answer `own`: by its key or by a number."""
         by_key = _called(name, {q.key: q for q in found})
         if len(by_key) == 1:
             return by_key[0]
@@ -164,13 +170,13 @@ class ByName:
         return found[n - 1] if numbered and is_own and (n := int(numbered[2])) <= len(found) else None
 
     def _there(self) -> dict[str, Quantity]:
-        """Return the steps that answers have derived, by key."""
+        """Return all steps derived so far, by key."""
         run = current_run.get()
         known = with_ancestors(q for quantities in self._known.values() for q in quantities)
         return {**{q.key: q for q in (run.established if run is not None else ())}, **known}
 
     def _leading_to(self, name: Word) -> str | None:
-        """Return the first offered name that depends on a step with that key.
+        """Return the first offered name whose answer depends on a step with the key `name`.
 
         The search uses a separate record, so that the order of parts and earlier questions have no effect.
         """
@@ -189,7 +195,10 @@ class ByName:
         return None
 
     def _in_order(self, name: str, likely: bool) -> Iterator[str]:
-        """Yield the likely names (with a matching beginning, or from which most steps follow), or all others."""
+        """Yield the likely offered names, or all other offered names.
+
+        A name is likely if `name` begins with it, or if its derivation contains most steps of a system.
+        """
         for own in self.asks:
             begins = name.startswith(f"{own}_") or own in ("lagrangian", "equations_of_motion")
             if begins == likely:
@@ -215,7 +224,10 @@ class ByName:
 
 
 def _called(name: str, steps: Mapping[str, Quantity]) -> tuple[Quantity, ...]:
-    """Return the step with that key; else all steps with that key and a number; `rest_1` is also a single `rest`."""
+    """Return the step with this key, or else all steps whose keys are this name and a number.
+
+    `rest_1` also denotes the step `rest` if there is no `rest_2`.
+    """
     if name in steps:
         return (steps[name],)
     for form in (name, *_in_other_number(name)):

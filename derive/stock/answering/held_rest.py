@@ -15,9 +15,9 @@ from derive.steps.step import Quantity
 def rest_with_forces(
     motions: Sequence[Quantity], coordinates: Mapping[str, Coordinate], forces: Sequence[Symbol]
 ) -> tuple[Quantity, ...]:
-    """Return the static equations and their solution: as many positions and forces as there are equations.
+    """Return the positions and forces that solve the static equations, if there are as many unknowns as equations.
 
-    motions       the equation of motion of each of the coordinates
+    motions   the equations of motion, one for each coordinate
     """
     still = [_still(name, motion, coordinates) for name, motion in zip(coordinates, motions, strict=True)]
     present = {s for each in still for s in explicit(each.value).free_symbols}

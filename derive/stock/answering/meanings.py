@@ -90,11 +90,11 @@ MEANINGS: Mapping[str, str] = {
     "angular_momentum_*": "the {} component of the angular momentum",
     "torque_*": "the {} component of the torque",
 }
-FORCE = "a force of constraint or an impulse"  # its name is its symbol
+FORCE = "a force of constraint or an impulse"  # the name of such an answer is its symbol
 
 
 def meaning_of(name: str) -> str:
-    """Return the meaning in words, with the coordinate or the axis at the end of the name."""
+    """Return the meaning of an answer in words; the coordinate or the axis in its name is part of the meaning."""
     if name in MEANINGS:
         return MEANINGS[name]
     fitting = []

@@ -17,7 +17,10 @@ SOLUTION = "solution"
 
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
-    """Return the positions and velocities at which solutions of equations of motion begin; of two the first."""
+    """Return the positions and velocities at which the requested motions begin.
+
+    If several results give a value for one coordinate, the first value counts.
+    """
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:
@@ -30,8 +33,8 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
 
 
 def struck(impact: Impact) -> Moment:
-    """Return what acts in an impact, and where."""
-    pushes = [act for act in impact.acts if isinstance(act, Impulse) and len(act.at) > 1]  # not the angular ones
+    """Return the positions and rates just before an impact, its impulses, and the places that collide."""
+    pushes = [act for act in impact.acts if isinstance(act, Impulse) and len(act.at) > 1]  # not the angular impulses
     meeting = [place for act in impact.acts if isinstance(act, Collision) for place in (act.start, act.end) if place]
     rates = {q: impact.before[rate(q)] for q in impact.moving}
     return Moment(impact.at, rates, [(Location(push.components), Location(push.at)) for push in pushes], meeting)

@@ -1,4 +1,4 @@
-"""Answers of an impact: jumps of momenta, rates just after it, impulses, and the change of the energy."""
+"""Answers of an impact: jumps of momenta, rates just after the impact, impulses, and the change of the energy."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class ImpactAnswers(Answers[DescribedImpact]):
 
     @cached_property
     def after(self) -> tuple[Quantity, ...]:
-        """Return all rates just after the impact, and the impulses."""
+        """Return all rates just after the impact, and the impulses of its collisions."""
         return rates_after(self.impact, self.jumps, self.meetings)
 
     @answer_for_each("jump_{}", lambda self: self.moving)

@@ -1,1 +1,1 @@
-"""What a description may say, key by key, and what that means in its letters."""
+"""The keys of a description, and how their values are read in its symbols."""

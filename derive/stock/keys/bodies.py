@@ -58,7 +58,7 @@ def shapes() -> dict[str, type[Body]]:
 
 
 def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
-    """Return the sets of sizes by which a shape can be specified, as its fields have them."""
+    """Return each set of sizes that specifies a shape, by the names of the sizes in YAML."""
     own = tuple(CALLED_IN_YAML.get(f.name, f.name) for f in fields(shape) if f.name != "mass")  # type: ignore[arg-type]
     if "corners" not in own or shape.filling == "volume" and shape is not Wedge:
         return (own,)
@@ -71,10 +71,10 @@ class ShapeKeys(Record):
     """The keys of a body without parts."""
 
     shape: Word | None = key(
-        "what it is: `disc`, `cone`, `thick_shell`, ...", Reader({"enum": sorted(shapes())}, TEXT.read)
+        "its shape: `disc`, `cone`, `thick_shell`, ...", Reader({"enum": sorted(shapes())}, TEXT.read)
     )
     mass: Tree | None = key("its mass", SCALAR)
-    radius: Tree | None = key("its radius; of a torus to the middle of the cross-section", SCALAR)
+    radius: Tree | None = key("its radius; for a torus, from its centre to the middle of the cross-section", SCALAR)
     inner: Tree | None = key("its inner radius", SCALAR)
     outer: Tree | None = key("its outer radius", SCALAR)
     section: Tree | None = key("the radius of the cross-section of a torus", SCALAR)
@@ -83,10 +83,10 @@ class ShapeKeys(Record):
     half_angle: Tree | None = key("half the angle that an arc spans", SCALAR)
     sides: tuple[Tree, ...] = key("its edges, along x, y and z", list_of(SCALAR, SEVERAL))
     semi_axes: tuple[Tree, ...] = key("half the length of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
-    corners: tuple[tuple[Tree, ...], ...] = key("where the corners of a triangle or a tetrahedron are", CORNERS)
+    corners: tuple[tuple[Tree, ...], ...] = key("the positions of the corners of a triangle or a tetrahedron", CORNERS)
     base: Tree | None = key("the base of a triangle, along x", SCALAR)
     foot: Tree | None = key(
-        "the x of the top of a triangle, measured along its base; by default over the middle", SCALAR
+        "the x of the apex of a triangle, measured along its base; by default the middle of the base", SCALAR
     )
     side: Tree | None = key("the side of an equilateral triangle", SCALAR)
     position: tuple[Tree, ...] = key(
@@ -96,15 +96,15 @@ class ShapeKeys(Record):
         "the symbols of `position`, each between two limits, the outermost first: `{r: [0, R], phi: [0, 2*pi]}`",
         mapping_of(ENDS),
     )
-    density: Tree | None = key("its density; with `mass`, what the density is proportional to", SCALAR)
+    density: Tree | None = key("its density; with `mass`, a formula to which the density is proportional", SCALAR)
 
 
 @dataclass(frozen=True)
 class PartKeys(ShapeKeys):
     """The keys of a part of a body."""
 
-    at: tuple[Tree, ...] = key("where its centre of mass is, or its point `of`", PLACE)
-    of: Word | None = key("the point of the part that is there: `end`, `corner`, `base`", TEXT)
+    at: tuple[Tree, ...] = key("the position of its centre of mass, or of its point `of`", PLACE)
+    of: Word | None = key("the point of the part whose position is `at`: `end`, `corner`, `base`", TEXT)
     turned: Mapping[Word, Tree] = key("the angles by which it is rotated: `{x: pi/2}`", mapping_of(SCALAR))
     cut_out: bool = key("whether it is cut out of the rest", YES_OR_NO)
 
@@ -129,9 +129,9 @@ SIZES = tuple(
 class DescribedBody:
     """A body of a description.
 
-    parts    one body in its position, or several
-    mass     of the whole, if it is given and divided among the parts
-    points   names of points of the body
+    parts    one body, or several bodies in their positions
+    mass     the mass of the whole, if it is given; it is then divided among the parts
+    points   name of a point of the body -> its position
     """
 
     called: str
@@ -142,9 +142,9 @@ class DescribedBody:
     place: Place | None = field(default=None, repr=False, compare=False)
 
     def body(self) -> Body:
-        """Return the body; errors are reported where it is described."""
+        """Return the body; errors are reported where the body is described."""
         with told_at(self.place):
-            for part in self.parts:  # again: the numbers of the symbols are known now
+            for part in self.parts:  # again, because the numbers of the symbols are known now
                 body: Body = part.body if isinstance(part, PlacedPart) else part
                 if is_dataclass(type(body)):
                     body.check_sizes()
@@ -156,14 +156,14 @@ class DescribedBody:
 
     @property
     def other_centre(self) -> str:
-        """Return the point that may also be called its centre, if that is not its centre of mass."""
+        """Return the point, other than the centre of mass, that `centre` could mean; empty if there is none."""
         only: Any = self.parts[0]
         own: str = "" if self.is_made_of_parts else only.other_centre
         return Composite.other_centre if self.is_made_of_parts or own and self.points else own
 
     @property
     def point_names(self) -> tuple[str, ...]:
-        """Return its points; a whole with named points has only these, its centre and its origin."""
+        """Return the names of its points; with parts or named points, only `centre`, `origin` and the named points."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts
@@ -171,7 +171,7 @@ class DescribedBody:
         return tuple(dict.fromkeys(("centre", *only.points())))
 
     def point(self, name: Word) -> str:
-        """Return a point that it has; words are separated by a space or an underscore."""
+        """Return the point that a name denotes; a space or an underscore may separate the words of the name."""
         known_names = {known.replace("_", " "): known for known in self.point_names}
         found = (known_names | {CENTRE_OF_MASS: "centre"}).get(name.replace("_", " "))
         if found == "centre" and name == found and self.other_centre:
@@ -338,7 +338,7 @@ class Bodies:
 
 
 class WithVariables(InLetters):
-    """The symbols of a description and of a position map."""
+    """The symbols of a description, and the variables of a position map."""
 
     def __init__(self, others: InLetters, variables: Mapping[str, Declared]):
         self.variables = variables
@@ -346,7 +346,7 @@ class WithVariables(InLetters):
         self.numbers = others.numbers
 
     def ends(self, name: Word, written: Sequence[Tree]) -> tuple[str, tuple[Expr, Expr]]:
-        """Return the kind of a symbol, a length or an angle (or a number), and its limits."""
+        """Return the kind of a variable, a length or an angle (which includes numbers), and its limits."""
         refused: Rejected | None = None
         for kind in ("length", "angle"):
             try:
@@ -382,7 +382,7 @@ def _point_of(body: Body, name: Word) -> str:
 
 
 def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, faults: Faults) -> tuple[str, ...]:
-    """Return the specified sizes of a shape, and report sizes that are missing or do not belong to it."""
+    """Return the specified sizes of a shape, and report sizes that are missing or do not belong to the shape."""
     ways = ways_to_tell(shape)
     given = [size for size in SIZES if size in written.values_at and size in ShapeKeys.__dataclass_fields__]
     way = max(ways, key=lambda w: (sum(s in given for s in w), -len(w)))

@@ -1,6 +1,6 @@
-"""Nouns of the engine that a description states, but that are made only when an answer needs them.
+"""Objects that a description specifies, such as bodies and forces. Each is made only when an answer needs it.
 
-The verbs that make them check what moves and what is constant. They can do so only on the record of a run, which has
+The verbs that make these objects check what moves and what is constant. Such checks need the record of a run, which has
 the coordinates and the numbers of symbols.
 """
 
@@ -20,13 +20,13 @@ N = TypeVar("N")
 
 @dataclass(frozen=True, repr=False)
 class Deferred(Generic[N]):
-    """A noun that is made later.
+    """An object that is made later.
 
-    make    the class or the verb that makes it
-    of      its arguments
-    named   its arguments by name
-    bodies  argument -> the names of bodies or particles, or none; another name is passed on as a word
-    place   where it was described
+    make    the class or the verb that makes the object
+    of      the positional arguments of `make`
+    named   the arguments of `make` by name
+    bodies  argument of `make` -> names of bodies or particles; any other name, such as `ground`, is passed on as text
+    place   where the object was described
     """
 
     make: Callable[..., N]
@@ -36,7 +36,7 @@ class Deferred(Generic[N]):
     place: Place | None = field(default=None, compare=False)
 
     def made(self, known: Mapping[str, Any]) -> N:
-        """Make it; `known` are the bodies and particles of the system by name."""
+        """Make the object; `known` has the bodies and particles of the system by name."""
         there = {argument: names for argument, names in self.bodies.items() if names}
         meant = {argument: [known.get(name, name) for name in names] for argument, names in there.items()}
         bodies = {argument: found[0] if len(found) == 1 else tuple(found) for argument, found in meant.items()}
@@ -50,7 +50,7 @@ class Deferred(Generic[N]):
 
 @contextmanager
 def told_at_part(described: Sequence[Deferred[Any]], made: Sequence[Any], otherwise: Place | None) -> Iterator[None]:
-    """Show an error about one of the parts that were made where that part was described; any other at `otherwise`."""
+    """Report an error about one of the parts where this part was described, and any other error at `otherwise`."""
     with told_at(otherwise):
         try:
             yield

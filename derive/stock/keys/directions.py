@@ -83,7 +83,7 @@ class Directions:
         return read_expression(node, self.letters.letters)
 
     def turns(self, written: Mapping[Word, Tree]) -> tuple[tuple[str, Expr], ...]:
-        """Return each rotation about one of the axes, in their order."""
+        """Return each rotation about one of the axes, in the order of the file."""
         return tuple(each([partial(self._turn, axis, node) for axis, node in written.items()]))
 
     def _turn(self, axis: Word, node: Tree) -> tuple[str, Expr]:

@@ -32,12 +32,12 @@ class OfKnownDimension(Declared):
 
 @dataclass(frozen=True)
 class FoundLetter(Declared):
-    """The symbol of an unknown that is also an answer, such as a constraint force; a formula uses that answer."""
+    """The symbol of an unknown that is also an answer, such as a constraint force; a formula uses the answer."""
 
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression whose names are symbols or answers; a given symbol comes before an answer of the same name."""
+    """An expression whose names are symbols or answers; a name that could be both is the given symbol."""
 
     node: Scalar
     letters: Mapping[str, Declared]
@@ -50,8 +50,9 @@ class Formula:
         return tuple(found.values())
 
     def with_answers(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, dict[Any, Quantity]]:
-        """Return the expression with a placeholder for each answer, and the answers by placeholder; dimensions must
-        agree.
+        """Return the expression with a placeholder for each answer, and the answers by placeholder.
+
+        The dimensions in the expression must agree.
         """
         found = {name: answers(name) for name in self.answers}
         marks = {name: self._mark(name, quantity) for name, quantity in found.items()}

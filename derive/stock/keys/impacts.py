@@ -34,7 +34,7 @@ class ImpulseKeys(Record):
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place where it acts", PLACE)
-    of: Word | None = key("the body or particle on which it acts, if the place does not move with it", TEXT)
+    of: Word | None = key("the body or particle on which the impulse acts, if `at` does not move with it", TEXT)
     angular: Tree | None = key("in place of `components` and `at`, an angular impulse", SCALAR)
     on: Tree | None = key("the angle whose rate it changes", SCALAR)
 
@@ -54,15 +54,16 @@ class CollisionKeys(Record):
     """The keys of one of `collisions:`."""
 
     start: WrittenPlace | None = key("one of the places that meet", PLACE, called="from")
-    end: WrittenPlace | None = key("the other one", PLACE, called="to")
-    at: WrittenPlace | None = key("in place of both, the place that hits something at rest", PLACE)
+    end: WrittenPlace | None = key("the other place", PLACE, called="to")
+    at: WrittenPlace | None = key("in place of `from` and `to`, the place that hits something at rest", PLACE)
     of: Tree | None = key(
         "the bodies or particles that meet, if a place does not move with its body: `of: [ball, rod]` for `from` "
         "and `to`, or one name for `at`",
         as_written(one_or_more(TEXT.schema), "a body, or a list of two"),
     )
     along: tuple[Tree, ...] = key(
-        "components of a vector along the common normal, the line of the impulse; by default the two stay together",
+        "components of a vector along the common normal, the line of the impulse; by default the two bodies stay "
+        "together",
         COMPONENTS,
     )
     restitution: Tree | None = key(
@@ -131,7 +132,7 @@ class ImpactKeys(Record):
 
     at: Mapping[Word, Tree] = key("the values of coordinates at that instant: `{theta: 0}`", mapping_of(SCALAR))
     before: Mapping[Word, Tree] = key(
-        "rates just before the impact; the others are zero: `{x_dot: v}`", mapping_of(SCALAR)
+        "rates just before the impact; rates that are not given are zero: `{x_dot: v}`", mapping_of(SCALAR)
     )
     impulses: Sequence[ImpulseKeys] = key("given impulses", list_of_parts(ImpulseKeys, "an impulse"))
     collisions: Sequence[CollisionKeys] = key("places that collide", list_of_parts(CollisionKeys, "a collision"))
@@ -144,7 +145,7 @@ class ImpactKeys(Record):
         places: Places,
         letters: InLetters,
     ) -> DescribedImpact:
-        """Return the impact in symbols; `forces` are those that keep constraints."""
+        """Read the impact in its symbols; `forces` has the symbols of the constraint forces."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
         if not both:
             rejected("missing-key", "`impact` needs `impulses` or `collisions`", self.places[""])
@@ -175,7 +176,7 @@ class ImpactKeys(Record):
 def _value(
     name: Word, node: Tree, ending: str, coordinates: Mapping[str, Declared], letters: InLetters
 ) -> tuple[str, Expr]:
-    """Return a coordinate and its value; for a rate, named with `ending`, its coordinate and the value of the rate."""
+    """Return the name of a coordinate, and its value or (if `ending` is that of rates) the value of its rate."""
     q = str(name).removesuffix(ending)
     known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
     check_known(name, known, "rate" if ending else "coordinate")
@@ -185,7 +186,7 @@ def _value(
 
 @dataclass(frozen=True)
 class DescribedImpact:
-    """An impact in symbols; `letters` are the symbols of its impulses."""
+    """A described impact; `letters` are the symbols of its impulses."""
 
     acts: tuple[Deferred[Impulse | Collision], ...]
     at: tuple[tuple[str, Expr], ...]

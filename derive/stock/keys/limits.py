@@ -26,11 +26,10 @@ from derive.stock.keys.formulas import OfKnownDimension
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
     """Return the steps of each case: the limiting case, and steps that compare it with a known result.
 
-    Each case has a separate record, together with the general results of the script: two limits of one quantity have
-    one
-    symbol. A case has no steps, and is left out, in three situations: its step does not exist for the current inputs,
-    the
-    inputs or the result no longer have its symbol, or a needed symbol changes in the limit.
+    Each case has a separate record, which also contains the general results of the script. Two limits of one quantity
+    can therefore have the same symbol. A case has no steps, and is left out, in three situations: its step does not
+    exist for the current inputs; the inputs or the result no longer contain its symbol; or a symbol that it needs
+    changes in the limit.
     """
     if not problem.limits:
         return []
@@ -55,7 +54,11 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
 def _is_of_another_case(
     given: LimitKeys, problem: Problem, known: Mapping[str, Quantity], letters: Mapping[str, Declared], run: Run
 ) -> bool:
-    """Return whether another step replaces the one of the case, or it needs a symbol that is declared but not given."""
+    """Return whether the current inputs belong to another case.
+
+    This is so in three situations: another step replaces the step of the case; a symbol that the case needs changes in
+    the limit; or a symbol that the case needs is declared but not given.
+    """
     together = {key for quantity in known.values() if quantity.step.stands_for for key in quantity.step.stands_for}
     if given.of in together or (given.of in known and known[str(given.of)].step.stands_for):
         return True
@@ -95,7 +98,7 @@ def _case(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str,
 
 
 def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str, Declared]) -> bool:
-    """Return whether the result has the symbols of the case: another input may have replaced one of them."""
+    """Return whether the result contains the symbols of the case; another input may have replaced one of them."""
     if given.of is None:
         return True
     told = _read(given.letter, letters).free_symbols if given.letter else {_letter(x, letters) for x in given.where}
@@ -118,7 +121,7 @@ def _named(name: Word, known: Mapping[str, Quantity]) -> Quantity:
 
 
 def _free(key: str, taken: Iterable[str]) -> str:
-    """Return the key, or the first of key_2, key_3, ... that is free."""
+    """Return the key if it is free, or else the first free one of key_2, key_3, ..."""
     number, found = 1, key
     while found in set(taken):
         number += 1
@@ -133,7 +136,7 @@ def _read(formula: Formula, letters: Mapping[str, Declared]) -> Expr:
 def _as_stated(
     given: LimitKeys, case: Quantity, letters: Mapping[str, Declared], known: Mapping[str, Quantity], keys: set[str]
 ) -> list[Quantity]:
-    """Check the result that the file states for a case; return a step if it uses symbols of other steps."""
+    """Check the result that the file states for a case; return a step if it contains symbols of other steps."""
     if given.stated is None:
         return []
     stated, value = _read(given.stated, letters), explicit(case.value)

@@ -1,4 +1,4 @@
-"""The drawing of a described body, if there is one."""
+"""Drawings of described bodies."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from derive.steps.step import is_zero
 
 
 def drawn(body: Body) -> None:
-    """Draw its outline, under its name; a body that lies in a plane is drawn in that plane."""
+    """Draw the outline of a body, under the name of the body; a flat body is drawn in its plane."""
     if marks := seen_outline(body):
         key, view = body.called.replace(" ", "_") or "body", PLANE if is_in_plane(body) else SPACE
         drawing(key, marks, view=view, values=_proportions(body))
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return the drawn size of a part that is thinner or narrower than the rest, in terms of the rest."""
+    """Return the drawn size of the section of a torus, or of a hole, in terms of the size of the whole."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4
@@ -52,8 +52,8 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 def drawn_turning(answers: Any, has_angle: bool) -> None:
     """Draw a body with its axes at the point about which it rotates, and its axis of rotation.
 
-    If the rotation is known at one instant only, its angular velocity replaces the axis. If the angle to the angular
-    momentum is an answer, that vector is drawn too.
+    If the angular velocity is known at one instant only, its arrow replaces the axis. If `has_angle`, a second drawing
+    shows the angle between the angular velocity and the angular momentum.
     """
     body, described = answers.body, answers.described
     if not isinstance(body.boundary, Round | Faces):
@@ -74,9 +74,9 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
 
 
 def drawn_free(answers: Any, turns: bool) -> None:
-    """Draw a body with known principal moments, and if it `turns` its angular velocity and angular momentum.
+    """Draw a body with known principal moments; if it `turns`, also its angular velocity and its angular momentum.
 
-    The two vectors are drawn in different directions, whatever the questions are.
+    The two vectors always have distinct directions in the drawing.
     """
     vectors = (answers.changing, answers.angular_momentum) if turns else ()
     drawing("body", principal_outline(answers.described.moments, *vectors))

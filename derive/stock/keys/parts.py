@@ -95,13 +95,13 @@ class ForceKeys(Record):
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place where it acts", PLACE)
     of: Word | None = key(
-        "the body or particle on which it acts, if the place does not move with it: the contact of a sliding ball; "
+        "the body or particle on which the force acts, if `at` does not move with it: the contact of a sliding ball; "
         "`massless` for a massless part",
         TEXT,
     )
     by: Word | None = key(
-        "the body or particle that exerts it, on which the opposite force acts: the plank under a sliding block; "
-        "`ground` if no described body exerts it",
+        "the body or particle that exerts the force, and on which the opposite force acts: the plank under a sliding "
+        "block; `ground` if no described body exerts the force",
         TEXT,
     )
     torque: Tree | None = key("in place of `components` and `at`, a torque", SCALAR)
@@ -128,9 +128,9 @@ class ForceKeys(Record):
 class DampingKeys(Record):
     """The keys of one of `damping:`."""
 
-    constant: Tree = key("its constant, in kg/s at a place or for a length", SCALAR, required=True)
+    constant: Tree = key("the damping constant; in kg/s with `at`, or with `on` for a length", SCALAR, required=True)
     at: WrittenPlace | None = key("the place whose velocity it opposes", PLACE)
-    of: Word | None = key("the body or particle on which it acts, if the place does not move with it", TEXT)
+    of: Word | None = key("the body or particle on which the drag acts, if `at` does not move with it", TEXT)
     on: Tree | None = key("in place of `at`, the coordinate whose rate it opposes", SCALAR)
 
     def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
@@ -141,7 +141,7 @@ class DampingKeys(Record):
         if self.at is not None or self.on is None:
             rejected("missing-key", "damping needs either `at` or `on`", self.places[""])
         if self.of is not None:
-            message = "`of` belongs to drag at a place, but this acts on a coordinate"
+            message = "`of` belongs to drag at a place, but this drag acts on a coordinate"
             rejected("unused-key", message, self.of.place, "leave it out")
         of = (letters.read(self.constant, "constant")[0], letters.read(self.on, "on")[0])
         return Deferred(damping, of, place=self.places[""])
@@ -155,7 +155,7 @@ class ChargeKeys(Record):
     at: WrittenPlace = key("where it is", PLACE, required=True)
     electric: tuple[Tree, ...] = key("components of the uniform electric field", COMPONENTS)
     magnetic: Tree | None = key(
-        "components of the uniform magnetic field; in a plane the perpendicular one", ONE_OR_MORE_COMPONENTS
+        "components of the uniform magnetic field; in a plane, the perpendicular component", ONE_OR_MORE_COMPONENTS
     )
 
     def part(self, places: Places, letters: InLetters) -> Deferred[Any]:
@@ -176,9 +176,11 @@ class ChargeKeys(Record):
 
 @dataclass(frozen=True)
 class ConstraintKeys(Record):
-    """The keys of one of `constraints:`, which a force keeps."""
+    """The keys of one of `constraints:`, a condition that a constraint force enforces."""
 
-    condition: Tree = key("a formula of the coordinates, or one that is linear in their rates", SCALAR, required=True)
+    condition: Tree = key(
+        "a formula in the coordinates, or a formula that is linear in their rates", SCALAR, required=True
+    )
     equals: Tree | None = key("its value; by default zero", SCALAR)
     force: Word | None = key("the symbol of the constraint force, a multiplier; by default `lambda`", TEXT)
 
@@ -200,7 +202,7 @@ def components_of(nodes: Collection[Tree], kind: str, letters: InLetters) -> tup
 
 
 def force_letter(name: Word | None, letters: InLetters) -> str:
-    """Return the symbol of a constraint force, which is an unknown and not declared."""
+    """Return the symbol of a constraint force; the force is an unknown, so its symbol is not declared."""
     if name is None:
         return "lambda"
     if not is_letter(name):
@@ -211,7 +213,7 @@ def force_letter(name: Word | None, letters: InLetters) -> str:
 def named_bodies(
     key_name: str, names: Collection[Word | None], bodies: Collection[str], otherwise: str
 ) -> tuple[str, ...]:
-    """Return the bodies or particles that a key names, or the word for none; no name if the key is missing."""
+    """Return the bodies or particles that a key names; the word `otherwise`, such as `ground`, is also allowed."""
     there = [name for name in names if name is not None]
     for name in there:
         if name not in bodies and name != otherwise:
@@ -221,7 +223,7 @@ def named_bodies(
 
 
 def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:
-    """Return a reader of a list of mappings, or of one mapping alone."""
+    """Return a reader of a list of mappings; a single mapping is also allowed."""
     one = record_of(record, what, "a mapping")
     many = list_of(one, f"a list of mappings, {what} each")
 

@@ -31,8 +31,8 @@ class MovingBodyKeys(BodyKeys):
     """The keys of one of `bodies:`."""
 
     moments: Tree | None = key(
-        "in place of a shape, its principal moments of inertia, or in a plane the one about the perpendicular axis; "
-        "they are about the centre of mass, or with `middle` about the point that is held",
+        "in place of a shape, its three principal moments of inertia, or in a plane the moment about the "
+        "perpendicular axis; about the centre of mass, or with `middle` about the point that is held",
         as_written(
             {"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]},
             "one moment or three",
@@ -42,11 +42,11 @@ class MovingBodyKeys(BodyKeys):
         "with `moments`, the position of its centre of mass along its own axes", list_of(SCALAR, "components", length=3)
     )
     turned: Tree | None = key(
-        "in a plane, its angle of rotation from right towards up; in space, the axes that rotate with it", SCALAR
+        "in a plane, its angle of rotation from right towards up; in space, the axes that rotate with the body", SCALAR
     )
-    centre: WrittenPlace | None = key("where its centre of mass is", PLACE)
+    centre: WrittenPlace | None = key("the position of its centre of mass", PLACE)
     held: Tree | None = key("in place of `centre`, the point of the body that is held, by name or components", POINT)
-    on: WrittenPlace | None = key("where that point is held; by default the origin", PLACE)
+    on: WrittenPlace | None = key("the place at which this point is held; by default the origin", PLACE)
     across: str | None = key(
         "in a plane, the axis of the body that is perpendicular to the plane", one_of(("x", "y", "z"))
     )
@@ -54,9 +54,11 @@ class MovingBodyKeys(BodyKeys):
     def part(self, name: Word, alone: bool, places: Places, letters: InLetters) -> Deferred[Any]:
         called = "" if alone else str(name).replace("_", " ")
         if self.centre is None and self.held is None:
-            rejected("missing-key", "a body needs either `centre` or `held`, which says where it is", self.places[""])
+            rejected(
+                "missing-key", "a body needs either `centre` or `held`, which specifies its position", self.places[""]
+            )
         if self.centre is not None and self.held is not None:
-            message = "a body has either `centre` or `held`, not both: each says where it is"
+            message = "a body has either `centre` or `held`, not both: each specifies its position"
             rejected("twice", message, self.places["held"], "leave one of them out")
         self._check_used()
         if self.turned is None:
@@ -87,7 +89,7 @@ class MovingBodyKeys(BodyKeys):
         if "middle" in self.values_at and "moments" not in self.values_at:
             message = "`middle` has no effect on a body without `moments`"
             faults.error(
-                "unused-key", message, self.places["middle"], help="its shape says where its centre of mass is"
+                "unused-key", message, self.places["middle"], help="the shape determines where the centre of mass is"
             )
         faults.stop()
 
@@ -127,7 +129,7 @@ class RollingKeys(Record):
     body: Word = key("the body, by its name", TEXT, required=True)
     at: WrittenPlace = key("the place where it touches the surface", PLACE, required=True)
     ground: WrittenPlace | None = key(
-        "a place of the surface, if that moves; or the axes in which the surface is at rest, as for a turntable", PLACE
+        "a place of the surface, if the surface moves; or the axes in which it is at rest, as for a turntable", PLACE
     )
     force: Word | None = key("the symbol of the force that prevents slipping, if you need that force", TEXT)
 
@@ -141,7 +143,7 @@ class RollingKeys(Record):
 
 
 def _ground(written: WrittenPlace, places: Places) -> Location | Axes:
-    """Return a place of the surface; a place along rotating axes is at rest in these, as on a turntable."""
+    """Return a place of the surface; for a place along rotating axes, return these axes, as for a turntable."""
     way = written.way
     if written.name is not None and str(written.name) in {str(name) for name in places.turns}:
         return places.axes(written.name)
@@ -156,12 +158,12 @@ ROLLING = list_of_parts(RollingKeys, "rolling")
 
 
 def placed(body: DescribedBody | RigidBody, turned: Axes | Expr, centre: Location, across: str | None) -> Any:
-    """Return the body at its position, by its centre of mass."""
+    """Return the body with its centre of mass at a place."""
     return _made(body).placed(turned, centre, across=across)
 
 
 def held(body: DescribedBody | RigidBody, turned: Axes | Expr, point: Any, on: Location | None, across: Any) -> Any:
-    """Return the body at its position, by the point that is held."""
+    """Return the body with one of its points held at a place."""
     return _made(body).held(turned, point, on=on, across=across)
 
 
@@ -170,7 +172,7 @@ def _made(body: DescribedBody | RigidBody) -> Any:
 
 
 def rolls(body: Any, at: Location, ground: Any, force: str = "") -> tuple[Any, ...]:
-    """Return the conditions of rolling: solved, or kept by forces."""
+    """Return the conditions of rolling: as constraints with forces, or solved for coordinates or rates."""
     if force:
         return rolling_constraint(body, at, force, ground)
     found = no_slip(body, at, ground)

@@ -48,7 +48,7 @@ AXIS_OF = {"x": X, "y": Y, "z": Z}
 
 @dataclass(frozen=True)
 class WayKeys(Record):
-    """The keys of a place that is specified by a displacement from another."""
+    """The keys of a place that is specified by a displacement from another place."""
 
     start: Word | None = key("the place where the displacement starts; by default the origin", TEXT, called="from")
     by: tuple[Tree, ...] = key("its components", COMPONENTS, required=True)
@@ -91,7 +91,7 @@ PLACES = mapping_of(PLACE)
 
 
 def is_letter(name: str) -> bool:
-    """Return whether a description may introduce it as a symbol."""
+    """Return whether a description may introduce this name as a symbol."""
     is_name = name.isascii() and name.replace("_", "").isalnum() and name[0].isalpha()
     return is_name and name not in RESERVED and name != TIME.name
 
@@ -174,7 +174,7 @@ class Places:
             self.on_the_way.pop()
 
     def at(self, written: WrittenPlace, name: str) -> Location:
-        """Return the location."""
+        """Return the location of a written place; `name` is its name in errors."""
         if written.name is not None:
             return self.named(written.name)
         assert written.way is not None
@@ -190,7 +190,7 @@ class Places:
         return each([partial(self.at, start, "from"), partial(self.at, end, "to")])
 
     def axes(self, name: Word) -> Axes:
-        """Return the axes of that name, by successive rotations of the axes of space."""
+        """Return the axes of this name, which follow from the axes of space by successive rotations."""
         turns = next((turns for known, turns in self.turns.items() if known == name), None)
         if turns is None:
             help_line = did_you_mean(name, self.turns) or "give them under `axes`"
@@ -208,7 +208,7 @@ class Places:
         return self.letters.of_kind(node, f"a component of {name}", "length")
 
     def _check_size(self, found: Location, name: str) -> None:
-        """Check that all places of a description are in a plane, or all are in space."""
+        """Check that all places of a description have two components, or that all have three."""
         size = len(found.components)
         first, by = self.first = self.first or (size, name)
         if size != first:

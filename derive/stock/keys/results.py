@@ -1,7 +1,8 @@
 """`results:` of a description: quantities computed from answers, each under a name of its own.
 
-Every key is that of an argument of a verb, which states next to its function how a file calls it. So the keys, their
-schema and their errors follow from the verbs; this module only defines how each sort of key is read.
+Each key belongs to an argument of a verb. A decorator next to the function of the verb states the names of the keys.
+The keys, their schema and their errors therefore follow from the verbs; this module only defines how each sort of key
+is read.
 """
 
 from __future__ import annotations
@@ -39,7 +40,8 @@ Answers = Callable[[Word], tuple[Quantity, ...]]
 
 @in_results(
     "answer",
-    "the tensor, a moment or radius of gyration, or the centre of mass of a body about another point or axis: "
+    "the inertia tensor, a moment of inertia, a radius of gyration or the centre of mass of a body, for another point "
+    "or axis: "
     "`{answer: moment_of_inertia_z, about: tip}`",
     one_of=("about", "origin", "direction"),
     answer="answer: the name of an answer of a body",
@@ -57,7 +59,7 @@ def _of_a_body(
     direction: Axis = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """Return the answer of a body about another point or axis than the given one."""
+    """Return an answer of a body about a point or axis other than the given one."""
     if elsewhere is None:
         rejected("wrong-argument", "`answer` asks about another point of a body and needs `solve: body`", None)
     return elsewhere(answer, key, about, origin, direction, symbol)
@@ -70,9 +72,9 @@ def _of_a_body(
 class Sort:
     """A sort of key: its shape in the file, how it is read in symbols, and the value that the verb receives.
 
-    read   (verb, key, written value, letters) -> the value that is known before any answer is derived
-    made   (result, key, that value) -> the argument of the verb
-    uses   (that value) -> the names of answers in it
+    read   (verb, key, written value, symbols) -> the read value, before any answer is derived
+    made   (result, key, read value, surroundings) -> the argument of the verb
+    uses   (read value) -> the names of answers in the read value
     """
 
     shape: Reader[Any]
@@ -83,14 +85,14 @@ class Sort:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """The context of a result: answers by name, coordinates, and the function for another point of a body."""
+    """The context of a result: answers by name, coordinates, and the function for other points of a body."""
 
     answers: Answers
     coordinates: Mapping[str, Coordinate]
     elsewhere: Callable[..., Quantity] | None = None
 
     def one(self, name: Word) -> Quantity:
-        """Return the one answer of a name, or the one with this key."""
+        """Return the answer of a name; if the name has several answers, return the one with this key."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -98,7 +100,7 @@ class Surroundings:
         return found[0]
 
     def momenta_named(self, names: Iterable[str]) -> None:
-        """Mark the momenta in a formula as moving, from here on."""
+        """Record that the momenta with these names change in time."""
         held = set(names)
         for q in self.coordinates.values():
             if letter_of_momentum(q).name in held:
@@ -110,7 +112,7 @@ def _nodes(node: Tree) -> tuple[Tree, ...]:
 
 
 def names(node: Tree | None) -> tuple[Word, ...]:
-    """Return the names that are written, one or several."""
+    """Return the written name, or each of a list of names."""
     found = []
     for item in _nodes(node) if node is not None else ():
         if not isinstance(item, Scalar) or item.empty:
@@ -179,7 +181,7 @@ def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters)
 
 
 def _one_answer(result: Result, key: ResultKey, found: tuple[Word, ...], around: Surroundings) -> Quantity:
-    """Return the one answer; if a name has several, the one with this key."""
+    """Return the only answer; if a single name has several answers, return the one with this key."""
     of = [quantity for name in found for quantity in around.answers(name)]
     if len(of) > 1 and len(found) == 1:
         of = [quantity for quantity in of if quantity.key == found[0]] or of
@@ -208,7 +210,7 @@ def _functions_made(
 
 
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
-    """Return the values by plain names: a call of a verb is recalled only if its arguments have no place in a file."""
+    """Return the values by names without a position in the file, because only calls with such names are recalled."""
     return {str(name): value for name, value in found.items()}
 
 
@@ -247,7 +249,7 @@ SORTS: Mapping[Holds, Sort] = {
 
 
 def _meaning(name: str) -> str:
-    """Return the meaning of a key, by the verbs that have it."""
+    """Return the meaning of a key, from the hints of the verbs that use this key."""
     if name in RESULT_VERBS:
         return f"{RESULT_VERBS[name].own.hint}; finds {RESULT_VERBS[name].yields}"
     hints = [
@@ -257,18 +259,18 @@ def _meaning(name: str) -> str:
     return "; ".join(f"{hint} ({', '.join(f'`{verb}`' for _, verb in verbs)})" for hint, verbs in together)
 
 
-ALIKE = {  # meaning of a key that is the same for each verb
-    "symbol": "the symbol of the result, or one for each of several",
+ALIKE = {  # keys that mean the same for every verb
+    "symbol": "the symbol of the result, or a list of symbols for several results",
     "results": "answers that are substituted",
     "order": "the highest order",
     "start": "the value at the start",
-    "case": "`underdamped`, `critically_damped` or `overdamped`, if the symbols leave it open",
+    "case": "`underdamped`, `critically_damped` or `overdamped`, if the symbols do not decide the case",
     "gained": "the function whose rate the Lagrangian gains; by default none",
 }
 
 
 def _every_key() -> Iterator[ResultKey]:
-    """Yield each key once, those that name a verb first."""
+    """Yield each key once; a key that names a verb replaces other keys of the same name."""
     verbs = sorted(RESULT_VERBS.values(), key=lambda verb: verb.name)
     every = [*(verb.own for verb in verbs), *(each for verb in verbs for each in verb.keys.values())]
     yield from {each.name: each for each in reversed(every)}.values()
@@ -301,7 +303,7 @@ def written_in(written: Record) -> dict[str, Any]:
 
 
 def verb_of(written: Record) -> ResultVerb:
-    """Return the one verb of a result that has been checked."""
+    """Return the verb of a result whose keys were checked."""
     return next(verb for name, verb in RESULT_VERBS.items() if name in written_in(written))
 
 
@@ -361,7 +363,7 @@ class Result:
     """One quantity that is computed from answers.
 
     values   argument of the verb -> the value of its key, in symbols
-    places   argument, and `values:x`, -> where it is written
+    places   argument of the verb, or `values:x` for one symbol of `values` -> its position in the file
     """
 
     name: Word
@@ -376,7 +378,7 @@ class Result:
         coordinates: Mapping[str, Coordinate],
         elsewhere: Callable[..., Quantity] | None = None,
     ) -> Any:
-        """Compute the result by its verb; an error is shown at the key of the argument that is wrong."""
+        """Compute the result by its verb; an error is reported at the key of the wrong argument."""
         around = Surroundings(answers, coordinates, elsewhere)
         keys = self.verb.arguments
         given = {
@@ -399,7 +401,7 @@ class Result:
 
     @property
     def uses(self) -> tuple[Word, ...]:
-        """Return the names of the answers from which it is computed."""
+        """Return the names of the answers from which the result is computed."""
         keys = self.verb.arguments
         return tuple(
             name for argument, value in self.values.items() for name in SORTS[keys[argument].holds].uses(value)
@@ -407,7 +409,7 @@ class Result:
 
 
 def read_result(written: Record, name: Word, letters: InLetters, faults: Faults) -> Result | None:
-    """Return a result in symbols; None after an error."""
+    """Return a result in symbols, or None after an error."""
     with faults:
         known = letters.letters.get(name)
         if known is not None and not isinstance(known, FoundLetter):

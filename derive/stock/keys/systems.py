@@ -77,7 +77,7 @@ class SystemKeys(Record):
     """The keys of a system."""
 
     coordinates: Mapping[Word, SortOfLetter] = key(
-        "what varies: `theta: angle`, `x: length`, `r: positive length`, `beta: angle in (0, pi/2)`",
+        "the coordinates: `theta: angle`, `x: length`, `r: positive length`, `beta: angle in (0, pi/2)`",
         COORDINATES,
         required=True,
     )
@@ -102,9 +102,9 @@ class SystemKeys(Record):
     )
     potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
     forces: Sequence[ForceKeys] = key("given forces and torques", FORCES)
-    damping: Sequence[DampingKeys] = key("drag opposite and proportional to a velocity", DAMPING)
+    damping: Sequence[DampingKeys] = key("drag that is proportional to a velocity and opposite to it", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
-    constraints: Sequence[ConstraintKeys] = key("conditions kept by constraint forces", CONSTRAINTS)
+    constraints: Sequence[ConstraintKeys] = key("conditions that constraint forces enforce", CONSTRAINTS)
     impact: ImpactKeys | None = key("impulses and collisions at one instant", IMPACT, formerly="blow")
     conserved: Mapping[Word, Tree] = key(
         "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
@@ -124,14 +124,14 @@ class SystemKeys(Record):
 
 @dataclass(frozen=True)
 class DescribedSystem(Described):
-    """A system in symbols.
+    """A described system, whose values are expressions in its symbols.
 
-    coordinates   the name of each, its kind, and whether it is positive
-    particles, bodies, rolling, acting   its parts, in the order of the file; `acting` is everything else
-    conserved     symbols of constant momenta by coordinates; `kept` are constant momenta with given values
-    at, at_rest   the state about which motions are small, by values or by the name of an equilibrium
+    coordinates   the name of each coordinate, its kind, and whether it is positive
+    particles, bodies, rolling, acting   the parts of the system, in the order of the file; `acting` has the others
+    conserved     the symbols of constant momenta, by coordinate; `kept` has the constant momenta with given values
+    at, at_rest   the state about which motions are linearised, by values or by the name of an equilibrium
     impact        what happens at one instant
-    brought       symbols of constraint forces and constant momenta, with their places
+    brought       the symbols of constraint forces and of constant momenta, with their positions in the file
     named         the places that have names
     given         a Lagrangian that replaces all bodies, and its kind
     """
@@ -156,7 +156,7 @@ class DescribedSystem(Described):
 def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
     """Return the description in the declared symbols and the coordinates.
 
-    The order of the readings is that in which numbers get their letters.
+    The order in which values are read matters, because numbers get their symbols in this order.
     """
     letters = coordinate_letters(written.coordinates, symbols, faults)
     known = InLetters({**symbols, **letters})
@@ -229,7 +229,7 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
 
 
 def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | None] | None:
-    """Return the formula of a given Lagrangian, and the kind of quantity that it is, if that has a name."""
+    """Return the formula of a given Lagrangian, and its kind if the kind has a name."""
     if written.lagrangian is None:
         return None
     beside = next((name for name in REPLACED_BY_LAGRANGIAN if name in written.places), None)
@@ -241,7 +241,7 @@ def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | No
 
 
 def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
-    """Return the answers that do not depend on `at`, `conserved` and `impact`."""
+    """Return, for each of `at`, `conserved` and `impact`, the answers that do not depend on this key."""
     of_each = ("motion", "momentum", "acceleration")
     one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
     general = one | {*found, *INDIFFERENT_TO_STATES}
@@ -272,19 +272,19 @@ def _assumed(
 def _momenta(
     written: Mapping[Word, str], coordinates: Mapping[str, Declared], lagrangian: str | None
 ) -> dict[str, Declared]:
-    """Return the momenta of coordinates, for functions of both: `x*p_y - y*p_x`."""
+    """Return the symbols of momenta, for functions of coordinates and momenta such as `x*p_y - y*p_x`."""
     kinds = {f"p_{q}": kind_of_momentum(coordinates[q].kind, lagrangian) for q in written if q in coordinates}
     return {name: Declared(name, scalar(name), kind) for name, kind in kinds.items() if kind is not None}
 
 
 def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
-    """Return the symbols of the forces that keep constraints and rolling, for which results may be solved."""
+    """Return the symbols of constraint forces, also in rolling; results may be solved for these symbols."""
     names = [one.named["force"] for one in keeping if "force" in one.named]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
 
 def _brought(written: SystemKeys) -> list[Word]:
-    """Return the symbols that the description introduces in addition to its coordinates, with their places."""
+    """Return the symbols that the description introduces in addition to its coordinates."""
     forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
     return [*(force for force in forces if force), *(symbol for symbol, _ in _symbols(written.conserved).values())]
 
@@ -301,7 +301,7 @@ def _symbols(written: Mapping[Word, Tree]) -> dict[Word, tuple[Word, bool]]:
 
 
 def _check_different(brought: Sequence[Word]) -> None:
-    """Check that all these symbols are different."""
+    """Check that these symbols are distinct."""
     for i, word in enumerate(brought):
         if word in brought[:i]:
             message = f"`{word}` already denotes something else"
@@ -309,7 +309,7 @@ def _check_different(brought: Sequence[Word]) -> None:
 
 
 def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: InLetters) -> dict[str, Declared]:
-    """Return the symbols for the rates of steady motions, in the order of the coordinates without a value there."""
+    """Return the symbols for the rates of steady motions, one for each coordinate without a value in the motion."""
     found = {}
     for result in written.results.values():
         held = written_in(result)

@@ -38,7 +38,7 @@ ALONG = "collisions: {from: B, to: A, along: [1, 0]"
         ((HIT, "collisions: {from: B, at: A}"), "12: a collision needs `from` and `to`, or `at`"),
         ((HIT, f"{ALONG}}}"), "12: a collision along a normal needs its `restitution`"),
         (("[1, 0]", "[l, 0]"), "12: `a component` must be a number, but `l` is a length"),
-        (("restitution: e", "restitution: e, impulse: v"), "12: `v` stands for something else already"),
+        (("restitution: e", "restitution: e, impulse: v"), "12: `v` already denotes something else"),
         ((HIT, "collisions: {from: B, to: A, impulse: '2'}"), "12: `2` is not a valid symbol for an impulse"),
         ((HIT, "impulses: {components: [J, 0]}"), "12: an impulse needs `components` and `at`, or `angular` and `on`"),
         ((HIT, "impulses: {components: [v, 0], at: A}"), "12: `a component` must be a momentum, but `v` is a speed"),

@@ -97,7 +97,7 @@ def test_a_description_reads_the_same_in_each_process(tmp_path: Path) -> None:
         ("forces: {components: [F, 0]}", "a force needs `components` and `at`, or `torque` and `on`"),
         ("damping: {constant: c}", "damping needs either `at` or `on`"),
         ("springs: {constant: c, from: A, to: [0, 0]}", "`constant` must be a spring constant, but `c` is a damping"),
-        ("central: {energy: k*m**2/2, distance: m, from: A, to: [0, 0]}", "`m` stands for something else already"),
+        ("central: {energy: k*m**2/2, distance: m, from: A, to: [0, 0]}", "`m` already denotes something else"),
         ("constraints: {condition: l}", "`constraint` needs a formula of coordinates, but l has none"),
         ("constraints: {condition: x, equals: m}", "`condition` and `equals` have different dimensions"),
         ("springs: {konstant: k, from: A, to: A}", "a spring has no key `konstant`"),
