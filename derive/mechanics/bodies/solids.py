@@ -186,7 +186,7 @@ class Ball(Spherical, RoundSolid):
 
 
 class Hemisphere(Ball):
-    """The half of a uniform ball with z > 0; the centre of its base is at the origin.
+    """Half of a uniform ball, with z > 0; the centre of its base is at the origin.
 
     radius   length
     mass     mass
@@ -261,7 +261,7 @@ class ThickShell(Hollow):
 
 
 class HalfCylinder(OfHeight):
-    """The half of a uniform cylinder about the z axis with y > 0, from z = 0 to z = height.
+    """Half of a uniform cylinder about the z axis, with y > 0, from z = 0 to z = height.
 
     radius   length
     height   length

@@ -201,7 +201,7 @@ class Annulus(Hollow):
 
 
 class HalfDisc(OfRadius):
-    """The half of a thin uniform disc in the plane of x and y with y > 0; its diameter is along x.
+    """Half of a thin uniform disc in the plane of x and y, with y > 0; its diameter is along x.
 
     radius   length
     mass     mass
@@ -258,7 +258,7 @@ class SphericalShell(Spherical):
 
 
 class HemisphericalShell(SphericalShell):
-    """The half of a thin uniform spherical shell with z > 0; the centre of its rim is at the origin.
+    """Half of a thin uniform spherical shell, with z > 0; the centre of its rim is at the origin.
 
     radius   length
     mass     mass

@@ -165,7 +165,7 @@ def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[
     jumps        the results of `momentum_jump`, one for each coordinate
     conditions   the results of `meeting_condition`, one for each unknown impulse
     Keys: q_dot_after, and the symbol of each impulse.
-    Check: that of `solved_for`.
+    Check: as `solved_for`.
     Errors: a jump or a condition is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2.
     """
@@ -187,7 +187,7 @@ def energy_after(
     impact    the system, its state and the impulses
     kinetic   the kinetic energy T of the system, J
     after     the rates just after the impact, from `rates_after`
-    Check: that of `put_in`.
+    Check: as `put_in`.
     Source: none needed: substitution.
     """
     held = explicit(kinetic.value).free_symbols

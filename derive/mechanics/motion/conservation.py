@@ -44,7 +44,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     quantity    a scalar Q in coordinates and their rates; the unit of the result is the unit of Q per second
     equations   equations of motion that are linear in the highest rates; as many equations as highest rates
     Each equation times its factor is a step. The sum of several products is a step too.
-    Second routes: differentiate Q as a function of time and substitute the highest rates from the equations; for any
+    Second route: differentiate Q as a function of time and substitute the highest rates from the equations; for any
     motion, subtract the sum of the products; integrate one motion numerically. If Q belongs to a body, also add the
     contributions of its particles, and repeat the calculation for an inertia tensor that is not diagonal.
     Outcomes: conserved (the rate is zero), changes.

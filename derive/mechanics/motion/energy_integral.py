@@ -215,7 +215,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
     squared   q_dot^2 from `speed_from_energy`, 1/s^2, for a release from rest at q = A; it must be even in q
     order     the highest power of A in the series
     The series has its own symbol, tau_lim. Numerical values of the period come from the integral.
-    Second routes: for small amplitudes, 2 pi/omega_0 from the linearised equation of motion; and the integral,
+    Second route: for small amplitudes, 2 pi/omega_0 from the linearised equation of motion; and the integral,
     numerically.
     Outcomes: exact (the period does not depend on the amplitude), expanded.
     Errors: the motion does not start from rest at a symbol; q_dot^2 is not an even function of q.
