@@ -95,7 +95,7 @@ def _between_axes(system: System, link: Link, rolling: Rolling) -> Expr | None:
 
 
 def _is_outside(system: System, link: Link, rolling: Rolling) -> bool:
-    """Whether the body is farther from the axis than the contact where all coordinates are zero."""
+    """Whether, at zero coordinates, the body is farther from the axis of the cylinder than the contact is."""
     middle = rolling.body.centre - link.start
     beyond = Add(*(c**2 for c in middle.components)) - link.length**2
     at_zero = dict.fromkeys(system.coordinates, ZERO)

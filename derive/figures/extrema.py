@@ -21,7 +21,7 @@ MINIMUM, MAXIMUM = "minimum", "maximum"
 
 @dataclass(frozen=True)
 class Extremum:
-    """An extremum of a curve: the value of the variable, the value of the curve, and whether it is a minimum."""
+    """An extremum of a curve: the value of the variable, the value of the curve, and "minimum" or "maximum"."""
 
     at: float
     value: float

@@ -125,7 +125,7 @@ class Sliding:
     def _is_measured(self, i: int) -> bool:
         """Whether the coordinate is labelled at this particle.
 
-        For two particles on a string there is one label, if possible where the coordinate is zero at the foot of a line.
+        For two particles on a string there is one label, if possible where the coordinate is zero at the foot.
         """
         for pair in self.ropes:
             if i in pair:

@@ -80,7 +80,7 @@ class ResultVerb:
     function   the function, called with the values of the keys, and with the name of the result as `key`
     called     argument -> its key, followed by a colon and a description for the manual
     one_of     keys of which the verb needs at least one
-    excludes   pairs of keys; the second has no effect next to the first
+    excludes   pairs of keys; if both keys are given, the second has no effect
     """
 
     name: str

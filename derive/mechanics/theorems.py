@@ -1,4 +1,4 @@
-"""Theorems in their general form, which a page states once, before the first step that uses one.
+"""Theorems in general form. A page states each theorem once, before the first step that uses it.
 A theorem is a formula in symbols. It is not a step, because it is not about a body or system of the problem, but each
 step that uses it is checked. The rule of such a step quotes the theorem in its record.
 `tests/mechanics/test_theorems.py` substitutes bodies and motions in the formulas.

@@ -65,7 +65,7 @@ class Body(Placeable, OfParticles):
     called: str = ""  # the name of the body on a page with several bodies: "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
     is_lopsided: ClassVar[bool] = False  # no inversion symmetry, even if the particles have it
-    is_round: ClassVar[bool] = False  # all axes perpendicular to z through one of its points are equivalent
+    is_round: ClassVar[bool] = False  # all axes through a point of the z axis and perpendicular to it are equivalent
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinate systems in which the limits are known
 
     def __post_init__(self) -> None:
@@ -185,7 +185,7 @@ class Body(Placeable, OfParticles):
 
     @property
     def mass_as_found(self) -> Quantity | Expr:
-        """The step that derives its mass, or the given mass."""
+        """The step that derives the mass, or the given mass."""
         return self.mass
 
     @property

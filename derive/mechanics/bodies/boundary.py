@@ -57,7 +57,7 @@ class Faces:
 
     corners   places
     faces     the corners of each face in order, from either side; empty for a single face
-    edges     the lengths that a drawing shows, each with the edges of that length
+    edges     the lengths that a drawing shows, each with the edges of this length
     """
 
     corners: tuple[ImmutableMatrix, ...]
@@ -118,7 +118,7 @@ class Toroidal:
 
 @dataclass(frozen=True)
 class Hollowed:
-    """A round body without a smaller round body about the same axis."""
+    """A round body from which a smaller round body about the same axis is removed."""
 
     whole: Round
     removed: Round

@@ -84,7 +84,7 @@ def centre_component(
 
     body         of mass M
     axis         "x", "y" or "z": the body axis of the component
-    origin       the point from which it is measured, by default the origin of the body axes
+    origin       the point from which to measure, by default the origin of the body axes
     coordinates  "cartesian" or "cylindrical", if the body has both
     Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
     numerical sum over cells.

@@ -41,7 +41,7 @@ class EdgedBody(Body):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The lengths that a drawing shows, each with the edges of that length."""
+        """The lengths that a drawing shows, each with the edges of this length."""
         return ()
 
     @property

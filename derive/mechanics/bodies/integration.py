@@ -207,7 +207,7 @@ def _flat(term: Expr) -> tuple[Expr, ...]:
 
 
 def _has_chords(region: Region) -> bool:
-    """Whether the innermost limits are the ends of a chord: a square root of an outer variable."""
+    """Whether the innermost limits are the ends of a chord: square roots that contain the place of the chord."""
     roots = (power for power in region.limits[-1][2].atoms(Pow) if power.exp == Rational(1, 2))
     return any(root.has(*region.names[1:]) for root in roots)
 

@@ -75,7 +75,7 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
 def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
     """The region of a map, with positions relative to a point.
 
-    If a variable is a length along an axis and the rest does not depend on it, it is measured from the point too.
+    A variable that is a length along an axis is measured from the point too, if nothing else depends on this variable.
     weight   size of a cell, times the density up to a constant factor
     """
     seen = point.seen(position)

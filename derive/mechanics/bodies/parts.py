@@ -18,7 +18,7 @@ NO_TURN = ImmutableDenseMatrix(eye(3))
 
 @dataclass(frozen=True)
 class PlacedPart:
-    """A body as a part of another.
+    """A body as a part of a larger body.
 
     body       the part
     of         the point of the part that stays fixed when the part is rotated

@@ -175,7 +175,7 @@ def _check_turns(body: Any, number: int, angle: Expr) -> None:
 def _check_flat(body: Any, number: int) -> None:
     """Reject a default axis along which the body extends, unless all axes of the body are equivalent."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
-        message = f"{body.name} extends along its {XYZ[number]} axis, so that need not be perpendicular to the plane"
+        message = f"{body.name} extends along its {XYZ[number]} axis, so another axis may be perpendicular to the plane"
         raise Rejected(
             Complaint(
                 "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")

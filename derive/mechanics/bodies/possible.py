@@ -73,13 +73,13 @@ def check_parts(parts: Sequence[Any]) -> None:
     for hole in (piece for piece in pieces if piece.sign < 0):
         around = [piece for piece in filled if piece.filling == hole.filling]
         if _always([hole, *around], lambda charts: _outside(charts[0], charts[1:])):
-            message = f"`{hole.called}` is cut out of the body, but some of it lies outside of the body"
+            message = f"`{hole.called}` is cut out of the body, but a part of it is outside the body"
             raise Rejected(Complaint("no-such-body", message, help="a hole must be inside the rest of the body"))
     solid = [piece for piece in filled if piece.filling == "volume"]
     for i, one in enumerate(solid):
         for other in solid[:i]:
             if _always([one, other], lambda charts: _inside(charts[0], charts[1])):
-                message = f"`{other.called}` and `{one.called}` fill the same place"
+                message = f"`{other.called}` and `{one.called}` share a volume"
                 help_line = "cut one out of the other, or place them side by side"
                 raise Rejected(Complaint("no-such-body", message, help=help_line))
 

@@ -87,7 +87,7 @@ class RoundSolid(RoundBody):
         return index if point.name == self.reference else f"'{index}"
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
-        """Two expressions that are equal where (r, z), along the body axes, is on the edge of the body."""
+        """Two expressions that are equal if the point (r, z), in body axes, is on the edge of the body."""
         raise AttributeError(f"{type(self).__name__} must say where its edge is")
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:

@@ -280,7 +280,7 @@ class HemisphericalShell(SphericalShell):
         return spherical(self.letters, self.radius, (0, pi / 2))
 
     def particles(self) -> Particles:
-        """By Archimedes, slices of equal height have equal masses."""
+        """The particles of rings: by Archimedes, the mass per height is constant."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: Integer(1), ring_of_particles)
 
 

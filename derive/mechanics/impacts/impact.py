@@ -102,7 +102,7 @@ def collision(
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
-        raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, the other three"))
+        raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, the other has three"))
     normal = tuple(as_expr(c) for c in along)
     if normal and (len(normal) != size or all(c == 0 for c in normal)):
         message = f"`collision` needs {size} components as its normal, not all zero"
@@ -201,8 +201,8 @@ class Impact:
         self.meetings += [self._kept(c) for c in system.constraints]
         letters = [m.letter for m in self.meetings]
         if len(set(letters)) < len(letters):
-            message = "two impulses of this impact have the same letter"
-            raise Rejected(Complaint("letter-clash", message, help="give each a letter, `impulse: K_2`"))
+            message = "two impulses of this impact have the same symbol"
+            raise Rejected(Complaint("letter-clash", message, help="give each impulse a symbol, `impulse: K_2`"))
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
         """Require that the place of each impulse moves with a body or a particle, if the body is not stated."""
@@ -216,7 +216,7 @@ class Impact:
         for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
             act, place = asked[i]
             message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: that place moves with no body"
-            help_line = "name the body whose particle it acts on, `of: rod`; of a collision both, `of: [ball, rod]`"
+            help_line = "name the body whose particle it acts on, `of: rod`; for a collision both, `of: [ball, rod]`"
             raise ActsOnNothing.of(act, Complaint("which-body", message, help=help_line))
 
     def _particle(self, of: Any, at: Vector) -> Vector:
@@ -258,7 +258,7 @@ class Impact:
     def _coordinate(self, q: Any) -> Symbol:
         symbol = q.symbol if isinstance(q, Coordinate) else q
         if symbol not in self.moving:
-            message = f"nothing in this `Impact` moves by {symbol}"
+            message = f"nothing in this `Impact` moves with {symbol}"
             raise Rejected(Complaint("wrong-argument", message))
         return symbol
 
@@ -332,10 +332,10 @@ class Impact:
         """Require that the two places approach each other along the normal: surfaces can push but not pull."""
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
-            message = "the two do not approach each other before this collision"
+            message = "the two places do not approach each other before this collision"
             raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
         if sign == -1:
-            message = "the two move apart before this collision, along its normal"
+            message = "the two places move apart before this collision, along its normal"
             help_line = "reverse the normal, which points from the first place to the second, or the rates `before` it"
             raise Rejected(Complaint("nothing-happens", message, help=help_line))
         if sign is None:

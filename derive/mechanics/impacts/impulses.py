@@ -60,7 +60,7 @@ def momentum_jump(impact: Impact, kinetic: Quantity, q: Coordinate, key: str | N
     """
     symbol = q.symbol
     if symbol not in impact.moving:
-        raise Rejected(Complaint("wrong-argument", f"nothing in this `Impact` moves by {symbol.name}"))
+        raise Rejected(Complaint("wrong-argument", f"nothing in this `Impact` moves with {symbol.name}"))
     matter = kinetic.needed(Matter)
     momentum = explicit(Partial(kinetic.value, q.rate))
     before = tidied(impact.earlier(momentum))
@@ -172,7 +172,7 @@ def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[
     count = len(impact.moving) + len(impact.meetings)
     if len(jumps) + len(conditions) != count:
         message = f"the unknowns of this impact need {count} equations, not {len(jumps) + len(conditions)}"
-        raise Rejected(Complaint("wrong-argument", message, help="a jump for each coordinate, and each condition"))
+        raise Rejected(Complaint("wrong-argument", message, help="give a jump for each coordinate, and each condition"))
     of = [jump.needed(OfCoordinate).coordinate for jump in jumps]
     letters = [each.letter for each in impact.meetings]
     keys = [*(f"{q.symbol.name}_dot_after" for q in of), *(letter.name for letter in letters)]

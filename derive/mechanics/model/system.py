@@ -314,7 +314,7 @@ class System:
         if len(self.weights) > 1:
             raise Rejected(Complaint("wrong-argument", "a `System` can have only one weight, of all its particles"))
         if len({len(place.components) for place in self.places}) > 1:
-            message = "some places of this `System` have two components, others have three"
+            message = "some places of this `System` have two components, and some have three"
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
         if not self.coordinates:
             message = "nothing in this `System` moves: its places depend on no coordinate"

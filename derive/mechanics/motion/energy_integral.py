@@ -131,7 +131,7 @@ def _energy_kept(
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 
     def keeps(found: Relation) -> tuple[Any, Any]:
-        """Check that the equation holds at the start, and that its rate vanishes along the motion."""
+        """Check that the equation is satisfied at the start, and that E has no rate of change along the motion."""
         there = found.residual.xreplace({letter: first, speed: initial})
         changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
         is_equation = int(found.operator == "=")

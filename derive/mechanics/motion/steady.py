@@ -143,7 +143,7 @@ def _given(
     for q, value in (given or {}).items():
         letter = q.symbol if isinstance(q, Coordinate) else q
         if letter not in known:
-            wrong = "not cyclic" if role == "rate" else "cyclic, or not a coordinate of it"
+            wrong = "not cyclic" if role == "rate" else "cyclic, or not a coordinate of the Lagrangian"
             message = f"`steady_motion`: a {role} is given for {letter}, which is {wrong}"
             raise Rejected(Complaint("wrong-argument", message))
         number = value.value if isinstance(value, Quantity) else as_expr(value)
