@@ -29,9 +29,9 @@ from derive.figures.space import (
     unit,
 )
 
-PAST = 0.3  # length of an axis beyond a body, relative to the size of the body
+PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
 ASIDE = 12.0  # distance between a body and its dimension line, in points
-SHORT = 3  # greatest number of operations in the components of a point that are described
+SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 ROUND = 10.0  # least radius of a rotation arrow, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and of a body above the ground, in points
@@ -187,7 +187,7 @@ class Arrow(Mark):
     start    the point at which the arrow starts
     size     the drawn length relative to the size of the body, because vectors of different kinds have no common scale
     asked    whether the problem asks for the vector, so the arrow is emphasised
-    pushes   whether the arrow ends at `start` instead
+    pushes   whether the tip of the arrow is at `start`
     """
 
     start: Position
@@ -245,7 +245,7 @@ class Weight(Arrow):
 
 @dataclass(frozen=True)
 class AngleMark(Mark):
-    """The arc between two directions at a vertex; by default its radius is readable.
+    """The arc between two directions at a vertex; by default the radius is chosen so that the arc is readable.
 
     No arc is drawn between parallel directions.
     """
@@ -369,7 +369,7 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """Return the direction of a vector in numbers, or None if symbols occur outside a common factor of known sign."""
+    """Return the direction of a vector by numbers; None if symbols occur outside a common factor of known sign."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

@@ -1,4 +1,4 @@
-"""The outline of a body from its boundary, relative to one of its points or on an inclined axis."""
+"""Outlines of bodies, from their boundaries: in axes that begin at a point of the body, or in any position."""
 
 from __future__ import annotations
 
@@ -37,19 +37,19 @@ __all__ = ["centre_mark", "outline"]
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
 THIN = Rational(1, 40)  # half the drawn thickness of a disc, relative to its radius
-EDGE = 32  # steps along each curve of the edge of a flat body
+EDGE = 32  # number of steps along each curve of the edge of a flat body
 CUT, SLICE = Rational(11, 20), Rational(1, 20)  # place and thickness of a slice, relative to the height
-BESIDE_IT = 17.0  # points between the dimension line for a slice's height and that for the whole
-CURVED = 48  # circles that draw a curved side, closer together at its ends, which may be tips
+BESIDE_IT = 17.0  # distance between the dimension lines of a slice and of the whole height, in points
+CURVED = 48  # number of circles for a curved side; they are closer together at the ends, which may be tips
 
 
 def outline(body: Any, about: str | None = None, named: bool = True, sliced: bool = False) -> list[Mark]:
-    """The outline of a body, in axes that begin at one of its points.
+    """Return the outline of a body, in axes that begin at one of its points.
 
     body    a body of `derive.mechanics`
     about   the name of the point; by default the origin of the body's own axes
-    named   whether its measures and its axes are labelled
-    sliced  whether a slice across the axis of a round solid is marked, as for an integral over its height
+    named   whether to label the measures of the body and to draw its axes
+    sliced  whether to mark a slice perpendicular to the axis of a round solid, as for an integral over the height
     """
     found = seen_outline(body, about, named) if isinstance(body, Body) else []
     if sliced and found and isinstance(body.boundary, Round) and body.filling == "volume":
@@ -60,7 +60,7 @@ def outline(body: Any, about: str | None = None, named: bool = True, sliced: boo
 
 
 def seen_outline(body: Body, about: str | None = None, named: bool = True) -> list[Mark]:
-    """The outline of a body; an empty list if it is unknown."""
+    """Return the outline of a body; an empty list if the outline is unknown."""
     point: Point = body.point(about or body.reference)
     boundary = body.boundary
     if isinstance(boundary, Ellipsoidal):
@@ -85,7 +85,7 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
 
 
 def _end_on(marks: Sequence[Mark], along: Position) -> Position:
-    """The start of a visible axis: the end of a thin rod that lies on it from the origin, else the origin."""
+    """Return the start of the visible part of an axis: the end of a thin rod on the axis, or else the origin."""
     for mark in marks:
         if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
             _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
@@ -95,7 +95,7 @@ def _end_on(marks: Sequence[Mark], along: Position) -> Position:
 
 
 def axes_at(body: Body, about: str) -> list[Mark]:
-    """The axes that begin at a point of the body."""
+    """Return the axes that begin at a point of the body."""
     if isinstance(body.boundary, Faces):
         return body_axes(body.boundary, body.point(about))
     return [mark for mark in outline(body, about) if isinstance(mark, Axis)]
@@ -107,7 +107,7 @@ def is_in_plane(body: Body) -> bool:
 
 
 def words_of(body: Any) -> dict[str, Any]:
-    """The name of a body and its measures, for the description of its surface."""
+    """Return the name of a body and its measures, for the description of its surface."""
     return {"name": body.id, "measures": tuple(getattr(body, "measures", {}).items())}
 
 
@@ -116,10 +116,10 @@ def words_of(body: Any) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Pose:
-    """How a body lies in a drawing in space.
+    """The position and orientation of a body in a drawing in space.
 
-    at      a place along the body axes -> that place in the drawing
-    along   the direction of its own z axis, a unit vector (3)
+    at      a place in body axes -> the same place in the drawing
+    along   the direction of the z axis of the body in the drawing, a unit vector (3)
     """
 
     at: Callable[[Position], Position]
@@ -127,14 +127,14 @@ class Pose:
 
 
 def _pose(point: Point) -> Pose:
-    """The body as it is seen from one of its points."""
+    """Return the pose of a body in a drawing whose origin and axes are those of a point of the body."""
     return Pose(point.seen, point.axes.T * Z)
 
 
 def in_space(boundary: Boundary | None, pose: Pose, words: dict[str, Any], named: bool = False) -> list[Mark]:
-    """The surface of a body in space, in any position; empty if it cannot be drawn.
+    """Return the surface of a body in space, in any position; an empty list if the body cannot be drawn.
 
-    named   whether lengths are written at the edges of a body with faces
+    named   whether to label the edges of a body with faces by their lengths
     """
     match boundary:
         case Round():
@@ -153,7 +153,7 @@ def in_space(boundary: Boundary | None, pose: Pose, words: dict[str, Any], named
 
 
 def round_outline(boundary: Round, pose: Pose, words: dict[str, Any]) -> Surface:
-    """The surface of a body of revolution, for any position of its axis in the drawing."""
+    """Return the surface of a body of revolution, for any position of its axis in the drawing."""
     (lower, upper), through, along = boundary.ends, pose.at(ORIGIN), pose.along
     if boundary.is_line:
         return ThinRod(through + lower * along, through + upper * along, **words)
@@ -167,7 +167,7 @@ def round_outline(boundary: Round, pose: Pose, words: dict[str, Any]) -> Surface
 
 
 def _room(removed: Round, pose: Pose, words: dict[str, Any]) -> Cavity:
-    """The room that a removed round part leaves: a hole in a flat body, a cavity without a rim, or a bore."""
+    """Return the mark of a removed round part: a hole in a flat body, a closed cavity, or a bore."""
     if removed.is_flat:
         return Hole(_flat_circle(removed, pose, words))
     return (Cavity if removed.is_closed else Bore)(round_outline(removed, pose, words))
@@ -180,7 +180,7 @@ def _flat_circle(boundary: Round, pose: Pose, words: dict[str, Any]) -> Circle:
 
 
 def _profile(boundary: Round) -> tuple[tuple[Expr, Expr], ...]:
-    """Heights along its own z axis with the radius there: both ends, or many heights if the side is curved."""
+    """Return pairs of a height in body axes and the radius there: both ends, or many heights for a curved side."""
     lower, upper = boundary.ends
     parts = [Rational(k, CURVED) for k in ((0, CURVED) if boundary.is_straight else range(CURVED + 1))]
     heights = [lower + (upper - lower) * part**2 * (3 - 2 * part) for part in parts]
@@ -188,7 +188,7 @@ def _profile(boundary: Round) -> tuple[tuple[Expr, Expr], ...]:
 
 
 def widest_of(boundary: Round) -> tuple[Expr, Expr]:
-    """The height of the widest place, and the radius there."""
+    """Return the height of the widest place in body axes, and the radius there."""
     return max(_profile(boundary), key=lambda ring: numeric(ring[1]))
 
 
@@ -196,7 +196,7 @@ def widest_of(boundary: Round) -> tuple[Expr, Expr]:
 
 
 def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
-    """All parts at their places; empty if the outline of a part is unknown, or if a hole would be visible inside."""
+    """Return the marks of all parts; an empty list if a part, or a removed part, cannot be drawn."""
     marks: list[Mark] = []
     for part in parts:
         body, held = part.body, part.body.point(part.of).position
@@ -217,7 +217,7 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
 
 
 def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
-    """A removed part, if it has no rim or is shown in its plane; else empty."""
+    """Return the marks of a removed part; an empty list unless it is a closed cavity or is seen in its plane."""
     boundary, pose = body.boundary, _pose(point)
     if isinstance(boundary, Faces) and in_plane:
         return [Hole(mark) for mark in in_space(boundary, pose, words_of(body)) if isinstance(mark, Surface)]
@@ -232,7 +232,7 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """The sizes of a body with any orientation that have a line in a drawing."""
+    """Return the lines in a drawing that show the sizes of a body, in any orientation."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)
@@ -249,7 +249,7 @@ def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position)
 
 
 def _round_sizes(body: Body, boundary: Round, point: Point, aside: Position) -> list[Mark]:
-    """The radius at the widest place, and the length."""
+    """Return the lines for the radius at the widest place and for the length."""
     along, origin = point.axes.T * Z, point.seen(ORIGIN)
     low, high = boundary.ends
     wide, radius = widest_of(boundary)
@@ -263,7 +263,7 @@ def _round_sizes(body: Body, boundary: Round, point: Point, aside: Position) -> 
 
 
 def _edge_lengths(boundary: Faces, point: Point) -> list[Mark]:
-    """Dimension lines in the plane of a flat body."""
+    """Return the dimension lines in the plane of a flat body."""
     corners = tuple(map(point.seen, boundary.corners))
     middle = sum(corners, ORIGIN) / len(corners)
     ends_of = ((length, corners[edges[0][0]], corners[edges[0][1]]) for length, edges in boundary.edges)
@@ -271,7 +271,10 @@ def _edge_lengths(boundary: Faces, point: Point) -> list[Mark]:
 
 
 def body_axes(boundary: Faces, point: Point) -> list[Mark]:
-    """The axes that begin at a point of the body: dashed inside it, unless they are edges, and arrows outside."""
+    """Return the axes from a point of the body: arrows outside the body, and dashed lines inside it.
+
+    If the point is a corner, there are no dashed lines.
+    """
     corners = [point.seen(corner) for corner in boundary.corners]
     reaches = (max((corner[k] for corner in corners), key=numeric) for k in range(3))
     ends = [reach * along for reach, along in zip(reaches, UNIT, strict=True)]
@@ -284,7 +287,7 @@ def body_axes(boundary: Faces, point: Point) -> list[Mark]:
 
 
 def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
-    """The radius at the widest place, the height next to the body, and the axes from the point."""
+    """Return the lines for the radius at the widest place and for the height, and the axes from the point."""
     profile = [(point.seen(column(0, 0, z))[2], radius) for z, radius in _profile(boundary)]
     (low, below), (high, above) = sorted((profile[0], profile[-1]), key=lambda end: not end[0].is_nonpositive)
     wide, radius = max([(low, below), (high, above), *profile], key=lambda ring: numeric(ring[1]))
@@ -318,7 +321,7 @@ def _with_slice(marks: Sequence[Mark], boundary: Round, point: Point) -> list[Ma
 
 
 def _height(point: Point, own: Expr) -> Expr:
-    """The z coordinate measured from a point on the axis, for a height `own` along the body's own axis."""
+    """Convert the height `own` in body axes to z measured from a point on the axis."""
     return point.seen(column(0, 0, own))[2]
 
 
@@ -333,7 +336,7 @@ def _is_told(length: Expr, body: Body) -> bool:
 
 
 def _ellipsoid(boundary: Ellipsoidal, point: Point, named: bool) -> list[Mark]:
-    """The ellipsoid, with its semi-axes dashed and labelled, and with axes beyond them."""
+    """Return the ellipsoid, with dashed and labelled semi-axes, and with axes beyond their ends."""
     centre, semi_axes = point.seen(ORIGIN), boundary.semi_axes
     marks: list[Mark] = [EllipsoidMark(centre, semi_axes, name=Ellipsoid.id, measures=(("semi_axes", semi_axes),))]
     for size, along, name in zip(semi_axes, UNIT, AXES, strict=True) if named else ():
@@ -343,7 +346,7 @@ def _ellipsoid(boundary: Ellipsoidal, point: Point, named: bool) -> list[Mark]:
 
 
 def _torus(boundary: Toroidal, words: dict[str, Any], point: Point, named: bool) -> list[Mark]:
-    """The torus, with both radii along y, and with axes outside it."""
+    """Return the torus, with lines for both radii along y, and with its axes."""
     centre, radius, section = point.seen(ORIGIN), boundary.radius, boundary.section
     marks: list[Mark] = [TorusMark(centre, radius, section, **words)]
     if not named:

@@ -1,4 +1,4 @@
-"""Whether a drawing shows the whole system.
+"""Test whether a drawing shows the whole system.
 
 A drawing that lacks a body, spring, wall or string would show different physics, so no such drawing is made.
 """
@@ -31,7 +31,7 @@ def is_whole(
     pairs: Iterable[tuple[int, int]],
     touching: Touching,
 ) -> bool:
-    """Whether no part of the system is missing.
+    """Whether the drawing shows every part of the system.
 
     links      the links to particles that are drawn
     pairs      the particles that are joined by a string or a rod
@@ -83,7 +83,10 @@ def _conditions_are_seen(
 
 
 def _energies_are_seen(system: System) -> bool:
-    """Whether all energies given as formulas are linear, or act on a single particle: others would not be visible."""
+    """Whether the system is a single particle, or all energies that are given as formulas are linear.
+
+    A drawing of several particles or of bodies cannot show another energy, such as a coupling.
+    """
     charged = len([each for each in system.charges if any(each.electric)])
     own = system.stored[: len(system.stored) - charged]
     many = len(system.particles) + len(system.bodies) > 1 or system.bodies
@@ -134,7 +137,7 @@ def _neighbours(system: System, links: Collection[Link], places: Sequence[Locati
 
 
 def _shows_something(system: System, marks: Sequence[Mark], links: Collection[Link]) -> bool:
-    """Whether the drawing shows more than particles, bodies and angles, or a pivot, or a free body in space."""
+    """Whether the drawing shows a pivot, a free body in space, or more than particles, bodies and angles."""
     outlines = [mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))]
     if any(not isinstance(mark, ALONE) and mark not in outlines for mark in marks):
         return True

@@ -24,7 +24,7 @@ from derive.steps.step import is_zero
 
 ZERO = Integer(0)
 ACROSS = column(0, 0, 1)
-# The distance of a rotation arrow, and of the end of its axis, relative to that of the centre of mass.
+# Distances of a rotation arrow and of the end of its axis from the fixed point, relative to that of the centre of mass.
 ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
 
 
@@ -95,7 +95,7 @@ def _between_axes(system: System, link: Link, rolling: Rolling) -> Expr | None:
 
 
 def _is_outside(system: System, link: Link, rolling: Rolling) -> bool:
-    """Whether the body is farther from the axis than the contact where all coordinates are zero."""
+    """Whether, at zero coordinates, the body is farther from the axis of the cylinder than the contact is."""
     middle = rolling.body.centre - link.start
     beyond = Add(*(c**2 for c in middle.components)) - link.length**2
     at_zero = dict.fromkeys(system.coordinates, ZERO)

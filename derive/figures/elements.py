@@ -169,7 +169,7 @@ def pivot(at: Any, label: Any = None, away: Any = "down") -> Mark:
 
 
 def fixed_end(at: Any, other: Any) -> Mark:
-    """A piece of wall at the end of a spring or a string, perpendicular to the line to its other end."""
+    """A piece of wall at one end of a spring or a string, perpendicular to the line to the other end."""
     (a, b), keys = vectors_of(at, other)
     return FixedEnd(a, b - a, keys=keys)
 

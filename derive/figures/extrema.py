@@ -1,6 +1,7 @@
-"""The extrema of a curve: sign changes of its exact derivative, which also determine whether each is a minimum.
+"""The extrema of a curve, from sign changes of its exact derivative.
 
-The second route is the curve: near an extremum, its values are all greater, or all less, than that of the extremum.
+The direction of the sign change decides between minimum and maximum. The second route is the curve itself: a little to
+either side, its values are greater than at a minimum, or less than at a maximum.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ MINIMUM, MAXIMUM = "minimum", "maximum"
 
 @dataclass(frozen=True)
 class Extremum:
-    """An extremum of a curve: the value of the variable, the value of the curve, and whether it is a minimum."""
+    """An extremum of a curve: the value of the variable, the value of the curve, and "minimum" or "maximum"."""
 
     at: float
     value: float

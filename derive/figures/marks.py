@@ -79,8 +79,8 @@ class Mark:
 class Surface(Mark):
     """A mark that hides marks behind it and determines the size of a drawing.
 
-    name       its id in the phrases, "cone"; empty for a surface that is described together with another
-    measures   its measures in the description, by their ids: "base_radius" and R
+    name       the id of the body in the phrases, "cone"; empty for a surface that another surface describes
+    measures   pairs of an id and a length, such as "base_radius" and R, for the description
     """
 
     name: str = ""

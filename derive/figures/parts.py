@@ -115,7 +115,7 @@ class SpringMark(_Stretched):
 
 @dataclass(frozen=True)
 class RopeMark(_Piecewise):
-    """A taut string through points; at each wheel it is on the side that its bend requires.
+    """A taut string through points; at each wheel the bend of the string decides on which side it passes.
 
     along   the points
     radii   the radius of the wheel at each point: zero for no wheel, None for a wheel of the usual size
@@ -147,7 +147,10 @@ def _bend(a: Spot, b: Spot, c: Spot) -> float:
 
 
 def _tangent(a: Spot, p: float, b: Spot, q: float) -> tuple[Spot, Spot]:
-    """Return the tangent from a circle (a, p) to the next (b, q); for a positive radius the centre is on the left."""
+    """Return the tangent from the circle (a, p) to the circle (b, q).
+
+    The centre of a circle with a positive radius is on the left of the tangent.
+    """
     x, y = b[0] - a[0], b[1] - a[1]
     far = hypot(x, y)
     if far <= abs(q - p) or far == 0:

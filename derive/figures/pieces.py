@@ -74,7 +74,7 @@ EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # pairs of a la
 
 
 class InNumbers(Protocol):
-    """Values of expressions for the numbers of their symbols."""
+    """The interface of an object that evaluates expressions, with numbers for their symbols."""
 
     def of(self, expr: Any) -> float: ...
 

@@ -1,4 +1,4 @@
-"""The outlines of bodies at their places in a system: with rotated axes, or in a plane rotated by an angle."""
+"""The outlines of the bodies of a system at their places: rotated axes in space, or a rotation angle in a plane."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-STEPS = 24  # along the side of a round body
-FAR = Rational(8, 5)  # length of the drawn line, relative to the coordinate
+STEPS = 24  # number of steps along the side of a round body
+FAR = Rational(8, 5)  # length of the ground under a rolling disc, relative to the coordinate
 
 
 @dataclass(frozen=True)
 class SilhouetteMark(Surface):
-    """A convex body in a plane, by the corners of its profile in any order."""
+    """A convex body in a plane, given by the corners of its profile in any order."""
 
     corners: tuple[Position, ...]
 
@@ -60,13 +60,13 @@ class ThickBar(BarMark):
     layer: ClassVar[int] = 2
 
     def _beside(self, spots: tuple[Spot, ...], gap: float) -> Tag:
-        """The label, away from the middle, where the centre of mass is marked."""
+        """Return the label at a distance from the middle, because the centre of mass is marked there."""
         (x, y), (u, v) = spots
         return beside(self.label, (x + (u - x) / 3, y + (v - y) / 3), (u, v), gap)
 
 
 def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
-    """The outline of a body of a system, its support or rolling surface, and its rotation angle."""
+    """Yield the outline of a body of a system, its support or rolling surface, and its rotation angle."""
     placed = with_its_shape(placed)
     outline = placed_outline(placed)
     roller = None if outline else roller_of(system, placed)
@@ -98,7 +98,10 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
-    """The line from the point of a body to its centre of mass; for a disc about its centre, to the rim."""
+    """Return the line from the known point of a body to its centre of mass.
+
+    If this point is the centre of a disc, the line continues to the rim.
+    """
     way = placed.centre - placed.at
     for mark in outline:
         if isinstance(mark, WheelMark) and same(Location(tuple(mark.centre)), placed.at):
@@ -112,7 +115,7 @@ def _rolls(system: System, placed: Any) -> bool:
 
 
 def pivot_of(system: System, placed: Any) -> Link | None:
-    """The line to the centre of a body from a fixed place about which the body rotates as a whole."""
+    """Return the line from a fixed point, about which the whole body rotates, to the centre of mass; or None."""
     for link in links_about_fixed(system, placed.centre):
         if not link.is_constant:
             continue
@@ -125,8 +128,11 @@ def pivot_of(system: System, placed: Any) -> Link | None:
 
 
 def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
-    """The joint of a disc at its rim or of a rod at its end; for a rod with both ends at the same distance from the
-    pivot, the circle on which they slide; for any other rod, the distance of its centre from the pivot."""
+    """Yield the marks of a body that rotates about a fixed point, the pivot.
+
+    A disc may have a joint at its rim, and a rod at its end. If both ends of a rod are at the same distance from the
+    pivot, the ends slide on a circle. For any other rod, the distance of its centre from the pivot is shown.
+    """
     for mark in outline:
         if isinstance(mark, WheelMark) and is_zero(mark.radius - link.length):
             yield FixedEnd(column_of(link.start), downwards(2), True)
@@ -150,19 +156,19 @@ def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
 
 
 def _kept(system: System, value: Expr) -> Expr:
-    """A value that is constant during the motion, with its coordinates set to zero."""
+    """Return a value that is constant during the motion, simplified by setting all coordinates to zero."""
     return tidied(value.xreplace(dict.fromkeys(moving_in(system, value), Integer(0))))
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
-    """For a body of any shape, the line from its fixed point to its centre of mass."""
+    """Yield, for a body of unknown shape, the line from its fixed point to its centre of mass."""
     size = sqrt(tidied(Add(*(c**2 for c in (centre - placed.at).components))))
     yield ConnectionMark(column_of(placed.at), column_of(centre), label=size)
     yield PointMark(column_of(centre), label=placed.body.mass)
 
 
 def _holder(system: System, placed: Any) -> Mark:
-    """A stand under a body, a ceiling over a hanging body, or only a point if the rotation is prescribed."""
+    """Return a stand under a body, a ceiling above a hanging body, or only a point if the rotation is prescribed."""
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
@@ -173,7 +179,7 @@ def _holder(system: System, placed: Any) -> Mark:
 
 
 def with_its_shape(placed: Any) -> Any:
-    """Replace a body that is given by symbols by the body with the shape to which these belong."""
+    """Replace a body that is given by symbols by the body whose shape these symbols describe."""
     known = getattr(placed.body, "shape", None)
     if known is None:
         return placed
@@ -182,7 +188,7 @@ def with_its_shape(placed: Any) -> Any:
 
 
 def _far_end(placed: Any) -> Location:
-    """The end of a body's axis far from its fixed point; the centre of mass if that is unknown."""
+    """Return the end of the axis of a body that is far from the fixed point; the centre of mass if it is unknown."""
     parts = getattr(placed.body, "parts", ()) or (placed.body,)
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position
@@ -194,7 +200,7 @@ def _far_end(placed: Any) -> Location:
 
 
 def _ends_on_axis(part: Any) -> list[Expr]:
-    """The lower and upper heights of a round part on the z axis of the whole body."""
+    """Return the lower and the upper end of a round part, as z of the whole body; empty if they are not on its axis."""
     body = getattr(part, "body", part)
     if not isinstance(getattr(body, "boundary", None), Round):
         return []
@@ -204,8 +210,8 @@ def _ends_on_axis(part: Any) -> list[Expr]:
 
 
 def _of_parts(placed: Any) -> list[Mark]:
-    """All parts of a body at their places; empty if a removed part would not be visible. In space a rod is drawn in
-    pieces, so that the bodies on it hide the pieces behind them."""
+    """Return the marks of all parts of a body; an empty list if a removed part cannot be drawn. In space a rod is drawn
+    in pieces, so that bodies on the rod hide the pieces behind them."""
     marks: list[Mark] = []
     for part in placed.body.parts:
         if part.sign < 0:
@@ -228,7 +234,7 @@ def _of_parts(placed: Any) -> list[Mark]:
 
 
 def _cut_out(outline: list[Mark], is_plane: bool) -> list[Mark]:
-    """The hole of a removed part in a plane; in space only a cavity without a rim can be drawn."""
+    """Return the holes of a removed part in a plane; in space only a closed cavity can be drawn."""
     surfaces = [mark for mark in outline if isinstance(mark, SilhouetteMark | WheelMark)]
     if is_plane:
         return [Hole(mark) for mark in surfaces]
@@ -247,7 +253,7 @@ def _towards(mark: Mark, centre: Location) -> Mark:
 
 
 def _placed_part(placed: Any, part: Any) -> Any:
-    """A part of a body as a placed body; None in a plane if the part is rotated relative to the whole."""
+    """Return a part of a body as a placed body; None in a plane if the part is rotated relative to the whole body."""
     own = ImmutableDenseMatrix(part.position - placed.point.position)
     at = placed.at + placed.seen_in_space(own)
     point = part.body.point(part.of)
@@ -262,7 +268,7 @@ def _is_line(body: Any) -> bool:
 
 
 def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
-    """A rod in space, cut at the centres of other parts that lie on it."""
+    """Return a rod in space, cut at the centres of other parts that are on the rod."""
     at, (lower, upper) = _place_in(there), there.body.boundary.ends
     along = part.turn * Z
     ways = [centre - part.seen(ORIGIN) for centre in centres]
@@ -277,7 +283,7 @@ def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
 
 
 def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
-    """The rotation angle: of a bar at its start, of a disc at its centre."""
+    """Yield the rotation angle of a bar, at its start, or of a disc, at its centre."""
     for mark in outline:
         if isinstance(mark, ThickBar):
             start, end = Location(tuple(mark.start)), Location(tuple(mark.end))
@@ -291,7 +297,7 @@ def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
 
 
 def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]:
-    """The ground for a disc that rolls along a fixed straight line, with the angle of a slope."""
+    """Yield the ground under a disc that rolls along a fixed straight line, with the angle of a slope."""
     track = track_of(system, centre)
     if track is None or not track.is_unit or not is_fixed(system, track.start) or track.way.components[0] == 0:
         return
@@ -311,7 +317,7 @@ def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]
 
 
 def placed_outline(placed: Any) -> list[Mark]:
-    """The visible outline of a body at its place; empty if only its mass and moments of inertia are known."""
+    """Return the outline of a body at its place; an empty list if the shape is unknown or cannot be drawn."""
     shown = _as_it_looks(placed)
     body, boundary = shown.body, getattr(shown.body, "boundary", None)
     if hasattr(body, "parts"):
@@ -332,7 +338,7 @@ def placed_outline(placed: Any) -> list[Mark]:
 
 
 def _as_it_looks(placed: Any) -> Any:
-    """Replace a body of which only the moments are known by the body that represents it, with its centre there."""
+    """Replace a body with known moments only by the body that represents it, with the same centre of mass."""
     look = getattr(placed.body, "look", None)
     if look is None:
         return placed
@@ -341,7 +347,7 @@ def _as_it_looks(placed: Any) -> Any:
 
 
 def _place_in(placed: Any) -> Callable[[Position], Position]:
-    """A place along the axes of a body -> that place in the drawing."""
+    """Return the function that converts a place in body axes to the same place in the drawing."""
     held = placed.point.position
 
     def at(own: Position) -> Position:
@@ -351,9 +357,9 @@ def _place_in(placed: Any) -> Callable[[Position], Position]:
 
 
 def _in_plane(boundary: Boundary | None, at: Callable[[Position], Position], across: int, words: Any) -> list[Mark]:
-    """The silhouette of a body in a plane.
+    """Return the silhouette of a body in a plane.
 
-    across   the index of its axis perpendicular to the plane
+    across   the index of the body axis perpendicular to the plane
     """
     match boundary:
         case Faces():
@@ -376,13 +382,13 @@ def _in_plane(boundary: Boundary | None, at: Callable[[Position], Position], acr
 
 
 def _wheel(boundary: Round, at: Callable[[Position], Position], words: dict[str, Any]) -> WheelMark:
-    """A round body seen along its axis."""
+    """Return the mark of a round body seen along its axis."""
     centre, (_, radius) = at(ORIGIN), widest_of(boundary)
     return WheelMark(centre, radius, at(X) - centre, is_ring=boundary.is_curve, label=radius, **words)
 
 
 def _sides(boundary: Faces, corners: tuple[Position, ...]) -> Iterable[Mark]:
-    """The edge lengths of a flat figure that are symbols or multiples of a symbol, each at one edge."""
+    """Yield dimension lines for the edge lengths that are symbols or multiples of a symbol, one for each length."""
     for length, edges in boundary.edges if len(corners) <= 4 else ():
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])

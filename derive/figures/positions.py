@@ -34,7 +34,7 @@ def vectors_of(*things: Any) -> tuple[list[Any], tuple[str, ...]]:
     """Return the components of vectors or positions, all in a plane or all in space, and the keys of their steps."""
     found = [vector_of(thing) for thing in things]
     if len({value.rows for value, _ in found}) > 1:
-        message = "some places of a drawing have two components, others three"
+        message = "some places of a drawing have two components, and some have three"
         raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
     return [value for value, _ in found], tuple(key for _, keys in found for key in keys)
 

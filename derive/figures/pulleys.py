@@ -1,4 +1,4 @@
-"""A pulley that hangs on a string over another pulley, recognised from the lines on which the particles move."""
+"""A pulley that hangs on a string over a fixed pulley, recognised from the lines on which the particles move."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class HangingPulley:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Values of symbols with which all parts are drawn at different heights."""
+        """Values of symbols for which all parts are drawn at distinct heights."""
         if not self.hung:
             return {}
         alone, down, up = self.hung

@@ -76,7 +76,7 @@ def is_fixed(system: System, place: Location) -> bool:
 
 
 def is_spring(each: Central) -> bool:
-    """Whether the energy is of second degree in the distance and has a minimum: a constant force has no spring."""
+    """Whether the energy is of second degree in the distance, and is not known to have a maximum."""
     constant = tidied(derivative(explicit(each.energy), each.distance, 2))
     return each.distance not in constant.free_symbols and constant.is_nonpositive is not True
 
@@ -139,7 +139,7 @@ def _varies(value: Expr, turning: set[Symbol]) -> bool:
     """Whether the value differs in two numerical samples; a value that does not differ may still vary."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    # The differences of angles are also different in the samples, because a distance may depend on them only.
+    # Differences of angles are distinct in the samples too, because a distance may depend only on such differences.
     angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))
@@ -162,7 +162,7 @@ def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
 
 
 def angle_of_link(system: System, link: Link) -> tuple[Expr, Location] | None:
-    """Return the angle by which a link rotates, and its fixed direction for zero angle; None if there is no angle."""
+    """Return the angle by which a link rotates, and the fixed direction of the link at zero angle; None without one."""
     e = tuple(tidied(c / link.length) for c in link.way.components)
     for angle in _angles(e):
         zero = tuple(c.xreplace({sin(angle): ZERO, cos(angle): Integer(1)}) for c in e)
@@ -212,7 +212,10 @@ def is_rod(system: System, a: Location, b: Location) -> bool:
 
 
 def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
-    """Return pairs of particles with one coordinate: one moves towards the foot of its line, the other away from it."""
+    """Return pairs of particles with the same coordinate, one on each side of a pulley.
+
+    One particle moves towards the foot of its line, and the other away from the foot of its own line.
+    """
     found: list[tuple[int, int]] = []
     for i, one in tracks.items():
         for j, other in tracks.items():

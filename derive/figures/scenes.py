@@ -127,7 +127,7 @@ def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None)
 
 
 def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
-    """The axis of a rotation, beyond the body on both sides; with a rate, also the sense of rotation.
+    """The axis of a rotation, extended beyond the body on both sides; with a rate, also the sense of rotation.
 
     along     vector (3)
     through   a point on the axis

@@ -1,4 +1,4 @@
-"""A drawing of a system from its formulas alone: `sketch("pendulum", System(...))`.
+"""A drawing of a system that needs only the formulas of the system: `sketch("pendulum", System(...))`.
 
 A particle at a constant distance from a point is drawn on a rod. A particle on a straight line is drawn as a block on a
 floor, a wedge or a string, and a particle with one coordinate on the curve on which it moves. All other particles are
@@ -115,7 +115,7 @@ class _Scene:
         self.rods = self._rigid() if self.rows == 2 else []
 
     def _rigid(self) -> list[tuple[int, int]]:
-        """Return pairs of particles at a constant distance, among those without a line or a link of their own."""
+        """Return pairs of particles at a constant distance, among the particles without a line and without a link."""
         at = [particle.at for particle in self.system.particles]
         return [(i, j) for i, j in combinations(self.free, 2) if is_rod(self.system, at[i], at[j])]
 
@@ -200,7 +200,7 @@ class _Scene:
 
     @cached_property
     def tied(self) -> Mapping[int, tuple[Link, ...]]:
-        """Index of a particle in space that rods join to particles on rods -> the links of those particles."""
+        """Index of a particle in space that rods join to particles with links -> these links."""
         held = [link for link in self.links.values() if link.is_constant]
         found: dict[int, tuple[Link, ...]] = {}
         for i in self.free if self.rows == 3 and self.named else ():

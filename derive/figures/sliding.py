@@ -47,7 +47,7 @@ PAST = Rational(8, 5)  # length of an inclined plane, relative to the coordinate
 
 
 class Sliding:
-    """The particles of a plane system that move on straight lines, except those with links."""
+    """The particles of a plane system that move on straight lines, except particles with links."""
 
     def __init__(self, system: System, links: Mapping[int, Link]):
         self.system, self.links = system, links
@@ -123,7 +123,10 @@ class Sliding:
         return 1 if ways and max(ways) < 0 else -1
 
     def _is_measured(self, i: int) -> bool:
-        """Whether the coordinate is labelled at this particle: for a string, at the particle measured from its foot."""
+        """Whether the coordinate is labelled at this particle.
+
+        For two particles on a string there is one label, if possible where the coordinate is zero at the foot.
+        """
         for pair in self.ropes:
             if i in pair:
                 return i == next((k for k in pair if same(self.tracks[k].start, self.tracks[k].foot)), pair[0])
@@ -224,7 +227,7 @@ class Sliding:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Values of coordinates in the drawing: small displacements, or a fraction of the string that is divided."""
+        """Values of coordinates and radii in the drawing: fractions of lengths in the positions at zero coordinates."""
         found: dict[Symbol, Expr] = {}
         for q, kind in self.system.coordinates.items():
             slides = any(track.by == q and _is_slope(track) and i in self.carriers for i, track in self.tracks.items())

@@ -21,9 +21,9 @@ STEPS = 96  # number of straight segments in a circle
 
 
 def numeric(value: Expr, known: Mapping[Symbol, Any] = MappingProxyType({})) -> float:
-    """The value with different numbers below one for its symbols, which suit lengths and acute angles.
+    """Return the value, with distinct numbers from 0.6 upwards for its symbols, which suit lengths and acute angles.
 
-    known   the values of some symbols, which may contain others
+    known   symbol -> value, for some symbols; a value may contain other symbols
     """
     value = as_expr(value).subs(known)
     letters = sorted(value.free_symbols, key=str)
@@ -104,7 +104,7 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
 
 def is_within(spot: Spot, corners: Sequence[Spot]) -> bool:
-    """Whether a spot is inside an outline: a line from it to the right crosses the outline an odd number of times."""
+    """Whether a spot is inside an outline: a line from the spot to the right has an odd number of crossings."""
     x, y = spot
     if not (min(c[0] for c in corners) < x < max(c[0] for c in corners)):
         return False

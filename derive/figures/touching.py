@@ -245,7 +245,7 @@ class Touching:
     # --- points at rest ---
 
     def at_rest(self, placed: Any, at: Location) -> set[Constraint] | None:
-        """Return the constraints that keep the particle of a body at a point at rest; None if it is not at rest."""
+        """Return the constraints that keep the particle at a point of a body at rest; None if the particle moves."""
         moving = list(self.system.coordinates)
         found: set[Constraint] = set()
         for component in contact_velocity(placed, at, None):
@@ -277,7 +277,7 @@ def leanings(system: System) -> Iterator[Leaning]:
 
 
 def _solved(constraint: Constraint, known: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """Return a coordinate in terms of the other coordinates, from a constraint; empty if this is not possible."""
+    """Return a coordinate with its formula in the other coordinates, from a constraint; empty if impossible."""
     for q in constraint.coordinates:
         share = constraint.along(q)
         if share.is_number and q not in known:
@@ -286,7 +286,7 @@ def _solved(constraint: Constraint, known: Mapping[Symbol, Expr]) -> dict[Symbol
 
 
 def _follows(component: Expr, constraint: Constraint, moving: list[Symbol]) -> bool:
-    """Whether a velocity vanishes by a constraint: whether it is a multiple of the velocity of the constraint."""
+    """Whether a constraint makes a velocity vanish: the velocity is a multiple of the rate of the constraint."""
     kept = constraint.velocity(moving)
     pairs = [(component.diff(rate(q)), kept.diff(rate(q))) for q in moving]
     share = next((a / b for a, b in pairs if b != 0 and a != 0), None)

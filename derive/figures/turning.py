@@ -79,8 +79,10 @@ def turning_marks(system: System, link: Link, which: Particle, named: Sequence[L
 
 
 def is_rod_for(system: System, link: Link, name: str) -> bool:
-    """Whether a link of constant length is a rod or a string: by the name of the particle, because it starts at a mass,
-    or by the symbol l of its length. Otherwise it may be the radius of a hoop on which a bead slides."""
+    """Whether a link of constant length is a rod or a string, and not the radius of a hoop on which a bead slides.
+
+    The name of the particle decides, or a mass at the start of the link, or the symbol of the length, such as l.
+    """
     if _is_called(name, THREADED) or _is_rim(system, link):
         return False
     if _is_called(name, HANGING) or _is_joint(system, link.start):
@@ -115,7 +117,7 @@ def downwards(rows: int) -> ImmutableDenseMatrix:
 
 
 def angle_marks(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the angle of a link with a fixed direction, and in space also the angle of its horizontal projection."""
+    """Yield the angle between a link and a fixed direction, and in space also that of its horizontal projection."""
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned

@@ -1,6 +1,6 @@
-"""The verbs and nouns of mechanics, as a problem's script imports them.
+"""The verbs and nouns of mechanics that the script of a problem imports.
 
-Each module says in its `__all__` what it offers.
+The `__all__` of each module lists its verbs and nouns.
 """
 
 from inspect import isfunction

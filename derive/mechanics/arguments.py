@@ -1,6 +1,7 @@
-"""The arguments of a verb, checked against its signature, so that an error is reported in the terms of the script.
-A verb declares in its annotations what it needs: a step (`Quantity`), a coordinate, an expression, a body. A plain
-matrix for a step, a step for an expression, a number with a decimal point: each error names verb and argument.
+"""Check of the arguments of a verb against its signature, so that errors are in the terms of the script.
+The annotations of a verb declare what each argument must be: a step (`Quantity`), a coordinate, an expression, a body.
+An argument of another type, such as a matrix in place of a step or a number with a decimal point, is an error. The
+message names the verb and the argument.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _CALLED = {
 }
 
 
-# nouns that keep their arguments unchanged among their values
+# nouns whose results contain all their arguments unchanged
 KEEPING = {
     "angular_impulse",
     "charge",
@@ -46,7 +47,7 @@ KEEPING = {
 
 
 def checked(verb: F) -> F:
-    """Return the verb with a check of its arguments before the call, and with its earlier calls recalled."""
+    """Return the verb with a check of its arguments before each call; results of earlier equal calls are reused."""
     signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 
@@ -80,13 +81,13 @@ def checked(verb: F) -> F:
 
 
 def _told_of_call(verb: str, arguments: Mapping[str, Any]) -> str:
-    """Return the verb with the names of the steps and the coordinates among its arguments."""
+    """Return a description of a call: the verb, and the names of steps and symbols among its arguments."""
     about = [f"`{name}`" for name in _names(tuple(arguments.values()))]
     return f"`{verb}`" + (f" of {', '.join(about[:4])}" if about else "")
 
 
 def _names(given: Any) -> Iterator[str]:
-    """Yield the keys of the steps, and the letters and coordinates, in the arguments."""
+    """Yield the keys of steps, and the names of symbols and coordinates, in the arguments."""
     if isinstance(given, tuple | list):
         for each in given:
             yield from _names(each)
@@ -97,7 +98,10 @@ def _names(given: Any) -> Iterator[str]:
 
 
 def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:
-    """Check that a noun keeps its arguments: law and route both read the noun, and would not find a changed sign."""
+    """Check that a noun contains its arguments unchanged.
+
+    Law and second route both read the noun, so the comparison of their results would not detect a changed sign.
+    """
     kept = set(_values(made))
     for value in _values(tuple(arguments.values())):
         if value not in kept:
@@ -105,7 +109,7 @@ def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:
 
 
 def _values(given: Any) -> Iterator[Any]:
-    """Yield all expressions in the arguments, including numbers; names and omitted arguments are skipped."""
+    """Yield all expressions in the arguments, including numbers; skip names and omitted arguments."""
     if isinstance(given, tuple | list):
         for each in given:
             yield from _values(each)

@@ -1,11 +1,11 @@
-"""How `results:` of a file calls a verb: its name, its keys, and the kind of value of each key.
+"""How `results:` in a file calls a verb: the name of the verb, its keys, and the kind of value of each key.
 
     @in_results("limit", "the limiting case", of="limit", letter="for: a letter", to="to: a value or `infinity`")
     def limiting_case(of: Quantity, letter: Letter, to: Value = 0, ...) -> Quantity: ...
 
-The decorator names the key of each argument, and its description in the manual. The signature has the rest: an
-argument without default is a key that the verb needs, and its annotation is the kind of value of the key. The reader
-of files, the schema for editors, the manual and the errors follow from these two.
+The decorator gives each argument its key, and the description of this key in the manual. The signature gives the rest:
+an argument without a default is a required key, and the annotation of the argument is the kind of value of the key. The
+reader of files, the schema for editors, the manual and the errors follow from decorator and signature.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ class Holds(Enum):
     """The kind of value of a key of a verb."""
 
     ANSWER = auto()  # the name of one answer
-    ANSWERS = auto()  # the names of one or several
-    NAME = auto()  # the name of an answer that the verb itself asks for
-    LETTER = auto()  # a letter, a rate, or such as `cos(theta)`
+    ANSWERS = auto()  # the names of one or more answers
+    NAME = auto()  # the name of an answer; the verb asks for this answer itself
+    LETTER = auto()  # a symbol, a rate, or an expression such as `cos(theta)`
     LETTERS = auto()
     COORDINATE = auto()
     VALUE = auto()  # an expression or infinity
@@ -42,7 +42,7 @@ class Holds(Enum):
     WORD = auto()
     SYMBOL = auto()  # the letter of the result
     SYMBOLS = auto()  # one letter for each of several results
-    FORMULA = auto()  # an expression in letters and answers, with the answers by their placeholders
+    FORMULA = auto()  # an expression in symbols and answers; placeholders stand for the answers
     FUNCTIONS = auto()  # two answers or expressions
     POINT = auto()  # the name of a point of a body
     AXIS = auto()  # a direction
@@ -59,12 +59,12 @@ Name = Annotated[str, Holds.NAME]
 Point = Annotated[str | None, Holds.POINT]
 Axis = Annotated[Any, Holds.AXIS]
 Symbols = Annotated[Sequence[str], Holds.SYMBOLS]
-Ask = Callable[[str], Quantity]  # an argument `ask` is not a key: it asks for a further answer by its name
+Ask = Callable[[str], Quantity]  # the argument `ask` is not a key: this function returns a further answer by name
 
 
 @dataclass(frozen=True)
 class ResultKey:
-    """One key of a verb: its name, its kind of value, its description in the manual, and whether the verb needs it."""
+    """A key of a verb: its name, its kind of value, its description in the manual, and whether it is required."""
 
     name: str
     holds: Holds
@@ -75,12 +75,12 @@ class ResultKey:
 @dataclass(frozen=True)
 class ResultVerb:
     """A verb of `results:`.
-    name       the key that names it, whose value is its first argument
-    yields     its result, for the manual
+    name       the key that names the verb; its value is the first argument
+    yields     a description of the result, for the manual
     function   the function, called with the values of the keys, and with the name of the result as `key`
-    called     argument -> its key, and after a colon its description in the manual
-    one_of     keys; the verb needs at least one of them
-    excludes   pairs of keys; the second has no effect next to the first
+    called     argument -> its key, followed by a colon and a description for the manual
+    one_of     keys of which the verb needs at least one
+    excludes   pairs of keys; if both keys are given, the second has no effect
     """
 
     name: str
@@ -104,7 +104,7 @@ class ResultVerb:
 
     @property
     def keys(self) -> dict[str, ResultKey]:
-        """Return the keys except the one that names the verb, required keys first."""
+        """Return all keys except the one that names the verb, with required keys first."""
         others = [key for key in self.arguments.values() if key.name != self.name]
         return {key.name: key for needed in (True, False) for key in others if key.needed is needed}
 
@@ -122,7 +122,7 @@ class ResultVerb:
         return argument in signature(self.function).parameters
 
 
-RESULT_VERBS: dict[str, ResultVerb] = {}  # by name, as the modules of the verbs are loaded
+RESULT_VERBS: dict[str, ResultVerb] = {}  # name -> verb, in the order in which the modules are loaded
 
 
 def in_results(
@@ -133,11 +133,11 @@ def in_results(
     excludes: tuple[tuple[str, str], ...] = (),
     **called: str,
 ) -> Callable[[F], F]:
-    """Register how `results:` calls a function; `called` has the key of each argument, "for: a letter".
+    """Register how `results:` calls a function; `called` maps an argument to its key and description, "for: a letter".
 
-    A verb whose signature fits is decorated itself. Another has a function next to it that adapts the keys and calls
-    `checked(verb)`; its name begins with an underscore. So in both cases the calls of verbs are recalled, and their
-    arguments are plain values.
+    If the signature of a verb fits, the verb itself is decorated. Otherwise a function next to the verb, with a name
+    that begins with an underscore, adapts the keys and calls `checked(verb)`. In both cases the arguments of the verb
+    are plain values, and results of earlier equal calls are reused.
     """
 
     def declared(function: F) -> F:
@@ -149,7 +149,7 @@ def in_results(
 
 
 def _holds(argument: str, hint: Any) -> Holds:
-    """Return the kind of value of the key of an argument with this annotation."""
+    """Return the kind of value of a key, from the name and the annotation of its argument."""
     if get_origin(hint) is Annotated:
         return next(each for each in get_args(hint)[1:] if isinstance(each, Holds))
     if argument in ("symbol", "symbols"):

@@ -1,7 +1,7 @@
-"""Theorems in their general form, which a page states once, before the first step that uses one.
-Each is a formula of names and not a step, since it is not about a body or system of the problem; each step that uses it
-is checked. The rules of those steps quote it in their records. `tests/mechanics/test_theorems.py` substitutes bodies
-and motions in the formulas.
+"""Theorems in general form. A page states each theorem once, before the first step that uses it.
+A theorem is a formula in symbols. It is not a step, because it is not about a body or system of the problem, but each
+step that uses it is checked. The rule of such a step quotes the theorem in its record.
+`tests/mechanics/test_theorems.py` substitutes bodies and motions in the formulas.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ def test_a_derived_place_brings_its_key_and_one_that_is_given_none() -> None:
 
 
 def test_places_in_a_plane_and_in_space_do_not_mix() -> None:
-    with pytest.raises(Rejected, match="two components, others three"):
+    with pytest.raises(Rejected, match="two components, and some have three"):
         vectors_of(point(0, 1), point(0, 0, 1))
 
 

@@ -1,7 +1,7 @@
-"""Bodies: a region filled with mass, its density, its centre of mass, its named points and directions.
+"""Bodies: the region that the mass fills, the density, the centre of mass, and the named points and directions.
 
-Every body has body axes, and lengths are in the unit of its sizes. A body with perpendicular edges has its axes along
-them and the origin at a corner; a round body has its axis of symmetry along z.
+Every body has body axes, and all lengths have the unit of its sizes. The body axes of a body with perpendicular edges
+are along these edges, with the origin at a corner. A round body has its axis of symmetry along z.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ __all__ = ["centre_of_mass", "density"]
 ZERO = Integer(0)
 ORIGIN = column(0, 0, 0)
 
-# where the mass is -> symbol and kind of the density
+# the filling of a body with mass -> symbol and kind of the density
 DENSITIES = {
     "volume": ("rho", "density"),
     "area": ("sigma", "surface density"),
@@ -54,19 +54,19 @@ DENSITIES = {
 class Body(Placeable, OfParticles):
     """The common base of all uniform bodies.
 
-    A subclass says which points it has, the region of integration, its size, and a few particles that have its mass,
-    its centre of mass and its second moments.
+    A subclass defines the named points, the region of integration, the size, and a few particles with the mass, the
+    centre of mass and the second moments of the body.
     """
 
     mass: Expr
     filling: ClassVar[str] = "volume"
     reference: ClassVar[str] = "centre"  # the point at the origin of its body axes
-    other_centre: ClassVar[str] = ""  # another point called "centre", if that is not its centre of mass
-    called: str = ""  # its name on the page when there are several bodies, "upper rod"
-    names_given: tuple[str, ...] = ()  # names of points from the author: these do not define where the points are
-    is_lopsided: ClassVar[bool] = False  # not symmetric under inversion through its centre, although its particles are
-    is_round: ClassVar[bool] = False  # all axes perpendicular to z through one of its points are equivalent
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinate systems in which its limits are known
+    other_centre: ClassVar[str] = ""  # the point that a reader may also call "centre", if it is not the centre of mass
+    called: str = ""  # the name of the body on a page with several bodies: "upper rod"
+    names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
+    is_lopsided: ClassVar[bool] = False  # no inversion symmetry, even if the particles have it
+    is_round: ClassVar[bool] = False  # all axes through a point of the z axis and perpendicular to it are equivalent
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinate systems in which the limits are known
 
     def __post_init__(self) -> None:
         self.check_sizes()
@@ -80,7 +80,7 @@ class Body(Placeable, OfParticles):
                     require_positive(self.name, role.replace("_", " "), each)
 
     def named(self, called: str) -> Self:
-        """The same body with a name, for a page with several bodies: its steps, symbols and words include the name.
+        """Return the same body with a name, for a page with several bodies: steps, symbols and words include the name.
 
         called   "upper rod": keys begin with `upper_rod_`, symbols have the index `upper`
         """
@@ -91,15 +91,15 @@ class Body(Placeable, OfParticles):
         return twin
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """This body as a part of another, with one of its points at a place: (x, y), (x, y, z) or a `point`."""
+        """Return this body as a part of a larger body; one point of the part is at (x, y), (x, y, z) or a `point`."""
         return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """This body as a part of another, rotated right-handed by an angle about "x", "y" or "z" through its centre."""
+        """Return this body as a part of a larger body, rotated right-handed about an axis through its centre."""
         return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
     def map(self) -> Map:
-        """The position along its body axes, and the limits of its variables, outermost first."""
+        """The position along the body axes as a formula, and the limits of the variables in it, outermost first."""
         raise AttributeError(f"{type(self).__name__} must say where its points are")
 
     @property
@@ -108,48 +108,48 @@ class Body(Placeable, OfParticles):
 
     @property
     def profile(self) -> Expr:
-        """Its density up to a constant factor, as a function of the variables."""
+        """The density up to a constant factor, as a function of the variables of the map."""
         return Integer(1)
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
-        """The region that it fills, relative to a point; coordinates are its first system by default."""
+        """The region that the body fills, relative to a point; by default in the first of its coordinate systems."""
         position, limits = self.map()
         sizes = (each if isinstance(each, tuple) else (each,) for each in self.measures.values())
         return from_point(point, position, limits, cell(position, limits, tuple(size for own in sizes for size in own)))
 
     def points(self) -> Mapping[str, Point]:
-        """Its named points, except its centre of mass."""
+        """The named points of the body, except its centre of mass."""
         return {self.reference: Point(self.reference, ORIGIN)}
 
     @property
     def flat_across(self) -> str | None:
-        """The axis along which it has no extent, if there is one; "x" for a body that lies on another axis."""
+        """The first axis along which the body has no extent, "x" for a body on the y or z axis; or None."""
         return next((axis for axis, x in zip("xyz", self.map()[0], strict=True) if x == 0), None)
 
     @property
     def extent(self) -> Expr | Quantity:
-        """Its volume (area, length); a step if this must be derived."""
+        """The volume, area or length of the body: a step if it must be derived, otherwise a formula."""
         raise AttributeError(f"{type(self).__name__} must say how large it is")
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """The lengths that define its size, by their ids; several of one sort as a tuple."""
+        """The lengths that define the size of the body, by their ids; several lengths of one sort form a tuple."""
         own: Any = self
         return {each.name: getattr(self, each.name) for each in fields(own) if each.name != "mass"}
 
     @property
     def letters(self) -> set[Symbol]:
-        """The symbols in its sizes, which no variable may resemble."""
+        """The symbols in the sizes of the body; no variable of integration may resemble them."""
         own: Any = self
         return _letters_of([getattr(own, each.name) for each in fields(own) if each.name != "mass"])
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
-        """The step for the radius in the limits of a region, if there is one."""
+        """The steps for a radius that the limits of a region contain; empty by default."""
         return []
 
     @cached_property
     def middle(self) -> Point:
-        """Its centre of mass, from its particles."""
+        """The centre of mass, from the particles of the body."""
         total = summed(self.particles(), lambda r: r)
         return Point("centre", ImmutableDenseMatrix((total / self.mass).applyfunc(lambda x: x.cancel())))
 
@@ -166,11 +166,11 @@ class Body(Placeable, OfParticles):
 
     @cached_property
     def _points_seen(self) -> set[str]:
-        """The points already checked to be where their names say."""
+        """The names of points whose positions have already been checked."""
         return set()
 
     def within(self, point: Point, coordinates: str | None = None) -> Region:
-        """The region that it fills, in coordinates in which its limits are known."""
+        """The region that the body fills; an error if its limits are unknown in these coordinates."""
         if coordinates is not None and coordinates not in self.systems:
             raise no_such_coordinates(self.name, coordinates, self.systems)
         return self.region(point, coordinates)
@@ -185,12 +185,12 @@ class Body(Placeable, OfParticles):
 
     @property
     def mass_as_found(self) -> Quantity | Expr:
-        """The step that derives its mass, or the given mass."""
+        """The step that derives the mass, or the given mass."""
         return self.mass
 
     @property
     def front(self) -> Expr:
-        """The constant factor of the density, in front of the integral: the density's symbol, if a step gives it."""
+        """The constant factor of the density, in front of an integral: here the symbol of the density."""
         letter: Expr = self.density.symbol
         return letter
 
@@ -200,12 +200,12 @@ class Body(Placeable, OfParticles):
 
     @property
     def size(self) -> Expr:
-        """Its volume (area, length) as a value."""
+        """The volume, area or length of the body as a value."""
         extent = self.extent
         return extent.value if isinstance(extent, Quantity) else explicit(extent)
 
     def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
-        """The evaluated integral of a function of the position from a point, times dm."""
+        """The evaluated integral of f(r) dm, where the position r is measured from a point."""
         region = self.region(point).with_section_put_in()
         values, density = explicit(integrand(region.position)), self.mass / self.size
         if hasattr(values, "applyfunc"):
@@ -223,15 +223,15 @@ class Body(Placeable, OfParticles):
         return axis_vector(self, along, axis.name or "components", symbol, key)
 
     def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity | None:
-        """Its centre of mass from a point, if that does not come from one integral over a region."""
+        """The centre of mass relative to a point, if the body has a special derivation; None by default."""
         return None
 
     def derived_tensor(self, point: Point, symbol: str, key: str) -> Quantity | None:
-        """Its inertia tensor about a point, if the body has a special derivation."""
+        """The inertia tensor about a point, if the body has a special derivation; None by default."""
         return None
 
     def derived_moment(self, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
-        """Its moment of inertia about an axis through a point, if the body has a special derivation."""
+        """The moment of inertia about an axis through a point, if the body has a special derivation; or None."""
         return None
 
     def axes_by_name(self) -> Mapping[str, ImmutableMatrix]:
@@ -239,21 +239,21 @@ class Body(Placeable, OfParticles):
 
 
 class RoundBody(Body):
-    """A body that is round about the z axis: its profile is the radius as a function of z, between two ends."""
+    """A body that is round about the z axis; its radius is a function of z between two ends."""
 
     is_round: ClassVar[bool] = True
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
-        """The least and the largest z of the body, along its body axes."""
+        """The smallest and the largest z of the body."""
         raise AttributeError(f"{type(self).__name__} must say where it ends")
 
     def radius_at(self, z: Expr) -> Expr:
-        """Its radius at z of its body axes."""
+        """The radius of the body at the height z."""
         raise AttributeError(f"{type(self).__name__} must say how far it reaches")
 
     def map(self) -> Map:
-        """Over its height, the angle, and the radius; for a thin body, r is the radius or zero."""
+        """Cylindrical coordinates z, theta and r; for a shell or a hoop r is the radius at z, for a rod r is zero."""
         low, high = self.ends
         z = low if low == high else (low, high)
         if self.filling == ("area" if z != low else "length"):
@@ -287,7 +287,7 @@ class OfHeight(Body):
 
 
 class Spherical(OfRadius, RoundBody):
-    """A body whose places farthest from its axis are on a sphere about the origin."""
+    """A body whose outer surface is on a sphere about the origin."""
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -298,14 +298,14 @@ class Spherical(OfRadius, RoundBody):
 
 
 class Cylindrical(OfHeight, RoundBody):
-    """A body whose places farthest from its axis are at one distance from it."""
+    """A body whose outer surface is on a cylinder about the z axis."""
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius
 
 
 class Conical(OfHeight, RoundBody):
-    """A body whose places farthest from its axis are on a cone with its apex at the origin.
+    """A body whose outer surface is on a cone with its apex at the origin.
 
     radius   of its base
     """
@@ -315,15 +315,15 @@ class Conical(OfHeight, RoundBody):
 
 
 class Hollow(Body):
-    """A body that is the rest of a larger one after a smaller one of the same sort is removed from its middle.
+    """A round body with a concentric cavity of the same shape.
 
-    inner, outer   the radii of the two
-    Errors: the inner radius is not smaller than the outer one, as far as the sizes show.
+    inner, outer   radius of the cavity, and outer radius of the body
+    Errors: the inner radius is known to be equal to the outer radius, or larger.
     """
 
     inner: Expr
     outer: Expr
-    power: ClassVar[int]  # the masses of the two are proportional to this power of their radii
+    power: ClassVar[int]  # the mass of the full body and that of the cavity's filling vary as this power of the radius
     is_round: ClassVar[bool] = True
 
     def check_sizes(self) -> None:
@@ -336,7 +336,7 @@ class Hollow(Body):
         return {own.get(id, id): size for id, size in super().measures.items()}
 
     def filled(self, radius: Expr, mass: Expr) -> RoundBody:
-        """The body of this sort without a hole."""
+        """The body of the same shape without a cavity."""
         raise AttributeError(f"{type(self).__name__} must say what it is without its hole")
 
     def whole_and_removed(self) -> tuple[RoundBody, RoundBody]:
@@ -349,7 +349,7 @@ class Hollow(Body):
         return Hollowed(*(each.boundary for each in self.whole_and_removed()))
 
     def particles(self) -> Particles:
-        """The particles of the whole, minus those of the removed part."""
+        """The particles of the full body, and those of the removed body with negative masses."""
         whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 
@@ -378,7 +378,7 @@ AXIS_VECTOR = Rule(
 def axis_vector(
     body: Body | None, along: ImmutableMatrix, name: str, symbol: str = "d", key: str = "axis_vector"
 ) -> Quantity:
-    """A vector d along the axis of rotation, by its components along the body axes: a definition.
+    """Vector d along the axis of rotation, by its components along the body axes: a definition.
 
     Outcomes: diagonal (from corner to opposite corner), edge, components.
     Source: none needed.
@@ -411,12 +411,12 @@ DENSITY = Rule(
 
 
 def density(body: Body, symbol: str | None = None, key: str = "density", part: str | None = None) -> Quantity:
-    """Density of a uniform body, rho = M/V; of a thin one, sigma = M/A or lambda = M/l.
+    """Density of a uniform body, rho = M/V; for a thin body sigma = M/A or lambda = M/l.
 
     body    mass M; volume V, area A or length l
     part    the name of the body on the page, if there are several
     Check: the integral of the density over the body gives M back.
-    Outcomes: along_edges (of a cuboid); volume, area, length (where the mass is); derived, if the volume has a step.
+    Outcomes: along_edges (a cuboid); volume, area, length (the filling of the body); derived (the volume has a step).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     extent = body.extent
@@ -438,7 +438,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
 
 
 def _density_outcome(body: Body, extent: Expr | Quantity) -> str:
-    """The first sentence about a block is that of its density, so the axes of the block are described there."""
+    """The outcome of a density. For a block, the sentence about the density also describes the body axes."""
     if body.reference == "corner" and body.filling == "volume":
         return "along_edges"
     if isinstance(extent, Quantity):
@@ -468,16 +468,16 @@ def centre_of_mass(
     symbol: str = "r_C",
     key: str = "centre_of_mass",
 ) -> Quantity:
-    """Centre of mass, r_C = (1/M) integral of r dm, from a named point of the body.
+    """Centre of mass, r_C = (1/M) integral of r dm, measured from a named point of the body.
 
     body         mass, region
     origin       the point, by default the origin of the body axes
     coordinates  "cartesian" or "cylindrical", if the body has both
-    A step derives each component that is not zero by symmetry: one for a round body, possibly several for a body
-    that is not symmetric under inversion through its centre.
+    Each component that does not vanish by symmetry has its own step: one for a round body, possibly several for a
+    body without inversion symmetry.
     Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
     numerical sum over cells.
-    Outcomes: round; generic (the centre of a body with inversion symmetry); by_components; there (at the point).
+    Outcomes: round; generic (a body with inversion symmetry); by_components; there (at the named point itself).
     Errors: no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """

@@ -1,6 +1,6 @@
-"""The boundary of a body, as geometry: places along its body axes. A drawing projects it.
+"""The boundary of a body, as geometry: places along the body axes. A drawing projects this boundary.
 
-A body returns one of these records; a body of parts, or one of which only the moments are known, returns none.
+A body returns one of these records. A body that has parts, or only known moments, returns None.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ Curve: TypeAlias = tuple[ImmutableMatrix, Symbol, Expr, Expr]  # places, their v
 
 @dataclass(frozen=True)
 class Round:
-    """All places within a distance from the z axis that depends on z, between two heights.
+    """All places between two heights whose distance from the z axis is at most a function of z.
 
-    is_curve   whether the mass is on a curve: on the axis itself, or on one circle
+    is_curve   whether the mass is on a curve: on the axis, or on one circle
     """
 
     ends: tuple[Expr, Expr]
@@ -53,11 +53,11 @@ class Round:
 
 @dataclass(frozen=True)
 class Faces:
-    """Flat faces, or a single one.
+    """One flat face or several.
 
     corners   places
     faces     the corners of each face in order, from either side; empty for a single face
-    edges     the lengths that a drawing shows, each with the edges of that length
+    edges     the lengths that a drawing shows, each with the edges of this length
     """
 
     corners: tuple[ImmutableMatrix, ...]
@@ -75,24 +75,24 @@ class Segment:
 
 @dataclass(frozen=True)
 class Rim:
-    """A closed line round a flat body in the plane of x and y.
+    """The closed edge of a flat body in the plane of x and y.
 
-    curves   one after the other
-    radius   a straight part of the line whose length is a size of the body: its two ends, and its length
+    curves   the curves of the edge, in order
+    radius   a straight line whose length is a size of the body: its two ends, and its length
     """
 
     curves: tuple[Curve, ...]
     radius: tuple[ImmutableMatrix, ImmutableMatrix, Expr] | None = None
 
     def places(self, steps: int) -> list[ImmutableMatrix]:
-        """Places along the line, with this number of steps along each curve; a curve may be a single place."""
+        """Places along the edge, with this number of steps along each curve; a curve may be a single place."""
         found = chain.from_iterable(_along(curve, steps) for curve in self.curves)
         return list(dict.fromkeys(found))
 
 
 @dataclass(frozen=True)
 class Extruded:
-    """A flat figure in the plane of x and y, extended along z."""
+    """A solid whose cross-section is a flat figure in the plane of x and y, extended along z."""
 
     section: Boundary
 
@@ -118,7 +118,7 @@ class Toroidal:
 
 @dataclass(frozen=True)
 class Hollowed:
-    """A round body without a smaller round body about the same axis."""
+    """A round body from which a smaller round body about the same axis is removed."""
 
     whole: Round
     removed: Round
@@ -128,9 +128,9 @@ Boundary: TypeAlias = Round | Faces | Segment | Rim | Extruded | Ellipsoidal | T
 
 
 def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
-    """The boundary of a position map: a straight line, the closed line round a flat body, or a stretched ball.
+    """The boundary of a position map: a straight line, the closed edge of a flat body, or an ellipsoid.
 
-    None for any other map, also for a flat body with a hole.
+    None for every other map, including that of a flat body with a hole.
     """
     if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
         u, *ends = limits[0]
@@ -142,7 +142,7 @@ def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
 
 
 def _rim(place: ImmutableMatrix, limits: Bounds) -> Rim | None:
-    """The curves on which one of two variables has a limit; both have constant limits."""
+    """The curves on which one of the two variables is at a limit; None unless all limits are constant."""
     if any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
         return None
     (u, *u_ends), (v, *v_ends) = limits
@@ -153,7 +153,7 @@ def _rim(place: ImmutableMatrix, limits: Bounds) -> Rim | None:
         (v, v_ends[0], u, u_ends[::-1]),
     )
     curves = [(place.xreplace({held: end}), letter, first, last) for held, end, letter, (first, last) in sides]
-    # Two limits with the same curve form a seam, not an edge; the rest is one closed line, or an edge and a hole.
+    # Two limits with the same curve form a seam, not an edge. The other curves form one edge, or an edge and a hole.
     seamless = [curves[k::2] for k in (0, 1) if curves[1 - k] == _reversed(curves[3 - k])]
     lines = [[each] for each in seamless[0] if _is_long(each)] if seamless else [curves]
     return Rim(tuple(lines[0])) if len(lines) == 1 else None
@@ -175,7 +175,7 @@ def _is_long(curve: Curve) -> bool:
 
 
 def _stretched_ball(place: ImmutableMatrix, limits: Bounds) -> Ellipsoidal | None:
-    """The semi-axes of a ball of radius 1 in spherical coordinates, scaled along each axis."""
+    """The ellipsoid of a map that scales a ball of radius 1, in spherical coordinates, along each axis."""
     if [tuple(ends) for _, *ends in limits] != [(0, 1), (0, pi), (0, 2 * pi)]:
         return None
     r, *angles = (letter for letter, *_ in limits)

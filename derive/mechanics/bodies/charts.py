@@ -1,4 +1,4 @@
-"""Position maps of bodies, numerically: places from variables, and variables from places by Newton's method."""
+"""Numerical position maps of bodies: places from variables, and variables from places by Newton's method."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from derive.algebra.ranges import rational_in_range
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.known_numbers import with_numbers
 
-DRAWS = 3  # draws for one symbol; for several, further draws for each further symbol
+DRAWS = 3  # number of draws for one symbol; each further symbol adds FURTHER draws, up to MOST
 FURTHER, MOST = 12, 48
 SCALES = (Rational(1, 60), Rational(1, 8), Integer(1), Integer(8), Integer(60))
-NEAR = 160  # sampled points of a body; Newton's method starts at those closest to the sought place
-STARTS, TURNS = 10, 30  # starts and iterations of Newton's method
-FAR = 1e6  # distance at which an iteration is given up
-BEYOND = 0.1  # fraction of its width by which a body may extend beyond the sampled points
+NEAR = 160  # number of sampled points of a body; Newton's method starts at the points closest to the sought place
+STARTS, TURNS = 10, 30  # number of starts, and of iterations from each start, of Newton's method
+FAR = 1e6  # an iteration stops when a variable exceeds this multiple of (1 + the largest start value)
+BEYOND = 0.1  # a body may extend beyond the sampled points by this fraction of its width
 CLOSE = 1e-9
 
 Place = tuple[float, ...]
@@ -33,8 +33,8 @@ class Chart:
 
     names    the variables
     place    the variables -> the place
-    slopes   the variables -> the derivatives of the place by each of them
-    ends     the limits of each variable, as functions of the variables before it
+    slopes   the variables -> the derivatives of the place with respect to each variable
+    ends     the limits of each variable, as functions of the outer variables
     """
 
     names: tuple[Symbol, ...]
@@ -70,17 +70,17 @@ class Chart:
 
     @cached_property
     def known(self) -> list[tuple[list[float], Place]]:
-        """Sampled places of the body, with their variables."""
+        """Sampled places of the body, each with the values of the variables there."""
         return [(self.place(*at), at) for at in self.points(NEAR, Random(5))]
 
     @cached_property
     def size(self) -> float:
-        """The largest coordinate of its places."""
+        """The largest absolute coordinate of the sampled places."""
         return max(abs(x) for place, _ in self.known for x in place)
 
     @cached_property
     def box(self) -> list[tuple[float, float]]:
-        """The range of each coordinate of its places, with a margin."""
+        """The range of each coordinate of the sampled places, with a margin."""
         found = []
         for across in zip(*(place for place, _ in self.known), strict=True):
             low, high = min(across), max(across)
@@ -88,7 +88,7 @@ class Chart:
         return found
 
     def sought(self, target: Sequence[float]) -> Iterator[Place]:
-        """Values of the variables within their limits whose place is the target."""
+        """Values of the variables, within their limits, at which the place is the target."""
         slack = CLOSE * self.size
         if any(x < low - slack or x > high + slack for x, (low, high) in zip(target, self.box, strict=True)):
             return
@@ -113,7 +113,7 @@ class Chart:
         return None
 
     def _within(self, at: Place) -> Place | None:
-        """The same place with its variables within their limits; an angle may differ by full turns."""
+        """The same values, with angles shifted by full turns into their limits; None if a value remains outside."""
         found: Place = ()
         for i, ends in enumerate(self.ends):
             low, high = ends(*found)
@@ -132,7 +132,7 @@ class Chart:
 
 
 def _solved(slopes: Sequence[Sequence[float]], left: Sequence[float]) -> list[float] | None:
-    """A Newton step that removes the remaining difference, by least squares: Cramer's rule for the normal equations."""
+    """The Newton step by least squares: Cramer's rule for the normal equations."""
     count = len(slopes[0])
     normal = [[sum(row[i] * row[j] for row in slopes) for j in range(count)] for i in range(count)]
     right = [sum(row[i] * x for row, x in zip(slopes, left, strict=True)) for i in range(count)]
@@ -156,7 +156,10 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 
 
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
-    """Values of the symbols for which all limits are in order: the numbers of the problem, or else several scales."""
+    """Values of the symbols for which all limits are in order.
+
+    A symbol whose number the problem states has this number; other symbols have random values, of several scales.
+    """
     source = Random(len(letters))
     ordered = sorted(letters, key=str)
     given = {s: number for s in ordered if not (number := with_numbers(s)).free_symbols}
@@ -172,7 +175,7 @@ def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbo
 
 
 def _are_in_order(limits: Bounds, at: Mapping[Symbol, Expr]) -> bool:
-    """Whether the lower limit of each variable is below the upper one, with earlier variables at their midpoints."""
+    """Whether each lower limit is below the upper limit, with the outer variables at their midpoints."""
     known = dict(at)
     for x, lower, upper in limits:
         low, high = (explicit(end).xreplace(known).evalf() for end in (lower, upper))

@@ -1,4 +1,4 @@
-"""Predicates of bodies: conditions under which an outcome, or a fact that its sentence names, is correct."""
+"""Predicates of bodies: each decides whether an outcome, or a fact in its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def dimensions_of_filling(n: int) -> Predicate:
 
 
 def has_edges(facts: Judged) -> bool:
-    """Whether all limits are constant and start at zero: a box whose origin is at a corner."""
+    """Whether the body is a box with a corner at the origin: all limits are constant, and the lower limits are zero."""
     body = facts.subject.body
     region = body.region(body.point(body.reference))
     names = set(region.names)
@@ -43,13 +43,13 @@ def has_edges(facts: Judged) -> bool:
 
 
 def is_symmetric_about_its_centre(facts: Judged) -> bool:
-    """By integration, no third moment about the centre of mass remains along a direction without symmetry."""
+    """Whether the third moment about the centre of mass vanishes along a generic direction, by integration."""
     body = facts.subject.body
     return is_zero(body.over_mass(lambda r: (71 * r[0] + 113 * r[1] + 29 * r[2]) ** 3, body.middle))
 
 
 def is_by_integration(facts: Judged) -> bool:
-    """The first moment of the mass about the result is zero."""
+    """Whether the first moment of the mass about the result vanishes, by integration."""
     subject = facts.subject
     return is_zero(subject.body.over_mass(lambda r: r - facts.result, subject.point))
 
@@ -63,7 +63,7 @@ def on_the_axis(facts: Judged) -> bool:
 
 
 def is_of_a_ball(facts: Judged) -> bool:
-    """The square of the radius is R^2 minus the square of the distance from a point on the axis."""
+    """Whether r^2 is a quadratic polynomial in z with the leading coefficient -1, as for a ball."""
     square = explicit(facts.result) ** 2
     along = facts.inputs["along"]
     in_powers = square.as_poly(along)
@@ -76,14 +76,14 @@ def along_the_edge(facts: Judged) -> bool:
 
 
 def joins_corners(facts: Judged) -> bool:
-    """From the corner at the origin through the centre to the opposite corner, by the region's limits."""
+    """Whether the vector leads from the corner at the origin to the opposite corner, by the limits of the region."""
     body = facts.subject.body
     limits = body.region(body.point(body.reference)).limits
     return len(limits) == 3 and all(is_zero(x - (b - a)) for x, (_, a, b) in zip(facts.result, limits, strict=True))
 
 
 def is_round(facts: Judged) -> bool:
-    """Whether the particles have equal moments about x and y, and no product of inertia, about the centre."""
+    """Whether, about the centre, the particles have equal moments about x and y and no products of inertia."""
     body = facts.subject.body
     centre = body.middle
     places = [(m, counted_from(centre, r)) for m, r in body.particles()]
@@ -93,18 +93,18 @@ def is_round(facts: Judged) -> bool:
 
 
 def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
-    """The point in the sentence is the point from which later steps measure."""
+    """Whether later steps measure from the point that the sentence names."""
     return facts.words.get("start", fact.start.name) == fact.start.name
 
 
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
-    """The size is not negative, and its square is the determinant in the result."""
+    """Whether the size is not negative, and its square is the determinant det(r_i . r_j) that belongs to the result."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
     return is_zero(explicit(size) ** 2 - square) and sign_found(explicit(size)) != -1
 
 
 def mapped_to(facts: Judged, place: Any) -> bool:
-    """The scalar products of its derivatives by the variables have the determinant in the result."""
+    """Whether det(r_i . r_j) fits the result; r_i is the derivative of the place with respect to a variable."""
     names = [x for x, _, _ in facts.inputs["limits"]]
     slopes = Matrix([[diff(c, x) for x in names] for c in explicit(place)])
     square = explicit(facts.result) ** 2 if len(names) == 3 else explicit(facts.result)
@@ -127,7 +127,7 @@ def with_variables(n: int) -> Predicate:
 
 
 def cell_is_positive(facts: Judged, outcome: str) -> bool:
-    """The stated cell is positive, and its square is the result, or for a solid the square of the result."""
+    """Whether the stated cell is positive, and its square is the result, or for a solid the square of the result."""
     size, limits = facts.inputs["cell"], facts.inputs["limits"]
     found = explicit(facts.result)
     squares = (found**2 if outcome == "solid" else found, size**2)
@@ -140,15 +140,15 @@ def of_filling(filling: str) -> Predicate:
 
 
 def volume_of_its_sections(facts: Judged, outcome: str) -> bool:
-    """The areas of the cross-sections, integrated over the height, give the volume."""
+    """Whether the integral of the cross-sectional areas over the height is the volume."""
     body, z = facts.subject.body, Symbol("z_along", real=True)
     sections = integrate(pi * body.radius_at(z) ** 2, (z, *body.ends))
     return is_zero(sections - explicit(facts.result))
 
 
 def section_as_told(facts: Judged, outcome: str) -> bool:
-    """x = s cos, y = s sin, if they are stated: their area element is that of the integral, and x is s at the first
-    direction."""
+    """Whether x = s cos(theta) and y = s sin(theta), if the sentence states them, fit the integral: they have its area
+    element, and x is s at theta = 0."""
     if ("polar" in facts.words) != ("x_is" in facts.inputs):
         return False
     if "x_is" in facts.inputs:
@@ -160,7 +160,7 @@ def section_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def counted_from_its_point(facts: Judged, outcome: str) -> bool:
-    """A length or a position is measured from the point that the result is about."""
+    """Whether the sentence names the point that the result belongs to."""
     return facts.words["start"] == getattr(facts.subject.point, "name", facts.words["start"])
 
 

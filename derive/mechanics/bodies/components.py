@@ -1,4 +1,4 @@
-"""Integrals over the mass of a body, step by step; they give components of its centre of mass."""
+"""Integrals over the mass of a body, step by step, and the components of a centre of mass by such integrals."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ class OverMass:
 
 
 def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> OverMass:
-    """The integral of a function of the place times dm, for a density that is a step or a formula.
+    """The integral of a function of the position times dm; the density is a step or a formula.
 
-    weight   the integrand
-    mean     whether the integral is divided by the mass
+    weight   the function
+    mean     whether to divide the integral by the mass
     """
     rho = body.density
     if weight == 0:
@@ -80,15 +80,15 @@ def centre_component(
     symbol: str = "r_C",
     key: str | None = None,
 ) -> Quantity:
-    """A component of the centre of mass, x_C = (rho/M) integral of x dV; sigma and dA, lambda and dl of a thin body.
+    """Component of the centre of mass, x_C = (rho/M) integral of x dV; for a thin body sigma dA or lambda dl.
 
     body         of mass M
     axis         "x", "y" or "z": the body axis of the component
-    origin       the point from which it is measured, by default the origin of the body axes
+    origin       the point from which to measure, by default the origin of the body axes
     coordinates  "cartesian" or "cylindrical", if the body has both
     Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
     numerical sum over cells.
-    Outcomes: on_axis (of a solid that is round about that axis), generic.
+    Outcomes: on_axis (the body is a solid that is round about this axis), generic.
     Errors: no such axis, no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
@@ -115,12 +115,12 @@ def centre_component(
 
 
 def is_round_solid(body: Any) -> bool:
-    """Round about the z axis: only one component of its centre of mass is not zero by symmetry."""
+    """Whether the body is a solid that is round about z, so that its centre of mass is on this axis."""
     return bool(body.is_round and body.filling == "volume")
 
 
 def is_its_own_image(body: Any) -> bool:
-    """Whether the body has inversion symmetry: each particle has a partner on the opposite side of the centre."""
+    """Whether the body has inversion symmetry: each particle has an equal partner opposite it about the centre."""
     if body.is_lopsided:
         return False
     centre = body.middle.position

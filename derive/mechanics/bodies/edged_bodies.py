@@ -27,7 +27,7 @@ __all__ = ["Cuboid", "Plate", "Tetrahedron", "Triangle", "Wedge"]
 class EdgedBody(Body):
     """A body with flat faces, or a single flat face."""
 
-    corners_called: ClassVar[tuple[str, ...]] = ("corner",)  # the first ones
+    corners_called: ClassVar[tuple[str, ...]] = ("corner",)  # names of the first corners
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
@@ -41,7 +41,7 @@ class EdgedBody(Body):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The lengths that a drawing shows, each with the edges of that length."""
+        """The lengths that a drawing shows, each with the edges of this length."""
         return ()
 
     @property
@@ -54,7 +54,7 @@ class EdgedBody(Body):
 
 @dataclass(frozen=True)
 class Plate(EdgedBody):
-    """A thin uniform rectangular plate in the plane of x and y, edges along the axes from the corner at the origin.
+    """A thin uniform rectangular plate in the plane of x and y, with a corner at the origin and edges along the axes.
 
     sides    two lengths
     mass     mass
@@ -93,7 +93,7 @@ class Plate(EdgedBody):
 
 @dataclass(frozen=True)
 class Cuboid(EdgedBody):
-    """A uniform block, its edges along the axes from the corner at the origin.
+    """A uniform block with a corner at the origin and edges along the axes.
 
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
 
@@ -107,7 +107,7 @@ class Cuboid(EdgedBody):
 
     @property
     def extent(self) -> Expr:
-        """A cube's volume is written a^3, a block's a * 2a * 3a."""
+        """The volume as written on the page: a^3 for a cube, a * 2a * 3a for a block."""
         if len(set(self.sides)) == 1:
             return Pow(self.sides[0], len(self.sides))
         return Factors(*self.sides)
@@ -122,7 +122,7 @@ class Cuboid(EdgedBody):
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
-        """Bits of a corner's index show which of x, y and z are not zero."""
+        """The corners; the bits of a corner's index show which of x, y and z are not zero there."""
         at = (zip(ends, self.sides, strict=True) for ends in product((0, 1), repeat=3))
         return tuple(column(*(end * side for end, side in corner)) for corner in at)
 
@@ -146,9 +146,9 @@ class Cuboid(EdgedBody):
         return cartesian(self.letters, *((0, side) for side in self.sides))
 
     def particles(self) -> Particles:
-        """Six equal particles, at the centres of the faces.
+        """Six equal particles at the centres of the faces.
 
-        Two of them, at +-side/2, give 2 (M/6)(side/2)^2 = M side^2/12.
+        Along each axis two of the particles, at +-side/2, give the second moment 2 (M/6)(side/2)^2 = M side^2/12.
         """
         found = []
         for axis, end in product(range(3), (0, 1)):
@@ -177,8 +177,8 @@ class Triangle(Cornered):
 
     corners   three places (x, y), lengths
     mass      mass
-    `Triangle.on_base(b, h, mass)` has its base along x from the origin, and its top at the height h over the middle
-    of the base, or over x = foot; `Triangle.equilateral(a, mass)` has three sides a.
+    `Triangle.on_base(b, h, mass)` has its base along x from the origin. Its top is at the height h above the middle of
+    the base, or above x = foot. `Triangle.equilateral(a, mass)` has three sides a.
     Points: first corner, second corner, third corner; centre.
     """
 
@@ -193,7 +193,7 @@ class Triangle(Cornered):
 
     @classmethod
     def on_base(cls, base: Expr, height: Expr, mass: Expr, foot: Expr | None = None) -> Self:
-        """A triangle whose top is over the middle of its base, or over x = foot."""
+        """Return a triangle whose top is above the middle of its base, or above x = foot."""
         made = cls(((ZERO, ZERO), (base, ZERO), (base / 2 if foot is None else foot + ZERO, height)), mass)
         if tidied(made._signed_area - base * height / 2) != 0:
             raise Unverified(Complaint("unverified", f"{made.name} on a base does not have the area b h/2"))
@@ -216,7 +216,7 @@ class Triangle(Cornered):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The sides that are symbols, or multiples of one: each length once, next to the first side of that length."""
+        """The sides whose length is a multiple of a symbol; each symbol appears once, at the first such side."""
         found: dict[Expr, tuple[int, int]] = {}
         for i, k in ((0, 1), (0, 2), (1, 2)):
             x, y, _ = self.corners[k] - self.corners[i]
@@ -227,7 +227,7 @@ class Triangle(Cornered):
 
     @property
     def _signed_area(self) -> Expr:
-        """The shoelace formula: half the sum of cross products of neighbouring corners."""
+        """The area with a sign, by the shoelace formula: half the sum of cross products of neighbouring corners."""
         (x1, y1), (x2, y2), (x3, y3) = self.corners_at
         return (x1 * (y2 - y3) + x2 * (y3 - y1) + x3 * (y1 - y2)) / 2
 
@@ -244,7 +244,7 @@ class Triangle(Cornered):
         return -area if area.could_extract_minus_sign() or area.is_negative else area
 
     def map(self) -> Map:
-        """With the base on the x axis, by x and y; otherwise by fractions u and v of two sides."""
+        """Variables x and y if the base is on the x axis; otherwise fractions u and v of two sides."""
         if self._stands_on_x:
             (_, (x2, _), (x3, y3)), (x, y) = self.corners_at, coordinates("xy", self.letters)
             return column(x, y, 0), ((y, ZERO, y3), (x, x3 * y / y3, x2 + (x3 - x2) * y / y3))
@@ -289,7 +289,7 @@ class Tetrahedron(Cornered):
 
     @property
     def _sixfold(self) -> Expr:
-        """Six times its volume, with a sign: the determinant of three edges."""
+        """Six times the volume, with a sign: the determinant of the three edges from the first corner."""
         return tidied(ImmutableDenseMatrix.hstack(*self._edges_from_first).det())
 
     @property
@@ -298,7 +298,7 @@ class Tetrahedron(Cornered):
         return (-sixfold if sixfold.could_extract_minus_sign() or sixfold.is_negative else sixfold) / 6
 
     def map(self) -> Map:
-        """By fractions u, v and s of the three edges from the first corner; along the axes by x, y and z."""
+        """Variables x, y and z if three edges are along the axes; otherwise fractions u, v and s of three edges."""
         first, edges = self.corners[0], self._edges_from_first
         if first == ORIGIN and all(e == column(*(e[i] * int(i == k) for i in range(3))) for k, e in enumerate(edges)):
             (a, b, c), (x, y, z) = (e[k] for k, e in enumerate(edges)), coordinates("xyz", self.letters)
@@ -352,5 +352,5 @@ class Wedge(Cornered):
         return ImmutableDenseMatrix(place + column(0, 0, z)), ((z, ZERO, self.length), *limits)
 
     def particles(self) -> Particles:
-        """Triangles spread evenly along z."""
+        """The particles of a triangle, spread evenly along z."""
         return drawn_out(Triangle(self.face.corners_at, self.mass).particles(), (ZERO, self.length))

@@ -1,6 +1,7 @@
-"""Equimomental particles: they have the mass, centre of mass and second moments of a body, without an integral.
+"""Equimomental particles: together they have the mass, the centre of mass and the second moments of a body.
 
-They come from slices weighted by a quadrature rule that is exact for these powers, or from the second moments.
+No integral is needed. The particles come from slices, weighted by a quadrature rule that is exact for the powers that
+occur, or from known second moments.
 """
 
 from __future__ import annotations
@@ -28,12 +29,15 @@ BOOLE = tuple((Rational(k, 4), Rational(w, 90)) for k, w in enumerate((7, 32, 12
 
 
 def summed(particles: Iterable[tuple[Expr, ImmutableMatrix]], of: Callable[[ImmutableMatrix], Any]) -> Any:
-    """The sum of mass times a function of the place: a number, a vector or a tensor."""
+    """The sum of mass times a function of the place; the function yields a number, a vector or a tensor."""
     return reduce(add, (mass * of(place) for mass, place in particles))
 
 
 def counted_from(point: Point, place: ImmutableMatrix) -> ImmutableMatrix:
-    """A place by its projections on the axes of a point: independent of the code that integrates, as a check of it."""
+    """A place relative to a point, by projections on the axes of the point.
+
+    The code of the integrals is not used, so that particles can check these integrals.
+    """
     way = [place[j] - point.position[j] for j in range(3)]
     return column(*(sum(point.axes[j, k] * way[j] for j in range(3)) for k in range(3)))
 
@@ -41,19 +45,20 @@ def counted_from(point: Point, place: ImmutableMatrix) -> ImmutableMatrix:
 class OfParticles:
     """A base class of bodies with equimomental particles."""
 
-    is_of_particles: ClassVar[bool] = True  # whether the particles come without an integral
+    is_of_particles: ClassVar[bool] = True  # whether the particles are found without an integral
 
     def particles(self) -> Particles:
-        """Particles with the mass, centre of mass and second moments of the body. They need no integral, so they check
-        results of integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
+        """Particles with the mass, centre of mass and second moments of the body. They are found without integrals, so
+        they can check integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
         raise AttributeError(f"{type(self).__name__} must say which particles stand for it")
 
     def another_way(
         self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
     ) -> dict[str, Route]:
-        """A second route to the integral, times dm, of an integrand at most quadratic in the position from a point.
+        """A second route to the integral of f(r) dm, where f is at most quadratic in the position r from a point.
 
-        of   a function that extracts this integral from a result
+        integrand   f
+        of          a function that extracts this integral from a result
         """
 
         def by_particles(found: Any) -> tuple[Any, Any]:
@@ -63,7 +68,7 @@ class OfParticles:
 
 
 def squared_distance(r: Any, n: Any) -> Any:
-    """|n x r|^2: the squared distance of a place from the axis along n through the point."""
+    """|n x r|^2: the squared distance of r from an axis through the origin along the unit vector n."""
     arm = Cross(n, r)
     return Dot(arm, arm)
 
@@ -75,12 +80,12 @@ def tensor_at(r: Any) -> ImmutableMatrix:
 
 
 def disc_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
-    """A disc perpendicular to the z axis: half of its mass at its centre, an eighth at each end of two diameters."""
+    """A disc perpendicular to the z axis: half of the mass at the centre, an eighth at each end of two diameters."""
     return [(mass / 2, column(0, 0, height)), *ring_of_particles(mass / 2, radius, height)]
 
 
 def ring_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
-    """A ring perpendicular to the z axis: a quarter of its mass at each end of two diameters."""
+    """A ring perpendicular to the z axis: a quarter of the mass at each end of two diameters."""
     rim = ((radius, 0), (-radius, 0), (0, radius), (0, -radius))
     return [(mass / 4, column(x, y, height)) for x, y in rim]
 
@@ -98,10 +103,10 @@ def sliced(
     weight: Callable[[Expr], Expr],
     slice_of: Callable[[Expr, Expr, Expr], Particles] = disc_of_particles,
 ) -> Particles:
-    """Slices perpendicular to the z axis at the nodes of Boole's rule, with its weights for their masses.
+    """Slices perpendicular to the z axis at the nodes of Boole's rule; their masses contain the weights of this rule.
 
     radius   of the slice at z
-    weight   its mass per length, up to a factor: for a solid, the squared radius
+    weight   mass of the slice per length, up to a factor: for a solid, the squared radius
     """
     low, high = ends
     at = [(low + part * (high - low), share) for part, share in BOOLE]
@@ -115,7 +120,7 @@ def sliced(
 
 
 def drawn_out(flat: Particles, ends: tuple[Expr, Expr]) -> Particles:
-    """A thin body across the z axis, spread evenly along z: Simpson's rule, exact for squares."""
+    """The particles of a flat body perpendicular to z, spread evenly along z: Simpson's rule, exact for squares."""
     low, high = ends
     return [
         (share * mass, column(place[0], place[1], low + part * (high - low)))
@@ -125,12 +130,12 @@ def drawn_out(flat: Particles, ends: tuple[Expr, Expr]) -> Particles:
 
 
 def stretched(particles: Iterable[tuple[Expr, ImmutableMatrix]], by: tuple[Expr, Expr, Expr]) -> Particles:
-    """The same particles with lengths along each axis scaled by these factors."""
+    """The same particles, with their coordinates along each axis scaled by these factors."""
     return [(mass, column(*(x * s for x, s in zip(place, by, strict=True)))) for mass, place in particles]
 
 
 def without(whole: Particles, removed: Particles) -> Particles:
-    """The rest of a body after a removal: removed particles have negative mass."""
+    """The particles of a body from which another body is removed; the removed particles have negative mass."""
     return [*whole, *((-mass, place) for mass, place in removed)]
 
 
@@ -140,12 +145,13 @@ def from_moments(
     second: ImmutableMatrix | None = None,
     about_origin: tuple[Expr, Expr, Expr] = (Integer(0),) * 3,
 ) -> Particles:
-    """Pairs of particles about the centre of mass with given second moments, S_ij = sum of m x_i x_j about the centre.
+    """Pairs of particles about the centre of mass, with given second moments.
 
-    about_origin   or the sums of m x^2, m y^2 and m z^2 about the origin, if the sums of products vanish
+    second         S_ij, the sums of m x_i x_j about the centre of mass
+    about_origin   in place of S: the sums of m x^2, m y^2 and m z^2 about the origin, if the sums of products vanish
 
-    With S = sum of D_k l_k l_k^T, each l_k from a Cholesky decomposition, a pair of mass D_k/L^2 is at +-L l_k, where
-    L^2 is the trace of S over the mass; the rest of the mass is at the centre, and is never negative.
+    A Cholesky decomposition gives S = sum of D_k l_k l_k^T. For each k, a pair of particles with the total mass D_k/L^2
+    is at +-L l_k, where L^2 is the trace of S over the mass. The rest of the mass, never negative, is at the centre.
     Source: Routh, *Elementary Rigid Dynamics*, chapter 1.
     """
     left = Matrix(second) if second is not None else Matrix.diag(*about_origin) - mass * centre * centre.T

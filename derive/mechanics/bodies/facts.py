@@ -13,7 +13,7 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class OfBody(Fact):
-    """The body that a tensor belongs to: it has particles and integrates over its mass."""
+    """The body that a tensor belongs to; this body has particles and integrals over its mass."""
 
     missing = "does not belong to a body"
     body: Any
@@ -36,7 +36,7 @@ class CountedFrom(Fact):
 
 @dataclass(frozen=True)
 class Integrated(Fact):
-    """The variables of an evaluated integral: the radius of a section depends on z, the volume does not."""
+    """The variables of an evaluated integral: the result, such as a volume, no longer depends on them."""
 
     missing = "is not an integral over a body"
     eliminates: tuple[Symbol, ...]

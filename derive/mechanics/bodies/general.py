@@ -1,4 +1,4 @@
-"""Bodies defined by a position map, formulas in variables between limits: cells, size, mass, density.
+"""Bodies defined by a position map, that is, by formulas in variables between limits: cells, size, mass, density.
 
 A curve has one variable, a surface two, a solid three. The density is uniform, or a formula in the same variables.
 """
@@ -55,8 +55,8 @@ __all__ = [
 ]
 
 ORIGIN = Point("origin", ZERO)
-VARIABLES = {"length": 1, "area": 2, "volume": 3}  # where the mass is -> the number of variables
-LETTERS = {"length": "l", "area": "A", "volume": "V"}  # of the size
+VARIABLES = {"length": 1, "area": 2, "volume": 3}  # the filling of a body -> the number of variables
+LETTERS = {"length": "l", "area": "A", "volume": "V"}  # the filling of a body -> the symbol of its size
 
 
 def variables(*names: str) -> tuple[Symbol, ...]:
@@ -68,7 +68,7 @@ class GeneralBody(Body):
     """The common base of bodies defined by their position map."""
 
     reference: ClassVar[str] = "origin"
-    is_lopsided: ClassVar[bool] = True  # assumed, since symmetry is not decided
+    is_lopsided: ClassVar[bool] = True  # assumed, because the symmetry is not tested
     is_of_particles: ClassVar[bool] = False
 
     def __init__(
@@ -122,12 +122,12 @@ class GeneralBody(Body):
         return self._position, self._limits
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
-        """Its region: cells, weighted by the density up to a constant."""
+        """The region of the body: its cells, weighted by the density up to a constant factor."""
         return from_point(point, self._position, self._limits, tidied(self._mapped * self._profile))
 
     @property
     def size(self) -> Expr:
-        """The integral of the density up to a constant: for a uniform body, its volume, area or length."""
+        """The integral of the density up to a constant factor: for a uniform body, the volume, area or length."""
         return exact(self, self._profile * self._mapped, "size")
 
     @cached_property
@@ -140,7 +140,7 @@ class GeneralBody(Body):
 
     @cached_property
     def density(self) -> Quantity:
-        """The step that gives its density or its mass."""
+        """The step that derives the density, or the mass if the density is given."""
         if self.given_mass is None:
             return mass_by_integration(self)
         return density(self) if self.is_uniform else normalised_density(self)
@@ -155,7 +155,7 @@ class GeneralBody(Body):
         return Point("centre", ImmutableDenseMatrix(3, 1, [tidied(x) for x in first]))
 
     def particles(self) -> Particles:
-        """Particles from its moments, which are integrals: so they check no integral."""
+        """Particles with the moments of the body; the moments are integrals, so they cannot check integrals."""
         return self._equimomental
 
     @cached_property
@@ -169,7 +169,7 @@ class GeneralBody(Body):
     def another_way(
         self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
     ) -> dict[str, Route]:
-        """A numerical sum over cells, since its particles come from integrals."""
+        """A second route by a numerical sum over cells, because the particles of this body come from integrals."""
         position, limits = self.map()
 
         def by_cells(found: Any) -> Verdict:
@@ -196,7 +196,7 @@ class Sheet(GeneralBody):
     """Mass on a surface, flat or curved: `Sheet((x, y, z), {u: (a, b), v: (c, d)}, mass=M)`.
 
     position   two or three formulas in the variables, lengths
-    limits     each variable with its lower and its upper limit, which may depend on those named before it
+    limits     each variable with its lower and upper limit; a limit may depend on the variables named before
     mass       mass; or
     density    mass per area, a formula in the variables; if the mass is given too, the density is proportional to it
     """
@@ -209,7 +209,7 @@ class Solid(GeneralBody):
     """Mass in a volume: `Solid((x, y, z), {u: (a, b), v: (c, d), w: (e, f)}, mass=M)`.
 
     position   three formulas in the variables, lengths
-    limits     each variable with its lower and its upper limit, which may depend on those named before it
+    limits     each variable with its lower and upper limit; a limit may depend on the variables named before
     mass       mass; or
     density    mass per volume, a formula in the variables; if the mass is given too, the density is proportional to it
     """
@@ -232,7 +232,7 @@ def _check_map(name: str, count: int, position: Any, limits: Any, mass: Any, den
 
 
 def exact(body: GeneralBody, integrand: Expr, what: str) -> Expr:
-    """An integral over the variables, by term-by-term antiderivatives."""
+    """An exact integral over the variables, by antiderivatives term by term."""
     _, limits = body.map()
     found = definite(integrand, list(reversed(limits)))
     if found is None or found.has(nan, zoo, oo):
@@ -257,11 +257,11 @@ CELL_OF = Rule(
 
 
 def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
-    """Size of a cell of the variables: |r_u|^2 of a curve, |r_u x r_v|^2 of a surface, r_u . (r_v x r_w) of a solid.
+    """Size of a cell: |r_u|^2 for a curve, |r_u x r_v|^2 for a surface, r_u . (r_v x r_w) for a solid.
 
     body   a body defined by its position map
-    Second route: the squared distances of neighbouring points, whose determinant is the square of the cell; for a solid
-    also, numerically, the signed volume that small edges span.
+    Second route: det(r_i . r_j) from the squared distances of neighbouring points, which is the square of the cell; for
+    a solid also, numerically, the signed volume that small edges span.
     Outcomes: curve, surface, solid.
     Source: Apostol, *Calculus*, volume 2, sections 12.5 and 11.29.
     """
@@ -298,7 +298,7 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
 
 
 def _determinant_of_chords(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
-    """The determinant, from half the second derivatives of the squared chord to a neighbour, at zero distance."""
+    """det(r_i . r_j); r_i . r_j is half a second derivative of the squared chord to a neighbour, at zero distance."""
     steps = [scalar(f"delta_{x.name}") for x in names]
     moved = position.xreplace({x: x + s for x, s in zip(names, steps, strict=True)}) - position
     chord = sum((x**2 for x in moved), Integer(0))
@@ -317,10 +317,10 @@ SIZE_BY_INTEGRATION = Rule(
 
 
 def size_by_integration(body: GeneralBody) -> Quantity:
-    """Length, area or volume of a body, the integral of its cells.
+    """Length, area or volume of a body: the integral over its cells.
 
     body   a body defined by its position map
-    Check: a numerical sum over cells, whose sizes come from the scalar products of their edges.
+    Check: a numerical sum over cells; the size of each cell comes from the scalar products of its edges.
     Outcomes: length, area, volume.
     Source: Apostol, *Calculus*, volume 2, sections 11.3 and 12.5.
     """
@@ -350,10 +350,10 @@ MASS_BY_INTEGRATION = Rule(
 
 
 def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
-    """Mass of a body with a given density, M = integral of the density over it.
+    """Mass of a body with a given density, M = integral of the density over the body.
 
     body   a body defined by its position map, and its density
-    Check: a numerical sum over cells, whose sizes come from the scalar products of their edges.
+    Check: a numerical sum over cells; the size of each cell comes from the scalar products of its edges.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     region = body.region(ORIGIN)
@@ -373,7 +373,7 @@ def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
 
 
 def _without_last(forms: list[Form]) -> list[Form]:
-    """The lines of an integral without the one that collects the mass, which is what is sought."""
+    """The lines of an integral without the line that collects the mass: here the mass is the unknown."""
     return [form for form in forms if form.because != "mass_collected"]
 
 
@@ -386,9 +386,9 @@ NORMALISED_DENSITY = Rule(
 
 
 def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
-    """Density of a body of given mass that is proportional to a function of the place, rho = M p/(integral of p dV).
+    """Density of a body of given mass, proportional to a function p of the position: rho = M p/(integral of p dV).
 
-    body   a body defined by its position map, its mass, and a function to which the density is proportional
+    body   a body defined by its position map, its mass and the function p
     Check: a numerical sum of density times cell gives the mass back.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
@@ -409,12 +409,15 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
 
 
 def _cells(body: GeneralBody) -> list[Quantity]:
-    """The step for its cells, unless the variables are lengths along axes."""
+    """The step for the cells of a body; none if the size of a cell is 1, as for Cartesian coordinates."""
     return [] if cell(*body.map()) == 1 else [cell_of(body)]
 
 
 def _variables_of(body: GeneralBody) -> dict[Symbol, str]:
-    """Its variables with their kinds: an angle is the argument of a sine or cosine, a number has numeric limits."""
+    """The variables of a body with their kinds.
+
+    A variable in a sine or cosine is an angle. Any other is a length if a limit contains a symbol, or else a number.
+    """
     position, limits = body.map()
     angles = {s for f in position.atoms(sin, cos) for s in f.free_symbols}
     kinds = {}

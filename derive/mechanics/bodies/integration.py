@@ -1,10 +1,12 @@
-"""Integrals over a body, in the lines of a written calculation.
+"""Integrals over a body, worked out line by line as in a written calculation.
 
-The integrand is a sum of products, and each term separates into integrals without a common variable: integrals of one
-variable if the limits are constant, nested ones if the limits depend on an outer variable. The lines are: split, the
-innermost antiderivatives in brackets, their values, and so outwards; then the products, and the mass collected.
+The integrand is a sum of products. Each product separates into integrals that share no variable: integrals of one
+variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines are the split,
+the innermost antiderivatives in brackets, the values of these brackets, and so on outwards; then the product of the
+values, and the product with the mass collected.
 
-A solid of revolution is integrated over discs, in Cartesian coordinates along chords of the disc, then along the axis.
+For a solid of revolution the integral is first over the disc at each height, in Cartesian coordinates along the chords
+of the disc, and then along the axis.
 """
 
 from __future__ import annotations
@@ -25,7 +27,10 @@ OneVariable = tuple[Symbol, Expr, Expr]
 
 @dataclass(frozen=True)
 class Nested:
-    """A factor of a term: an integrand and its limits, outermost first, which no other factor shares."""
+    """A factor of a term: an integral, by its integrand and its limits, outermost first.
+
+    No other factor of the term contains a variable of these limits.
+    """
 
     integrand: Expr
     limits: tuple[OneVariable, ...]
@@ -39,11 +44,11 @@ class Nested:
         return self.integrand == 1 and len(self.limits) == 1
 
     def written(self) -> Expr:
-        """The integral, each factor of the integrand as far out as its variables allow."""
+        """The integral, with each factor of the integrand moved as far outwards as its variables allow."""
         return _wrapped(self._parts(len(self.limits)), self.limits, Integer(1))
 
     def with_bracket(self) -> Expr:
-        """The innermost antiderivative between its limits; the unevaluated integral if only its value is known."""
+        """The integral with the innermost antiderivative in a bracket; unevaluated if no antiderivative is found."""
         x, lower, upper = self.innermost
         *outside, own = self._parts(len(self.limits))
         whole = antiderivative(own, x)
@@ -52,7 +57,7 @@ class Nested:
         return _wrapped(outside, self.limits[:-1], Bracket(whole, x, lower, upper))
 
     def carried_out(self) -> Nested | Expr:
-        """The result of the innermost integral: the remaining integral, or the value."""
+        """The integral that remains after the innermost one is evaluated, or the value if none remains."""
         value = definite(self.integrand, (self.innermost,))
         if value is None:
             value = explicit(Integral(self.integrand, self.innermost))
@@ -61,7 +66,7 @@ class Nested:
         return Nested(factor_terms(value), self.limits[:-1])
 
     def _parts(self, depth: int) -> list[Expr]:
-        """The integrand's factors, grouped by the innermost variable in each, outermost first."""
+        """The factors of the integrand, grouped by the innermost variable that they contain, outermost first."""
         found = [Integer(1)] * depth
         for part in Mul.make_args(self.integrand):
             place = max((i for i, limit in enumerate(self.limits) if part.has(limit[0])), default=0)
@@ -70,7 +75,7 @@ class Nested:
 
 
 def _wrapped(parts: Sequence[Expr], limits: Sequence[OneVariable], inner: Expr) -> Expr:
-    """Integral signs around the inner part, from the innermost out; constants go in front."""
+    """The inner expression in integral signs, innermost first; each sign also encloses its part of the integrand."""
     for part, limit in reversed(list(zip(parts, limits, strict=True))):
         factors = [Group(f) if isinstance(f, Integral) else f for f in (part, inner) if f != 1]
         whole = factors[0] if len(factors) == 1 else Factors(*factors) if factors else Integer(1)
@@ -82,7 +87,7 @@ Separated = tuple[Nested | Expr, ...]
 
 
 def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> list[Form]:
-    """The lines from rho times the integral of a weight to its value in terms of the mass, M = rho V."""
+    """The lines from rho times the integral of a weight to the value in terms of the mass, M = rho V."""
     integrand = (weight * region.element).expand()
     if integrand == 0:
         return []
@@ -99,7 +104,7 @@ def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> li
 
 
 def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
-    """The factor of the term for each group of variables; constants go with the first group in the term."""
+    """A factor of the term for each group of variables; constants belong to the first group that the term contains."""
     number, rest = term.as_coeff_Mul()
     groups = _groups(limits)
     found = [Mul(*(f for f in Mul.make_args(rest) if any(f.has(x) for x, _, _ in group))) for group in groups]
@@ -111,7 +116,7 @@ def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
 
 
 def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
-    """Groups of variables that depend on each other; the order of independent variables is kept."""
+    """Groups of limits that depend on each other; independent groups keep their order."""
     groups: list[list[OneVariable]] = []
     for limit in limits:
         related = [g for g in groups if any(end.has(x) for x, _, _ in g for end in limit[1:])]
@@ -122,7 +127,7 @@ def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
 
 
 def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
-    """From the innermost integrals outwards: a line for the antiderivatives and one for their values at the limits."""
+    """The lines from the innermost integrals outwards: antiderivatives, then their values at the limits."""
     nested = _are_nested(terms)
     # A single nested term looks almost the same before and after the split.
     level = Level.FULL if nested and len(terms) == 1 else Level.STANDARD
@@ -141,7 +146,7 @@ def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
 
 
 def _lasting(values: list[Expr]) -> list[Expr]:
-    """The values except zeros, or one zero if all are 0."""
+    """The values without zeros; a single zero if all values are zero."""
     return [value for value in values if value != 0] or values[:1]
 
 
@@ -154,7 +159,7 @@ def _one_further(part: Nested | Expr) -> Nested | Expr:
 
 
 def _collected(term: Separated) -> Separated:
-    """The term with factors that no longer depend on a variable in front of its remaining integrals."""
+    """The term, with constant factors moved in front of the integrals that remain."""
     front: Expr = Integer(1)
     rest: list[Nested | Expr] = []
     for part in term:
@@ -172,7 +177,7 @@ def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], be
 
 
 def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
-    """Lengths of plain integrals and values first, then the remaining integrals."""
+    """The product of a term: lengths of plain integrals and values first, then the other integrals."""
     if how is Nested.written:
         return Factors(*(how(part) if isinstance(part, Nested) else part for part in term))
     plain = [_length(part) if isinstance(part, Nested) else part for part in term if _is_plain(part)]
@@ -202,13 +207,13 @@ def _flat(term: Expr) -> tuple[Expr, ...]:
 
 
 def _has_chords(region: Region) -> bool:
-    """Whether the innermost limits are the ends of a chord, so they depend on the place of the chord in its disc."""
+    """Whether the innermost limits are the ends of a chord: square roots that contain the place of the chord."""
     roots = (power for power in region.limits[-1][2].atoms(Pow) if power.exp == Rational(1, 2))
     return any(root.has(*region.names[1:]) for root in roots)
 
 
 def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
-    """First over the disc at each height, in a form valid for every solid of revolution, then along the axis."""
+    """The lines of an integral over the disc at each height, for any solid of revolution, then along the axis."""
     z_limit, *within = region.limits
     by_chords = _by_chords(region, integrand, front) if region.element == 1 else []
     discs = list(Add.make_args(explicit(Integral(integrand, *reversed(within))).expand()))
@@ -228,7 +233,7 @@ def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
 
 
 def _by_chords(region: Region, integrand: Expr, front: Expr) -> list[Form]:
-    """Over the disc in Cartesian coordinates: along its chords, then by y = r sin u."""
+    """The lines of an integral over a disc in Cartesian coordinates: along its chords, then with y = r sin u."""
     z_limit, y_limit, x_limit = region.limits
     chords = [factor_terms(c) for c in Add.make_args(factor_terms(explicit(Integral(integrand, x_limit))).expand())]
     turned = [_by_angle(chord, y_limit, region) for chord in chords]
@@ -239,7 +244,7 @@ def _by_chords(region: Region, integrand: Expr, front: Expr) -> list[Form]:
 
 
 def _by_angle(chord: Expr, limit: OneVariable, region: Region) -> Expr | None:
-    """The integral over y of c y^m (r^2 - y^2)^(k/2), from -r to r, by y = r sin u."""
+    """The integral of c y^m (r^2 - y^2)^(k/2) over y from -r to r, with y = r sin u; None for another integrand."""
     y, _, r = limit
     outside, inside = chord.as_independent(y, as_Add=False)
     powers = dict(factor.as_base_exp() for factor in Mul.make_args(inside))
@@ -252,7 +257,7 @@ def _by_angle(chord: Expr, limit: OneVariable, region: Region) -> Expr | None:
 
 
 def _from_the_tip(value: Expr, limit: OneVariable) -> Expr:
-    """(h - z)^4, not (z - h)^4: the power is that of the positive distance."""
+    """Write an even power as that of the positive distance: (h - z)^4, not (z - h)^4."""
     z, lower, _ = limit
     return value.replace(
         lambda e: e.is_Pow and e.base.is_Add and e.exp.is_even and e.base.subs(z, lower).is_negative,
@@ -265,7 +270,7 @@ def _sum(terms: list[Expr]) -> Expr:
 
 
 def _with_power_bracket(part: Nested) -> Expr:
-    """An antiderivative: of c (p + q z)^n as one power, of any other integrand term by term."""
+    """The bracket of an antiderivative: one power for c (p + q z)^n, otherwise term by term."""
     z, lower, upper = part.innermost
     constant, rest = part.integrand.as_independent(z, as_Add=False)
     base, exponent = rest.as_base_exp()
@@ -278,7 +283,7 @@ def _with_power_bracket(part: Nested) -> Expr:
 
 
 def _mass_collected(region: Region, integrand: Expr, sign: int, rho: Expr, volume: Expr, is_sum: bool) -> list[Form]:
-    """13/3 (6 a^3 rho) a^2: the density and the volume brought together, ready to become the mass."""
+    """The lines that group density times volume, ready to become the mass: 13/3 (6 a^3 rho) a^2."""
     whole = region.with_section_put_in()
     value = tidied(Integral(integrand, *reversed(whole.limits)))
     if value == 0:

@@ -1,7 +1,7 @@
-"""Check that the points of a body are where their names say, by the limits of its region.
+"""Check that the named points of a body have the right positions, by the limits of its region.
 
-A corner is at an end of every coordinate, a rim on the outermost circle, the base at the middle of an end face, the
-apex at an end where the section shrinks to a point, and the centre at the result of integration.
+A corner is at a limit of every coordinate. A rim is on the outermost circle. The base is the middle of an end face. The
+apex is an end where the cross-section shrinks to a point. The centre is the centre of mass by integration.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from derive.steps.step import is_zero
 
 
 def is_where_named(body: Any, point: Point) -> bool:
-    """Whether a point is where its name says, and its axes are right-handed."""
+    """Whether a point has the position that its name implies, and its axes are orthonormal and right-handed."""
     upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
     if point.name == "centre":
         return upright and _is_centre(body, point.position)
@@ -28,7 +28,7 @@ def is_where_named(body: Any, point: Point) -> bool:
 
 
 def _is_corner(body: Any, region: Region, at: Any) -> bool:
-    """At a limit of each coordinate; coordinates without limits are zero."""
+    """Whether each coordinate is at one of its limits; a coordinate without limits must be zero."""
     limits = {x: ends for x, *ends in region.limits}
     return all(
         any(is_zero(place - end) for end in limits.get(x, [x])) for place, x in zip(at, region.position, strict=True)
@@ -58,7 +58,10 @@ def _is_base(body: Any, region: Region, at: Any) -> bool:
 
 
 def _is_on_rim(body: Any, region: Region, at: Any) -> bool:
-    """As far from the axis as any place of the body: the line element of a circle is also its radius."""
+    """Whether the point is on the outermost circle of a flat body.
+
+    For a hoop, whose only variable is the angle, the radius is the line element per angle.
+    """
     outermost = region.limits[-1][2] if len(region.limits) > 1 else region.element
     return is_zero(at[0] ** 2 + at[1] ** 2 - outermost**2) and is_zero(at[2] - region.position[2])
 

@@ -1,6 +1,6 @@
 """Position maps of bodies: the position as a formula in variables between limits, and the cell of these variables.
 
-The cell of a curve is |r_u| du, that of a surface |r_u x r_v| du dv, that of a solid r_u . (r_v x r_w) du dv dw.
+The cell is |r_u| du for a curve, |r_u x r_v| du dv for a surface, and r_u . (r_v x r_w) du dv dw for a solid.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Bounds, Point, Region, coordinates
 
-TRIES = 40  # draws of letters until limits are in order
-LOOKS = 6  # points at which the sign of a cell is evaluated
+TRIES = 40  # number of draws of values until the limits are in order
+LOOKS = 6  # number of points at which the sign of a cell is evaluated
 
 
 Map = tuple[ImmutableMatrix, Bounds]
@@ -28,9 +28,9 @@ ALL_ROUND, HALF_ROUND = (Integer(0), 2 * pi), (Integer(0), pi)
 
 
 def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent = ALL_ROUND) -> Map:
-    """Cylindrical coordinates: height, angle about the z axis and distance from the axis; a limit of r may depend on z.
+    """Cylindrical coordinates: height, angle about the z axis and distance from it; limits of r may depend on z.
 
-    taken   symbols that the variables cannot have
+    taken   symbols that are not available for the variables
     """
     variables = coordinates(("z", "theta", "r"), taken)
     if r == 0:
@@ -42,9 +42,10 @@ def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent =
 def spherical(
     taken: Collection[Symbol], r: Extent, theta: Extent = HALF_ROUND, phi: Extent = ALL_ROUND, by: Any = (1, 1, 1)
 ) -> Map:
-    """Spherical coordinates: distance from the origin, angle from the z axis, angle about it; scaled along each axis.
+    """Spherical coordinates: distance from the origin, angle from the z axis, angle about the z axis.
+    by      factors that scale the positions along x, y and z
 
-    taken   symbols that the variables cannot have
+    taken   symbols that are not available for the variables
     """
     (out, down, about), limits = _varied(coordinates(("r", "theta", "phi"), taken), (r, theta, phi))
     place = (sin(down) * cos(about), sin(down) * sin(about), cos(down))
@@ -54,14 +55,14 @@ def spherical(
 def cartesian(taken: Collection[Symbol], *ends: Extent) -> Map:
     """Cartesian coordinates x, y and z, each between two limits.
 
-    taken   symbols that the variables cannot have
+    taken   symbols that are not available for the variables
     """
     place, limits = _varied(coordinates("xyz", taken), ends)
     return column(*place), limits
 
 
 def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[Expr], Bounds]:
-    """Each coordinate as its variable or its constant value, with the limits of those that vary."""
+    """The coordinates, each a variable or a constant value, and the limits of the variables."""
     first = variables[0]
     place, limits = [], []
     for x, extent in zip(variables, extents, strict=True):
@@ -72,9 +73,10 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
 
 
 def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
-    """The region of a map, relative to a point; an independent length along an axis is measured from the point.
+    """The region of a map, with positions relative to a point.
 
-    weight   of a cell: its size, with the density up to a constant
+    A variable that is a length along an axis is measured from the point too, if nothing else depends on this variable.
+    weight   size of a cell, times the density up to a constant factor
     """
     seen = point.seen(position)
     names = {x for x, _, _ in limits}
@@ -97,9 +99,9 @@ def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: 
 
 @lru_cache(maxsize=256)
 def cell(position: ImmutableMatrix, limits: Bounds, positive: tuple[Expr, ...] = ()) -> Expr:
-    """The factor that makes the product of the variables' differentials a length, an area or a volume.
+    """The factor that turns the product of the differentials of the variables into a length, an area or a volume.
 
-    positive   sizes that are positive, whatever symbols they contain
+    positive   sizes that are taken to be positive for all values of their symbols
     """
     tangents = tangents_of(position, [x for x, _, _ in limits])
     known = (*limits, *((Dummy("size"), Integer(0), size) for size in positive))
@@ -111,18 +113,18 @@ def cell(position: ImmutableMatrix, limits: Bounds, positive: tuple[Expr, ...] =
 
 
 def tangents_of(position: ImmutableMatrix, names: Sequence[Symbol]) -> list[ImmutableMatrix]:
-    """r_u, r_v, r_w: how the position changes with each variable."""
+    """r_u, r_v, r_w: the derivatives of the position with respect to each variable."""
     return [ImmutableDenseMatrix([diff(x, u) for x in position]) for u in names]
 
 
 def _root_of(square: Expr, limits: Bounds) -> Expr:
-    """The root of a square, without absolute values of expressions that keep one sign between the limits."""
+    """The square root, without absolute values: each expression in them has one sign between the limits."""
     root = tidied(sqrt(factor(square)))
     return root.replace(Abs, lambda inside: _counted_positive(inside, limits))
 
 
 def _counted_positive(size: Expr, limits: Bounds) -> Expr:
-    """The size of a cell, made positive; an error if its sign is not the same everywhere."""
+    """The size of a cell with a positive sign; an error if the sign is not the same everywhere."""
     if size == 0:
         return size
     signs = {bool(size.xreplace(at).evalf() > 0) for at in inside(limits, size.free_symbols)}
@@ -136,7 +138,7 @@ def _counted_positive(size: Expr, limits: Bounds) -> Expr:
 
 
 def inside(limits: Bounds, others: Any = (), looks: int = LOOKS) -> Iterator[dict[Symbol, Expr]]:
-    """Values of the symbols and of the variables between their limits, in the order of the limits."""
+    """Random values of the symbols, and of the variables between their limits."""
     names = {x for x, _, _ in limits}
     letters = set(others) | {s for _, *ends in limits for end in ends for s in end.free_symbols}
     source = Random(len(letters))
@@ -150,7 +152,7 @@ def inside(limits: Bounds, others: Any = (), looks: int = LOOKS) -> Iterator[dic
 
 
 def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) -> dict[Symbol, Expr]:
-    """Values of the symbols for which no variable has its upper limit below the lower one."""
+    """Random values of the symbols for which each lower limit is below the upper limit."""
     for _ in range(TRIES):
         at: dict[Symbol, Expr] = {letter: Rational(source.randint(40, 160), 97) for letter in letters}
         known = dict(at)
@@ -167,7 +169,7 @@ def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) 
 
 
 def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) -> tuple[ImmutableMatrix, Bounds]:
-    """The position map as stored: real variables whose names no symbol has, limits that depend on earlier ones only.
+    """The position map as stored: with new real variables, and limits that depend only on outer variables.
 
     position   three formulas
     limits     variable -> (lower, upper), outermost first

@@ -1,4 +1,4 @@
-"""The position of a part in the body axes of the whole: a place for one of its points, a rotation, or a cavity."""
+"""Parts of a body: the place of one point of the part, its rotation, and whether the part is a cavity."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ NO_TURN = ImmutableDenseMatrix(eye(3))
 
 @dataclass(frozen=True)
 class PlacedPart:
-    """A body as a part of another.
+    """A body as a part of a larger body.
 
     body       the part
-    of         its point that keeps its place when the part is rotated
-    position   where that point is, in the body axes of the whole
-    turn       columns: the body axes of the part along those of the whole
+    of         the point of the part that stays fixed when the part is rotated
+    position   the place of this point, in the body axes of the whole
+    turn       rotation matrix; its columns are the body axes of the part along those of the whole
     sign       1, or -1 for a cavity
     """
 
@@ -42,12 +42,12 @@ class PlacedPart:
         return cls(body, body.reference, body.point(body.reference).position)
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """The same part with one of its points at a place, (x, y), (x, y, z) or a value of `point`."""
+        """Return the same part with one of its points at a place: (x, y), (x, y, z) or a value of `point`."""
         self.body.point(of)  # raises an error if the part has no such point
         return replace(self, position=place_of(*place), of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """The same part rotated right-handed by an angle about "x", "y" or "z" through its fixed point."""
+        """Return the same part, rotated right-handed by an angle about "x", "y" or "z" through its fixed point."""
         turn = turn_about(axis, angle)
         made = replace(self, turn=ImmutableDenseMatrix(turn * self.turn))
         if any(not is_zero(way) for way in turn.T * made.turn - self.turn):
@@ -64,7 +64,7 @@ class PlacedPart:
 
     @property
     def centre(self) -> ImmutableMatrix:
-        """Its centre of mass in the body axes of the whole."""
+        """The centre of mass of the part, in the body axes of the whole."""
         return self.seen(self.body.middle.position)
 
     @property
@@ -74,7 +74,10 @@ class PlacedPart:
 
     @property
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Its particles in place, of negative mass for a cavity; rotated and then shifted, as an independent check."""
+        """The particles of the part, in the body axes of the whole; those of a cavity have negative mass.
+
+        They are rotated and then shifted, independently of `seen`, so that they can check it.
+        """
         held = self.body.point(self.of).position
         shift = [self.position[i] - sum(self.turn[i, j] * held[j] for j in range(3)) for i in range(3)]
         turned = (
@@ -85,7 +88,7 @@ class PlacedPart:
 
 
 def place_of(*place: Any) -> ImmutableMatrix:
-    """A place along the axes of a body; two components are in the plane of x and y."""
+    """A place in body axes; with two components it is in the plane of x and y."""
     if len(place) == 1:
         inside = getattr(place[0], "components", place[0])
         place = tuple(inside) if isinstance(inside, tuple | list) else place
@@ -110,7 +113,7 @@ def turn_about(axis: Any, angle: Any) -> ImmutableMatrix:
 
 
 def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
-    """Each unit vector keeps its component along the axis, and the rest rotates: v cos + n x v sin."""
+    """Whether each unit vector rotates as v_parallel + v_perp cos(angle) + (n x v) sin(angle) about the axis n."""
     n = column(*(int(axis == other) for other in "xyz"))
     for k in range(3):
         v = column(*(int(k == i) for i in range(3)))
@@ -121,7 +124,7 @@ def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
 
 
 def name_of_body(called: str) -> str:
-    """Check that a name is one or two words; keys and indices derive from them."""
+    """Return the name, if it is one or two words of small letters; keys and indices derive from these words."""
     if not re.fullmatch(r"[a-z]+( [a-z]+)?", called):
         help_line = 'use one or two words of small letters, "upper rod"'
         raise Rejected(Complaint("name", f"`{called}` is not a name for a body", help=help_line))

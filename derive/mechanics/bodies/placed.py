@@ -1,8 +1,8 @@
-"""The position and orientation of a body: free, by its centre of mass, or held at one of its points.
+"""The position and orientation of a body. The position is that of the centre of mass, or of the point held fixed.
 
-In space its orientation is a set of axes; in a vertical plane it is an angle about the normal, counterclockwise from
-right to up. There the axis of the body perpendicular to the plane points to the reader, and the next two, in the order
-x, y, z, x, y, are along the axes of the plane at zero angle.
+The orientation in space is a set of axes. In a vertical plane it is an angle about the normal, positive
+counterclockwise, from right to up. The body axis perpendicular to the plane points to the reader; at zero angle the
+next two axes, in the cyclic order x, y, z, are along the axes of the plane.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ class PlacedBody:
     """A body in motion.
 
     body     an object with a mass, a centre of mass and an inertia about its points
-    turned   axes, or for a motion in a plane the angle
+    turned   the axes of the body; for a motion in a plane, the angle
     point    the point of the body whose place is known
-    at       that place
-    across   in a plane, the index of the body axis perpendicular to it
+    at       the place of this point
+    across   for a motion in a plane, the index of the body axis perpendicular to the plane
     """
 
     body: Any
@@ -50,7 +50,7 @@ class PlacedBody:
         return not isinstance(self.turned, Axes)
 
     def seen_in_space(self, arm: ImmutableMatrix) -> Location:
-        """A vector of the body, by its components along the axes of space or of the plane."""
+        """Convert a vector from body axes to the axes of space or of the plane."""
         if isinstance(self.turned, Axes):
             return Location(tuple(self.turned.in_space * arm))
         j, k = self.in_plane
@@ -64,7 +64,7 @@ class PlacedBody:
 
     @cached_property
     def centre(self) -> Location:
-        """The place of its centre of mass."""
+        """The place of the centre of mass."""
         arm = ImmutableDenseMatrix((self.body.middle.position - self.point.position).expand())
         return self.at + self.seen_in_space(arm) if any(arm) else self.at
 
@@ -84,7 +84,7 @@ class PlacedBody:
 
     @property
     def depends_on(self) -> ImmutableMatrix:
-        """All components of its position and its orientation."""
+        """All components of the position and the orientation of the body."""
         turning = list(self.turned.in_space) if isinstance(self.turned, Axes) else [self.turned]
         return ImmutableDenseMatrix([*self.at.components, *turning])
 
@@ -100,12 +100,12 @@ def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
 class Placeable:
     """A base class of bodies that can have a position and an orientation."""
 
-    id: ClassVar[str] = "body"  # its sort, in files and in phrases: "thick_shell"
-    name: ClassVar[str] = "a body"  # in messages, from its id
+    id: ClassVar[str] = "body"  # the sort of body, in files and in phrases: "thick_shell"
+    name: ClassVar[str] = "a body"  # the sort of body in messages, from the id
 
     @property
     def boundary(self) -> Boundary | None:
-        """Its boundary, for a drawing; none if it has parts, or if only its moments are known."""
+        """The boundary of the body, for a drawing; None if the body has parts, or if only its moments are known."""
         return None
 
     def __init_subclass__(cls) -> None:
@@ -113,15 +113,19 @@ class Placeable:
         cls.name = with_article(cls.id)
 
     def placed(self, turned: Any, centre: Location, across: str | None = None) -> PlacedBody:
-        """The body with its centre of mass at a place, oriented by axes, or in a plane by an angle.
+        """Return the body with its centre of mass at a place; axes give its orientation, in a plane an angle.
 
-        across   in a plane, the body axis perpendicular to it, if this is ambiguous
+        across   the body axis perpendicular to the plane of motion, if the choice is ambiguous
         """
         own: Any = self
         return _placed(own, turned, own.middle, centre, across)
 
     def held(self, turned: Any, at: Any, on: Location | None = None, across: str | None = None) -> PlacedBody:
-        """The body held at one of its points, by name or by components along its axes; at the origin by default."""
+        """Return the body held at one of its points.
+
+        at   the point, by its name or by components along the body axes
+        on   the place of this point, by default the origin
+        """
         own: Any = self
         by_name = getattr(own, "point_called", None) or own.point
         named = by_name(at) if isinstance(at, str) else _point_at(at)
@@ -164,14 +168,14 @@ def _check_turns(body: Any, number: int, angle: Expr) -> None:
     spread = central_second_moments(body)
     j, k = (number + 1) % 3, (number + 2) % 3
     if coordinates_in(angle) and tidied(spread[j, j] + spread[k, k]) == 0:
-        message = f"{body.name} has no moment of inertia about its {XYZ[number]} axis, so it cannot turn about that"
+        message = f"{body.name} has no moment of inertia about its {XYZ[number]} axis, so it cannot turn about it"
         raise Rejected(Complaint("wrong-axis", message, help="put another of its axes perpendicular to the plane"))
 
 
 def _check_flat(body: Any, number: int) -> None:
-    """A default axis must have no extent of the body along it, unless all axes of the body are equivalent."""
+    """Reject a default axis along which the body extends, unless all axes of the body are equivalent."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
-        message = f"{body.name} extends along its {XYZ[number]} axis, so that need not be perpendicular to the plane"
+        message = f"{body.name} extends along its {XYZ[number]} axis, so another axis may be perpendicular to the plane"
         raise Rejected(
             Complaint(
                 "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
@@ -180,7 +184,7 @@ def _check_flat(body: Any, number: int) -> None:
 
 
 def _across(body: Any, named: str | None) -> int:
-    """The index of the body axis perpendicular to the plane: the named axis, or the only sensible one."""
+    """The index of the body axis perpendicular to the plane: the named axis, or the only choice."""
     if named is not None and named not in tuple(XYZ):
         message = f'a body has no axis "{named}"'
         raise Rejected(Complaint("wrong-argument", message, help='it has "x", "y", "z"'))
@@ -203,7 +207,7 @@ def _is_isotropic(body: Any) -> bool:
 
 
 def central_second_moments(body: Any) -> ImmutableMatrix:
-    """The sums of m r_i r_j over the particles of a body, r from its centre of mass, kg m^2."""
+    """The sums of m r_i r_j over the particles of a body, kg m^2, with r measured from its centre of mass."""
     own = getattr(body, "central_second_moments", None)
     if own is not None:
         found: ImmutableMatrix = own

@@ -1,5 +1,5 @@
-"""Checks for impossible bodies: a hole outside of the body, parts that share a volume, a position map that covers
-places twice, a density that changes its sign, a negative mass or size.
+"""Checks for impossible bodies: a hole outside the body, parts that share a volume, a position map that covers places
+twice, a density that changes its sign, a negative mass or size.
 
 The checks are numerical: Newton's method on the position map of one part looks for points of another part. A body is
 rejected only if it is impossible for every draw of its symbols, or for the numbers of the problem.
@@ -22,8 +22,8 @@ from derive.mechanics.bodies.charts import CLOSE, Chart, Place, draws
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
-POINTS, TWINS = 40, 6  # points of a part, and pairs of values for a map
-APART = 1e-3  # fraction of a variable's range by which two values of it differ
+POINTS, TWINS = 40, 6  # number of points sampled in a part, and of places tested for being covered twice
+APART = 1e-3  # two values of a variable count as distinct if they differ by this fraction of its range
 
 
 def require_positive(body: str, role: str, value: Any) -> None:
@@ -35,7 +35,7 @@ def require_positive(body: str, role: str, value: Any) -> None:
 
 @dataclass(frozen=True)
 class Piece:
-    """A part of a body: its name, 1 or -1 for a cavity, its filling, and its position map."""
+    """A part of a body: its name, its sign (1, or -1 for a cavity), its filling, and its position map."""
 
     called: str
     sign: int
@@ -52,7 +52,7 @@ class Piece:
 
 
 def _pieces(parts: Sequence[Any], sign: int = 1) -> Iterator[Piece]:
-    """The parts that are not particles, including the parts of composite parts."""
+    """The parts except particles; a composite part is replaced by its own parts."""
     for part in parts:
         for piece in _pieces(part.body.parts, sign * part.sign) if hasattr(part.body, "parts") else _own(part, sign):
             if hasattr(part.body, "parts"):
@@ -67,27 +67,27 @@ def _own(part: Any, sign: int) -> Iterator[Piece]:
 
 
 def check_parts(parts: Sequence[Any]) -> None:
-    """Reject a hole that is not inside the body, and two parts that fill the same volume."""
+    """Reject a hole that is not inside the body, and two parts that share a volume."""
     pieces = list(_pieces(parts))
     filled = [piece for piece in pieces if piece.sign > 0]
     for hole in (piece for piece in pieces if piece.sign < 0):
         around = [piece for piece in filled if piece.filling == hole.filling]
         if _always([hole, *around], lambda charts: _outside(charts[0], charts[1:])):
-            message = f"`{hole.called}` is cut out of the body, but some of it lies outside of the body"
+            message = f"`{hole.called}` is cut out of the body, but a part of it is outside the body"
             raise Rejected(Complaint("no-such-body", message, help="a hole must be inside the rest of the body"))
     solid = [piece for piece in filled if piece.filling == "volume"]
     for i, one in enumerate(solid):
         for other in solid[:i]:
             if _always([one, other], lambda charts: _inside(charts[0], charts[1])):
-                message = f"`{other.called}` and `{one.called}` fill the same place"
+                message = f"`{other.called}` and `{one.called}` share a volume"
                 help_line = "cut one out of the other, or place them side by side"
                 raise Rejected(Complaint("no-such-body", message, help=help_line))
 
 
 def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Expr, negative_is_refused: bool) -> None:
-    """Reject a map that covers places twice, and a density that is negative somewhere in the body.
+    """Reject a map that covers places twice, and a density that changes its sign in the body.
 
-    negative_is_refused   whether a density that is negative everywhere is rejected too
+    negative_is_refused   whether to reject also a density that is negative everywhere
     """
     names = {x for x, _, _ in limits}
     letters = (position.free_symbols | density.free_symbols) - names
@@ -106,7 +106,7 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece], shown: Callable[[list[Chart]], bool]) -> bool:
-    """Whether the test is true for all draws of the symbols."""
+    """Whether a test is true for every draw of the symbols for which it can be evaluated, and for at least one."""
     found = False
     letters = {s for piece in pieces for s in piece.letters}
     for at in draws(letters, [piece.limits for piece in pieces]):
@@ -121,14 +121,14 @@ def _always(pieces: Sequence[Piece], shown: Callable[[list[Chart]], bool]) -> bo
 
 
 def _outside(hole: Chart, around: Sequence[Chart]) -> bool:
-    """Whether some point of the hole is in no part."""
+    """Whether at least two sampled points of the hole are in none of the parts."""
     points = [hole.place(*at) for at in hole.points(POINTS, Random(1))]
     outside = (point for point in points if all(next(chart.sought(point), None) is None for chart in around))
     return len(list(islice(outside, 2))) == 2
 
 
 def _inside(one: Chart, other: Chart) -> bool:
-    """Whether some point of one is inside the other, or the reverse."""
+    """Whether a sampled point of one part is inside the other part."""
     source = Random(2)
     for own, chart in ((one, other), (other, one)):
         if any(_strictly(chart, own.place(*at)) for at in own.points(POINTS, source)):
@@ -137,7 +137,7 @@ def _inside(one: Chart, other: Chart) -> bool:
 
 
 def _strictly(chart: Chart, point: Sequence[float]) -> bool:
-    """Whether a point is inside a body, not on its surface."""
+    """Whether a point is in the interior of a body, not on its surface."""
     return any(_is_between(chart, at) for at in chart.sought(point))
 
 
@@ -147,7 +147,7 @@ def _is_between(chart: Chart, at: Place) -> bool:
 
 
 def _covered_twice(chart: Chart) -> bool:
-    """Whether different values of the variables give the same place, for some of the sampled places."""
+    """Whether distinct values of the variables give the same place, for at least one sampled place."""
     try:
         return any(_has_twin(chart, at) for at in chart.points(TWINS, Random(3), margin=0.1))
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
@@ -163,7 +163,7 @@ def _has_twin(chart: Chart, at: Place) -> bool:
 
 
 def _signs(density: Expr, chart: Chart, at: Mapping[Symbol, Expr]) -> set[int]:
-    """The signs of a density within the body."""
+    """The signs of a density at sampled points of the body."""
     value = lambdify(chart.names, explicit(density).xreplace(dict(at)), "math")
     try:
         found = [value(*point) for point in chart.points(POINTS, Random(4))]

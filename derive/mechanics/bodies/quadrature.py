@@ -1,7 +1,7 @@
-"""Numerical integrals over a body, at values of its symbols: a second route to exact integrals.
+"""Numerical integrals over a body, for random values of its symbols: a second route to exact integrals.
 
-The cell is the root of det(r_i . r_j), from the scalar products of the edges, and each variable is integrated by
-Gauss's rule on x = m - h cos(pi t), which makes roots at the ends of an interval smooth.
+The cell is the square root of det(r_i . r_j), from the scalar products of the edges. For each variable x the integral
+is by Gauss's rule in t, with x = m - h cos(pi t): in t, square roots at the ends of the interval are smooth.
 Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 4.6.
 """
 
@@ -22,15 +22,15 @@ from derive.algebra.expressions import explicit
 from derive.mechanics.bodies.mapping import inside, letters_in_order
 from derive.mechanics.bodies.regions import Bounds
 
-LETTERS = 2  # values of the symbols that are tried
-NODES = {1: 60, 2: 28, 3: 20}  # for each variable, by the number of variables
+LETTERS = 2  # number of draws of the symbols
+NODES = {1: 60, 2: 28, 3: 20}  # number of variables -> number of nodes for each variable
 FIGURES = 7
-DIGITS = 36  # of precision in small differences
+DIGITS = 36  # working precision for small differences
 
 
 @lru_cache(maxsize=8)
 def _gauss(n: int) -> tuple[tuple[float, float], ...]:
-    """Places and weights between 0 and 1, the roots of Legendre's polynomial by Newton's method."""
+    """Nodes and weights of Gauss's rule on 0 to 1, from the roots of Legendre's polynomial by Newton's method."""
     found = []
     for k in range(n):
         x = cos(pi * (k + 0.75) / (n + 0.5))
@@ -48,7 +48,7 @@ def _gauss(n: int) -> tuple[tuple[float, float], ...]:
 
 
 def metric(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
-    """det(r_i . r_j): the square of the cell's length, area or volume."""
+    """det(r_i . r_j): the square of the length, area or volume of a cell."""
     edges = ImmutableDenseMatrix.hstack(*(ImmutableDenseMatrix(diff(position, u)) for u in names))
     return (edges.T * edges).det(method="berkowitz")
 
@@ -56,7 +56,7 @@ def metric(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
 def over_cells(
     position: ImmutableMatrix, limits: Bounds, values: Sequence[Expr], letters: Sequence[Symbol]
 ) -> Callable[[Mapping[Symbol, Expr]], list[float]]:
-    """The integrals of some functions of the variables over the body, as a function of what each letter is."""
+    """A function from values of the symbols to the integrals of the given functions over the body."""
     names = [x for x, _, _ in limits]
     ends = [lambdify([*letters, *names[:i]], both, "math") for i, (_, *both) in enumerate(limits)]
     integrand: Callable[..., list[float]] = lambdify(
@@ -89,9 +89,9 @@ def _entries(of: Any) -> list[Any]:
 
 
 def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bounds) -> Verdict:
-    """Whether an exact value, or each entry of a matrix, agrees with the sums over cells.
+    """Whether an exact value, or each entry of a matrix, agrees with a sum over cells.
 
-    integrands   one for each entry, functions of the variables and the symbols
+    integrands   a function of the variables and the symbols for each entry
     """
     entries, wanted = ([explicit(e) for e in _entries(those)] for those in (value, integrands))
     names = {x for x, _, _ in limits}
@@ -112,9 +112,9 @@ def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bound
 
 
 def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
-    """Whether a signed volume agrees with the volume that the edges of small cells span, including its sign.
+    """Whether a signed volume agrees, including the sign, with the volume that the edges of small cells span.
 
-    Nothing is differentiated: the edges lead from a point to its neighbours somewhere between the limits.
+    The edges are differences of positions, at random points between the limits: no formula is differentiated.
     """
     names = [x for x, _, _ in limits]
     value = explicit(found)
@@ -133,7 +133,7 @@ def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
 
 
 def _edge(place: Callable[..., Any], here: Sequence[Any], k: int) -> list[Any]:
-    """The edge from a point to its neighbour, per unit of the variable."""
+    """The edge along one variable, by a central difference, per unit of this variable."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     ends = ([x + turn * step * (i == k) for i, x in enumerate(here)] for turn in (1, -1))
     return [(one - other) / (2 * step) for one, other in zip(*(place(*end) for end in ends), strict=True)]

@@ -1,7 +1,7 @@
-"""Regions of space that bodies fill, and the coordinates for integrals over them.
+"""Regions of space that bodies fill, and the coordinates for integrals over these regions.
 
-A region contains its limits, the position in its coordinates, and the factor that turns products of differentials
-into volume (area, length): r for cylindrical coordinates.
+A region consists of limits, the position as a function of the coordinates, and the factor that turns a product of
+differentials into a volume, an area or a length: r for cylindrical coordinates.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from derive.steps.record import named_coordinates
 
 Bounds = tuple[tuple[Symbol, Expr, Expr], ...]
 
-OTHERS = {  # alternative names of a coordinate
+OTHERS = {  # coordinate -> alternative names
     "x": ("xi",),
     "y": ("eta",),
     "z": ("zeta",),
@@ -37,9 +37,9 @@ ALONG = ImmutableDenseMatrix(eye(3))  # the body's own axes
 
 @dataclass(frozen=True)
 class Point:
-    """A named point of a body, along the body axes, and the directions for positions measured from it.
+    """A named point of a body, in body axes, and the axes for positions measured from this point.
 
-    axes    columns: the unit vectors of x, y and z for positions from this point, along the body axes
+    axes    columns: the unit vectors of these axes, by components along the body axes
     """
 
     name: str
@@ -47,25 +47,25 @@ class Point:
     axes: ImmutableMatrix = ALONG
 
     def seen(self, place: ImmutableMatrix) -> ImmutableMatrix:
-        """A place of the body, relative to this point and along these axes."""
+        """A place of the body, relative to this point and along the axes of this point."""
         way = place - self.position
         return ImmutableDenseMatrix((way if self.axes == ALONG else self.axes.T * way).expand())
 
     def interval(self, lower: Expr, upper: Expr) -> tuple[Expr, Expr]:
-        """Limits along the body's z, converted to limits of z from this point."""
+        """Limits of z in body axes, converted to limits of z measured from this point."""
         ends = [self.seen(column(self.position[0], self.position[1], end))[2] for end in (lower, upper)]
         return (ends[0], ends[1]) if self.axes[2, 2] == 1 else (ends[1], ends[0])
 
     def along_body(self, z: Expr) -> Expr:
-        """The body's z of a point with a given z from this point."""
+        """A z measured from this point, converted to z in body axes."""
         return self.position[2] + self.axes[2, 2] * z
 
 
 @dataclass(frozen=True)
 class Region:
-    """Bounds, outermost first; the position of a point and the element of volume in the same coordinates.
+    """Limits, outermost first, with the position and the volume element in the same coordinates.
 
-    section     the name in the limits for the radius of a cross-section, and its value, if there is one
+    section     the symbol in the limits for the radius of a cross-section, and its value; None without such a symbol
     """
 
     limits: Bounds
@@ -79,7 +79,7 @@ class Region:
 
     @property
     def has_mirrors(self) -> bool:
-        """Whether it is between opposite limits of x, of y and of z, so the plane across each is a mirror plane."""
+        """Whether x, y and z each range between opposite constants, so that all coordinate planes are mirror planes."""
         names = self.names
         opposite = all(lower == -upper and not upper.has(*names) for _, lower, upper in self.limits)
         return opposite and all(x in (*names, 0) for x in self.position) and not self.element.has(*names)
@@ -89,17 +89,17 @@ class Region:
         return Integral(integrand * self.element, *reversed(self.limits))
 
     def mass_integral(self, integrand: Any, density: Expr) -> MassIntegral:
-        """The integral of f(r) dm, with f written in terms of the symbol r."""
+        """The unevaluated integral of f(r) dm, with f written in terms of the symbol r."""
         inward = [Tuple(*limit) for limit in reversed(self.limits)]
         whole: MassIntegral = MassIntegral(integrand, vector("r"), density, self.position, self.element, *inward)
         return whole
 
     def with_named_section(self, taken: Collection[Symbol], primed: str = "") -> Region:
-        """The same region in cylindrical coordinates: s is the distance from the axis, and r is its limit, if this
-        varies along the axis.
+        """The same region in cylindrical coordinates, with a symbol r for a radius that varies along the axis; the
+        distance from the axis, from 0 to r, is then s.
 
-        taken    symbols that neither can have
-        primed   the mark after r, if there is one
+        taken    symbols that are not available for r and s
+        primed   a mark to put after r
         """
         z, angle, (out, lower, upper) = self.limits
         if not upper.has(z[0]):
@@ -112,7 +112,7 @@ class Region:
         return Region((z, angle, (s, lower, r)), position, self.element.xreplace({out: s}), section=(r, upper))
 
     def with_section_put_in(self) -> Region:
-        """The same region, with the value of the cross-section's radius substituted in its limits."""
+        """The same region, with the value of the radius of the cross-section substituted in the limits."""
         if self.section is None:
             return self
         values = dict([self.section])
@@ -121,7 +121,7 @@ class Region:
 
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
-    """Names of coordinates that resemble no given symbol and no other coordinate: r, or else s."""
+    """Symbols for coordinates, distinct from all given symbols and from each other: r, or else s."""
     letters = {letter.name for letter in (*taken, *named_coordinates())}
     found: list[str] = []
     wanted = list(names)
@@ -134,9 +134,10 @@ def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]
 def round_by_chords(
     radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr], point: Point, primed: str = ""
 ) -> Region:
-    """All points within radius_at(z) of the body's z axis, z between two ends, by x, y and z from a point.
+    """All points within the distance radius_at(z) of the z axis of the body, by x, y and z measured from a point.
 
-    primed   the mark after the symbol of the radius, if there is one
+    ends     the limits of z in body axes
+    primed   a mark to put after the symbol of the radius
     """
     taken = {letter for end in ends for letter in end.free_symbols | radius_at(end).free_symbols}
     z, x, y = coordinates("zxy", taken)
@@ -151,7 +152,7 @@ def round_by_chords(
 
 
 def _check_sign(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr]) -> None:
-    """Require that the radius is not negative, since only then are the ends of a chord in order."""
+    """Reject a radius that may be negative at an end: the ends of a chord would be in the wrong order."""
     unsure = next((radius for radius in map(radius_at, ends) if not radius.is_nonnegative), None)
     if unsure is not None:
         message = f"the radius `{unsure}` may be negative, but Cartesian limits need a positive radius"

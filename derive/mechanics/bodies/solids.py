@@ -65,7 +65,7 @@ UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x, which re
 
 
 class RoundSolid(RoundBody):
-    """A body of all points within a given distance of a segment of the z axis, where the distance depends on z."""
+    """A solid of revolution: all points whose distance from the z axis is at most a function of z."""
 
     systems = ("cylindrical", "cartesian")
 
@@ -77,17 +77,17 @@ class RoundSolid(RoundBody):
         if not self.called or found.section is None:
             return found
         (r, edge), limits = found.section, found.limits
-        own = with_name(self.called, "r", r)[1]  # as its step names it
+        own = with_name(self.called, "r", r)[1]  # the symbol that the step for the radius has
         limits = tuple((x, low.xreplace({r: own}), up.xreplace({r: own})) for x, low, up in limits)
         return replace(found, limits=limits, section=(own, edge))
 
     def _primed(self, point: Point) -> str:
-        """A prime if z is measured from a point other than the origin of the body axes; the index of a named body."""
+        """The mark of the radius: a prime if z is not measured from the origin, and the index of a named body."""
         index = f"_{self.called.partition(' ')[0]}" if self.called else ""
         return index if point.name == self.reference else f"'{index}"
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
-        """Two expressions that are equal where (r, z), along the body axes, is on the edge of the body."""
+        """Two expressions that are equal if the point (r, z), in body axes, is on the edge of the body."""
         raise AttributeError(f"{type(self).__name__} must say where its edge is")
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
@@ -108,7 +108,7 @@ class Cone(Conical, RoundSolid):
     radius   of the base, length
     height   length
     mass     mass
-    Points: apex; base (its centre, from which z is measured towards the apex); centre.
+    Points: apex; base (the centre of the base; z measured from there is positive towards the apex); centre.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
 
@@ -127,10 +127,10 @@ class Cone(Conical, RoundSolid):
 
     def particles(self) -> Particles:
         """One twentieth of the mass at the apex, four fifths as a disc at three quarters of the height, and three
-        twentieths as a disc at the base; five particles for each disc.
+        twentieths as a disc at the base; each disc has five particles.
 
-        With weights 1, 16 and 3 of 20 the heights 0, 3/4 and 1 have the moments 1, 3/4 and 3/5 of a cone's slices,
-        whose masses grow as the square of the height.
+        The slices of a cone have masses proportional to z^2. With the height as unit, the means of 1, z and z^2 are 1,
+        3/4 and 3/5. The heights 0, 3/4 and 1 with the weights 1/20, 16/20 and 3/20 have the same means.
         """
         found = [(self.mass / 20, ORIGIN)]
         for share, height in ((Rational(4, 5), Rational(3, 4)), (Rational(3, 20), Integer(1))):
@@ -138,7 +138,7 @@ class Cone(Conical, RoundSolid):
         return found
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
-        """Apex, edge and rim are on a line, so the slopes are equal."""
+        """The apex, the point (r, z) and the rim are on one line: r/z = radius/height."""
         return r * self.height, self.radius * z
 
 
@@ -148,7 +148,7 @@ class Cylinder(Cylindrical, RoundSolid):
     radius   length
     height   length
     mass     mass
-    Points: base (its centre, at the origin), centre.
+    Points: base (the centre of the base, at the origin), centre.
     """
 
     id, reference = "cylinder", "base"
@@ -158,7 +158,7 @@ class Cylinder(Cylindrical, RoundSolid):
         return Factors(pi, self.radius**2, self.height)
 
     def particles(self) -> Particles:
-        """Discs spread evenly along z."""
+        """The particles of a disc, spread evenly along z."""
         return drawn_out(disc_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 
@@ -170,27 +170,27 @@ class Ball(Spherical, RoundSolid):
     """
 
     id = "ball"
-    part = Rational(4, 3)  # of the cube of the radius, times pi
+    part = Rational(4, 3)  # volume over pi radius^3
 
     @property
     def extent(self) -> Expr:
         return Factors(self.part, pi, self.radius**3)
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
-        """Pythagoras: the edge is at the distance R from the centre."""
+        """The edge is at the distance R from the centre, by Pythagoras's theorem."""
         return r**2 + z**2, self.radius**2
 
     def particles(self) -> Particles:
-        """A tenth of the mass at each end of three diameters, the rest at the centre: 2 (M/10) R^2 = M R^2/5."""
+        """A tenth of the mass at each end of three diameters, 2 (M/10) R^2 = M R^2/5; the rest at the centre."""
         return [(Rational(2, 5) * self.mass, ORIGIN), *on_diameters(Rational(3, 5) * self.mass, self.radius)]
 
 
 class Hemisphere(Ball):
-    """Half of a uniform ball, where z is positive; the centre of its base is at the origin.
+    """Half of a uniform ball, with z > 0; the centre of its base is at the origin.
 
     radius   length
     mass     mass
-    Points: base (its centre), centre.
+    Points: base (the centre of the base), centre.
     """
 
     id, reference = "hemisphere", "base"
@@ -202,7 +202,7 @@ class Hemisphere(Ball):
         return ZERO, self.radius
 
     def particles(self) -> Particles:
-        """Discs whose masses are proportional to the squares of their radii."""
+        """The particles of discs whose masses are proportional to the squares of their radii."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: self.radius**2 - z**2)
 
 
@@ -216,7 +216,7 @@ class Tube(Hollow):
     inner, outer   radii, lengths
     height         length
     mass           mass
-    Points: base (its centre, at the origin), centre.
+    Points: base (the centre of the base, at the origin), centre.
     """
 
     inner: Expr
@@ -238,7 +238,7 @@ class Tube(Hollow):
 
 @dataclass(frozen=True)
 class ThickShell(Hollow):
-    """A uniform ball about the origin with a hollow ball in its middle.
+    """A uniform ball about the origin with a concentric spherical cavity.
 
     inner, outer   radii, lengths
     mass           mass
@@ -261,12 +261,12 @@ class ThickShell(Hollow):
 
 
 class HalfCylinder(OfHeight):
-    """Half of a uniform cylinder about the z axis, where y is positive, from z = 0 to z = height.
+    """Half of a uniform cylinder about the z axis, with y > 0, from z = 0 to z = height.
 
     radius   length
     height   length
     mass     mass
-    Points: circle_centre (of the half-disc at the origin), centre.
+    Points: circle_centre (the centre of the circle at z = 0, the origin), centre.
     """
 
     id, reference, is_lopsided = "half_cylinder", "circle_centre", True
@@ -284,7 +284,7 @@ class HalfCylinder(OfHeight):
         return Extruded(HalfDisc(self.radius, self.mass).boundary)
 
     def particles(self) -> Particles:
-        """Half-discs spread evenly along z."""
+        """The particles of a half-disc, spread evenly along z."""
         return drawn_out(HalfDisc(self.radius, self.mass).particles(), (ZERO, self.height))
 
 
@@ -313,7 +313,7 @@ class Ellipsoid(Body):
         return Ellipsoidal(self.semi_axes)
 
     def particles(self) -> Particles:
-        """The particles of a ball of radius 1, scaled as the ball is."""
+        """The particles of a ball of radius 1, scaled along each axis."""
         return stretched(Ball(Integer(1), self.mass).particles(), self.semi_axes)
 
 
@@ -337,11 +337,11 @@ class Torus(Body):
 
     @property
     def extent(self) -> Expr:
-        """By Pappus, the area of the cross-section times the path length of its centre."""
+        """The volume by Pappus: the area of the cross-section times the path length of its centre."""
         return Factors(2, pi**2, self.radius, self.section**2)
 
     def map(self) -> Map:
-        """By the distance s from the middle of the cross-section, the angle round it, and the angle about the axis."""
+        """Variables: distance s from the middle of the cross-section, angle u round it, angle phi about z."""
         s, u, phi = coordinates(("s", "u", "phi"), self.letters)
         across = self.radius + s * cos(u)
         limits = ((s, ZERO, self.section), (u, ZERO, 2 * pi), (phi, ZERO, 2 * pi))
@@ -352,7 +352,7 @@ class Torus(Body):
         return Toroidal(self.radius, self.section)
 
     def particles(self) -> Particles:
-        """Rings through the five particles of the cross-section; the mass of each is proportional to its radius."""
+        """Rings through the five particles of the cross-section; their masses contain the ratio of their radii."""
         found: Particles = []
         for share, place in disc_of_particles(self.mass, self.section, ZERO):
             radius = self.radius + place[0]
@@ -374,7 +374,7 @@ def volume(body: Cone) -> Quantity:
     """Volume of a cone, V = integral of dV.
 
     body    radius R, height h
-    Second route: Pappus, the area of half its section times the path length of the centroid of that half.
+    Second route: Pappus, the area of half the axial section times the path length of the centroid of this half.
     Outcomes: cylindrical (the coordinates of the integral).
     Source: Apostol, *Calculus*, volume 2, section 11.18 (theorem of Pappus).
     """
@@ -397,7 +397,7 @@ def volume(body: Cone) -> Quantity:
 
 
 def _by_pappus(body: Cone) -> Expr:
-    """The triangle apex, centre of the base, rim has the area R h/2, its centroid the distance R/3 from the axis."""
+    """Pappus: the triangle of apex, centre of the base and rim has the area R h/2 and its centroid at r = R/3."""
     corners = [(Integer(0), Integer(0)), (Integer(0), body.height), (body.radius, body.height)]
     (r1, z1), (r2, z2), (r3, z3) = corners
     area = ((r2 - r1) * (z3 - z1) - (r3 - r1) * (z2 - z1)) / 2
@@ -405,7 +405,7 @@ def _by_pappus(body: Cone) -> Expr:
 
 
 def _is_of_a_ball(radius: Expr, along: Symbol) -> bool:
-    """r^2 + (z - c)^2 is constant: the cross-sections are those of a ball."""
+    """Whether r^2 + (z - c)^2 is constant for some c: the cross-sections are those of a ball."""
     return is_zero(diff(explicit(radius) ** 2, along, 2) + 2)
 
 
@@ -424,7 +424,7 @@ SECTION_RADIUS = Rule(
 
 
 def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
-    """The radius of the cross-section at z, measured from a point of the axis: R (h - z)/h, or sqrt(R^2 - z^2)."""
+    """The radius of the cross-section at z, with z measured from a point of the axis: R z/h, sqrt(R^2 - z^2)."""
     symbol, value = region.section or (None, None)
     z = region.names[0]
     polar = _polar_coordinates(region)
@@ -450,7 +450,7 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
 
 
 def _polar_coordinates(region: Region) -> dict[str, tuple[Expr, Expr]]:
-    """x = s cos theta and y = s sin theta, for a region in these coordinates."""
+    """x = s cos(theta) and y = s sin(theta), if the region is in cylindrical coordinates."""
     if region.element == 1:
         return {}
     _, theta, s = region.names

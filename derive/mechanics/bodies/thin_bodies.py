@@ -52,11 +52,11 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Rod(RoundBody):
-    """A thin uniform rod along z, from its end at the origin.
+    """A thin uniform rod along z, with one end at the origin.
 
     length   length
     mass     mass
-    Points: end, centre. Its moment about its axis is zero, since all of its mass is there.
+    Points: end, centre. All of the mass is on the axis of the rod, so the moment of inertia about this axis is zero.
     """
 
     length: Expr
@@ -79,7 +79,7 @@ class Rod(RoundBody):
 
 
 class _Flat(OfRadius, RoundBody):
-    """A flat body perpendicular to the z axis, as far as its radius."""
+    """A flat round body perpendicular to the z axis."""
 
     systems = ("cylindrical",)
 
@@ -113,7 +113,7 @@ class Hoop(_Flat):
 
 @dataclass(frozen=True)
 class Arc(Body):
-    """A thin uniform wire in the shape of a circular arc in the plane of x and y, which the x axis bisects.
+    """A thin uniform wire in the shape of a circular arc in the plane of x and y; the x axis bisects the arc.
 
     radius       length
     half_angle   from the x axis to either end, an angle up to pi: pi/2 for half a circle
@@ -143,8 +143,8 @@ class Arc(Body):
         return cylindrical(self.letters, ZERO, self.radius, (-self.half_angle, self.half_angle))
 
     def particles(self) -> Particles:
-        """With x ds = R dy, the first moment is R times the chord, and the second is R times the area between the arc
-        and the y axis, which is that of a sector and a triangle."""
+        """With x ds = R dy, the integral of x ds is R times the chord. The integral of x^2 ds is R times the area
+        between the arc and the y axis, which is the area of a sector plus that of a triangle."""
         R, alpha = self.radius, self.half_angle
         sector, triangle = alpha * R**2, R**2 * sin(alpha) * cos(alpha)
         along = self.mass * (sector + triangle) / (2 * alpha)
@@ -201,7 +201,7 @@ class Annulus(Hollow):
 
 
 class HalfDisc(OfRadius):
-    """Half of a thin uniform disc, in the plane of x and y where y is positive; its diameter is along x.
+    """Half of a thin uniform disc in the plane of x and y, with y > 0; its diameter is along x.
 
     radius   length
     mass     mass
@@ -220,14 +220,14 @@ class HalfDisc(OfRadius):
 
     @property
     def boundary(self) -> Rim:
-        """Its edge; half of the diameter shows its radius."""
+        """The edge of the half-disc; a drawing labels half of the diameter as the radius."""
         edge = super().boundary
         assert isinstance(edge, Rim)
         return replace(edge, radius=(column(-self.radius, 0, 0), ORIGIN, self.radius))
 
     def particles(self) -> Particles:
-        """By Pappus: revolved about its diameter it is a ball, 4/3 pi R^3 = 2 pi y_C (pi R^2/2). Its second moments
-        about the diameter and across it are those of a whole disc of the same mass."""
+        """By Pappus: revolved about its diameter, the half-disc forms a ball, so 4/3 pi R^3 = 2 pi y_C (pi R^2/2). The
+        second moments along x and y about the origin are those of a whole disc of the same mass."""
         square = self.mass * self.radius**2 / 4
         centre = column(0, Rational(4, 3) * self.radius / pi, 0)
         return from_moments(self.mass, centre, about_origin=(square, square, ZERO))
@@ -237,7 +237,7 @@ class HalfDisc(OfRadius):
 
 
 class SphericalShell(Spherical):
-    """A thin uniform shell of a sphere about the origin.
+    """A thin uniform spherical shell about the origin.
 
     radius   length
     mass     mass
@@ -253,16 +253,16 @@ class SphericalShell(Spherical):
         return spherical(self.letters, self.radius)
 
     def particles(self) -> Particles:
-        """Its moments about three diameters are equal and add up to twice M R^2."""
+        """The moments of inertia about three diameters are equal, and their sum is 2 M R^2."""
         return on_diameters(self.mass, self.radius)
 
 
 class HemisphericalShell(SphericalShell):
-    """Half of a thin uniform spherical shell, where z is positive; the centre of its rim is at the origin.
+    """Half of a thin uniform spherical shell, with z > 0; the centre of its rim is at the origin.
 
     radius   length
     mass     mass
-    Points: circle_centre (of its rim), centre.
+    Points: circle_centre (the centre of the rim), centre.
     """
 
     id, reference = "hemispherical_shell", "circle_centre"
@@ -280,17 +280,17 @@ class HemisphericalShell(SphericalShell):
         return spherical(self.letters, self.radius, (0, pi / 2))
 
     def particles(self) -> Particles:
-        """By Archimedes, slices of equal height have equal masses."""
+        """The particles of rings: by Archimedes, the mass per height is constant."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: Integer(1), ring_of_particles)
 
 
 class CylindricalShell(Cylindrical):
-    """A thin uniform shell of a cylinder without ends, about the z axis, from the origin to z = height.
+    """A thin uniform cylindrical shell without end faces, about the z axis, from z = 0 to z = height.
 
     radius   length
     height   length
     mass     mass
-    Points: circle_centre (of its lower rim), centre.
+    Points: circle_centre (the centre of the rim at z = 0), centre.
     """
 
     id, filling = "cylindrical_shell", "area"
@@ -301,14 +301,14 @@ class CylindricalShell(Cylindrical):
         return Factors(2, pi, self.radius, self.height)
 
     def particles(self) -> Particles:
-        """Rings spread evenly along z."""
+        """The particles of a ring, spread evenly along z."""
         return drawn_out(ring_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 
 class ConicalShell(Conical):
-    """The thin uniform side of a circular cone without its base, from its apex at the origin to z = height.
+    """A thin uniform conical shell without a base, from its apex at the origin to z = height.
 
-    radius   of its rim, length
+    radius   of the rim, length
     height   length
     mass     mass
     Points: tip (the apex), centre.
@@ -321,5 +321,5 @@ class ConicalShell(Conical):
         return Factors(pi, self.radius, sqrt(self.radius**2 + self.height**2))
 
     def particles(self) -> Particles:
-        """Rings whose masses are proportional to their radii."""
+        """The particles of rings whose masses are proportional to their radii."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: z, ring_of_particles)

@@ -1,4 +1,4 @@
-"""Predicates of the outcomes of impacts, and of the things that their sentences name."""
+"""Predicates of impacts: each decides whether an outcome, or a thing that its sentence names, is correct."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from derive.steps.step import is_zero
 
 
 def is_struck(wanted: bool) -> Predicate:
-    """Whether some impulse has power when the coordinate changes."""
+    """Whether (or, if not wanted, whether not) the power of the impulses depends on the rate of the coordinate."""
     return lambda facts: wanted != is_zero(explicit(facts.inputs["slope"]))
 
 
 def restitution(wanted: int | None) -> Predicate:
-    """Judge by the coefficient of restitution: 1 is elastic, 0 is together, and any other is a part of the speed."""
+    """Whether the coefficient of restitution e has the wanted value; None requires that e is neither 0 nor 1."""
 
     def is_so(facts: Judged) -> bool:
         part = facts.inputs["restitution"]
@@ -30,7 +30,7 @@ def restitution(wanted: int | None) -> Predicate:
 
 
 def momentum_of(facts: Judged, q: Any) -> bool:
-    """Whether each rate has the second derivative of T by q_dot and this rate as its factor in the jump."""
+    """Whether the factor of each rate s_dot in the jump is d^2 T/(dq_dot ds_dot), up to a common factor."""
     T, there = value_of_role(facts, "kinetic"), dict(facts.inputs["at"])
     moving = facts.quantities["kinetic"].coordinates
     inertia = {s: diff(T, rate(q), rate(s)).subs(there, simultaneous=True) for s in moving}
@@ -38,7 +38,7 @@ def momentum_of(facts: Judged, q: Any) -> bool:
 
 
 def impulse_of_its_condition(facts: Judged, letter: Any) -> bool:
-    """Whether each rate has the same factor in the power of the impulse and in the condition, up to a common factor."""
+    """Whether the rates have the same factors in the power of the impulse and in the condition, up to one factor."""
     power, left = diff(value_of_role(facts, "power"), letter), explicit(facts.result).left
     rates = power.free_symbols | left.free_symbols
     return parallel({v: diff(power, v) for v in rates}, {v: diff(left, v) for v in rates})

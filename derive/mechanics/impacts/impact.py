@@ -1,4 +1,4 @@
-"""An impact: the impulses on a system at one instant, its coordinates at that instant, and its rates before."""
+"""An impact: the impulses on a system at one instant, the coordinates at this instant, and the rates before it."""
 
 from __future__ import annotations
 
@@ -31,8 +31,13 @@ Vector = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Impulse:
-    """A given impulse at a place, N s; or on an angle, N m s. The law uses the components; a route reads the given ones
-    again, like the state of an impact. `of` is the body that it acts on, if this is stated."""
+    """A given impulse at a place, N s; or an angular impulse along an angle, N m s.
+
+    components   the components that the law uses
+    at           the components of the place, or the angle as the only component
+    of           the body on which the impulse acts; None if this is not stated
+    given        the components as the author gave them, for a second route
+    """
 
     components: Vector
     at: Vector
@@ -42,12 +47,13 @@ class Impulse:
 
 @dataclass(frozen=True)
 class Collision:
-    """Two places that meet, or one that meets an object at rest, if `start` is None.
-    along         the common normal, along which the impulse acts; by default the two stay together
-    restitution   the ratio of the speeds of separation and of approach
-    letter        of the impulse; if they stay together, each component has its axis as index
-    of            the bodies or particles of the start and of the end, if they are stated
-    given         normal and restitution as the author gave them, for a route
+    """A collision of two places; if `start` is None, the place `end` meets an object at rest.
+    along         the unit vector of the common normal, along which the impulse acts; if it is empty, the places stay
+    together
+    restitution   the ratio of the speed of separation to the speed of approach
+    letter        symbol of the impulse; if the places stay together, each component has its axis as an index
+    of            the body or particle of the start and that of the end, each None if not stated
+    given         normal and restitution as the author gave them, for a second route
     """
 
     start: Location | None
@@ -62,7 +68,7 @@ class Collision:
 def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
     """A given impulse, the integral of a force over the short time of an impact, at a place, N s.
 
-    of   the body or particle that it acts on at that place, if the place does not move with it
+    of   the body or particle on which the impulse acts, needed if the place does not move with this body or particle
     """
     if not isinstance(at, Location) or len(components) != len(at.components):
         message = "`impulse` needs a place, and as many components as the place has"
@@ -71,7 +77,7 @@ def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
 
 
 def angular_impulse(amount: Any, on: Any) -> Impulse:
-    """A given angular impulse, the integral of a torque over the short time of an impact, on an angle, N m s."""
+    """A given angular impulse along an angle, the integral of a torque over the short time of an impact, N m s."""
     if not coordinates_in(as_expr(on)):
         raise Rejected(Complaint("wrong-argument", f"`angular_impulse` needs a moving angle, but {on} does not move"))
     return Impulse((as_expr(amount),), (as_expr(on),), given=(amount,))
@@ -85,17 +91,18 @@ def collision(
     letter: str = "K",
     of: Any = None,
 ) -> Collision:
-    """A collision of two places, or of one with an object at rest: smooth along a normal, or they stay together.
-    start, end    the places; `start` is None if the other meets an object at rest
-    along         a vector along the common normal, from `start` to `end`, of any length; by default the two have the
-                  same velocity afterwards
-    restitution   1 if it is elastic, 0 if they do not separate; a number
-    letter        of the impulse, N s, which acts on the end, and with the opposite sign on the start
-    of            the body or particle of the end, or those of start and end, if a place does not move with it
+    """A collision of two places, or of one place with an object at rest: smooth along a normal, or they stay together.
+    start, end    the places; `start` is None if `end` meets an object at rest
+    along         a vector along the common normal, from `start` to `end`, of any length; by default both places have
+    the same velocity after the collision
+    restitution   coefficient of restitution: 1 for an elastic collision, 0 if the places do not separate
+    letter        symbol of the impulse, N s, which acts on the end; the opposite impulse acts on the start
+    of            the body or particle of the end, or a pair for start and end; needed if a place does not move with
+    its body or particle
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
-        raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, the other three"))
+        raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, the other has three"))
     normal = tuple(as_expr(c) for c in along)
     if normal and (len(normal) != size or all(c == 0 for c in normal)):
         message = f"`collision` needs {size} components as its normal, not all zero"
@@ -104,7 +111,7 @@ def collision(
     if not normal and part != 0:
         message = "a collision after which two places separate needs its normal"
         raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
-    if (part < 0) == True or (part > 1) == True:  # noqa: E712  which may be undecided
+    if (part < 0) == True or (part > 1) == True:  # noqa: E712  the relation may be undecided
         raise Rejected(
             Complaint("wrong-argument", f"a coefficient of restitution is between 0 and 1, but this is {part}")
         )
@@ -117,10 +124,10 @@ def collision(
 @dataclass(frozen=True)
 class Meeting:
     """One condition on the rates just after an impact, and the impulse that causes it.
-    gap          the quantity whose rate the condition fixes; for a condition in rates this rate itself
-    restitution  the ratio of this rate after and before, with the opposite sign
+    gap          the quantity whose rate the condition fixes; for a constraint on rates, this rate itself
+    restitution  minus the ratio of this rate just after the impact to the rate just before
     what         "together", "elastic", "rebound" or "kept"
-    ends         the two places of a collision, with the impulse on the second, and its direction as given
+    ends         the two places of a collision, and the direction of the impulse on the second one, as given
     given        the restitution as given
     """
 
@@ -142,7 +149,7 @@ class Meeting:
         return diff(self.gap, rate(q) if self.in_rates else q)
 
     def speed_by_time(self, moving: Sequence[Symbol]) -> Expr:
-        """Return the speed by the second route; for a collision from the velocities of its two places."""
+        """Return the rate of the gap by the second route; for a collision, from the velocities of the two places."""
         if self.in_rates:
             return self.gap
         if self.ends is None:
@@ -154,10 +161,10 @@ class Meeting:
 
 class Impact:
     """An impact on a system at one instant.
-    system   its particles and bodies; impulses keep the constraints that forces keep
+    system   the particles and bodies; a constraint that a force keeps is kept by an impulse
     acts     given impulses, and collisions
-    at       coordinate -> its value at that instant; other coordinates may have any value
-    before   coordinate -> its rate before; other rates are zero
+    at       coordinate -> its value at this instant; coordinates without a value remain general
+    before   coordinate -> its rate just before the impact, by default zero
     """
 
     def __init__(
@@ -194,11 +201,11 @@ class Impact:
         self.meetings += [self._kept(c) for c in system.constraints]
         letters = [m.letter for m in self.meetings]
         if len(set(letters)) < len(letters):
-            message = "two impulses of this impact have the same letter"
-            raise Rejected(Complaint("letter-clash", message, help="give each a letter, `impulse: K_2`"))
+            message = "two impulses of this impact have the same symbol"
+            raise Rejected(Complaint("letter-clash", message, help="give each impulse a symbol, `impulse: K_2`"))
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """Check that each impulse acts on a particle of a body; a place that moves with no body has no particle."""
+        """Require that the place of each impulse moves with a body or a particle, if the body is not stated."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):
@@ -209,11 +216,11 @@ class Impact:
         for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
             act, place = asked[i]
             message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: that place moves with no body"
-            help_line = "name the body whose particle it acts on, `of: rod`; of a collision both, `of: [ball, rod]`"
+            help_line = "name the body whose particle it acts on, `of: rod`; for a collision both, `of: [ball, rod]`"
             raise ActsOnNothing.of(act, Complaint("which-body", message, help=help_line))
 
     def _particle(self, of: Any, at: Vector) -> Vector:
-        """Return the place of the body's particle on which the impulse acts, as a function of the coordinates."""
+        """Return the place of the particle on which the impulse acts, as a function of the coordinates."""
         if of is None or len(at) < 2:
             return at
         point = material_point("impulse", of, Location(at))
@@ -226,7 +233,7 @@ class Impact:
 
     @property
     def described(self) -> Struck:
-        """Return the described parts for the witness."""
+        """Return the impact as described, for the witness."""
         acts = self.acts
         given = [plain.Force(a.components, a.at, self._number(a.of)) for a in acts if isinstance(a, Impulse)]
         meetings = [self._described_meeting(act) for act in acts if isinstance(act, Collision)]
@@ -251,7 +258,7 @@ class Impact:
     def _coordinate(self, q: Any) -> Symbol:
         symbol = q.symbol if isinstance(q, Coordinate) else q
         if symbol not in self.moving:
-            message = f"nothing in this `Impact` moves by {symbol}"
+            message = f"nothing in this `Impact` moves with {symbol}"
             raise Rejected(Complaint("wrong-argument", message))
         return symbol
 
@@ -260,7 +267,7 @@ class Impact:
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
-        """Return the value with the coordinates at which it is evaluated, as on the page; `holds` contains them."""
+        """Return the value as the page shows it, evaluated at those coordinates that `holds` contains."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)
@@ -271,7 +278,10 @@ class Impact:
         return self.there(value).xreplace(self.before)
 
     def read_again(self, value: Any, rates: bool = False) -> Expr:
-        """Return the value at the instant of the impact, with `rates` just before it, from the given state."""
+        """Return the value at the instant of the impact, from the state as the author gave it.
+
+        rates   whether to substitute the rates just before the impact too
+        """
         places, speeds = ({getattr(q, "symbol", q): at for q, at in given.items()} for given in self._given)
         found = explicit(value).subs(list(places.items()), simultaneous=True)
         if rates:
@@ -313,19 +323,19 @@ class Impact:
         as_given = tuple(c / size for c in as_given)
         one = self._meeting(gap, act.restitution, act.letter, what, (start, end, as_given), act.given[1])
         if one is None:
-            raise Rejected(Complaint("nothing-happens", "along the normal of this collision nothing moves"))
+            raise Rejected(Complaint("nothing-happens", "nothing moves along the normal of this collision"))
         if not self.impulses:
             self._check_approach(-self.earlier(TimeRate(gap, *self.moving)))
         return [one]
 
     def _check_approach(self, speed: Expr) -> None:
-        """Check that the two approach each other along the normal: surfaces can push but not pull."""
+        """Require that the two places approach each other along the normal: surfaces can push but not pull."""
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
-            message = "the two do not approach each other before this collision"
+            message = "the two places do not approach each other before this collision"
             raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
         if sign == -1:
-            message = "the two move apart before this collision, along its normal"
+            message = "the two places move apart before this collision, along its normal"
             help_line = "reverse the normal, which points from the first place to the second, or the rates `before` it"
             raise Rejected(Complaint("nothing-happens", message, help=help_line))
         if sign is None:
@@ -340,13 +350,13 @@ class Impact:
         ends: tuple[Vector, Vector, Vector],
         given: Any = 0,
     ) -> Meeting | None:
-        """Return the condition of a component; None if neither place moves in it."""
+        """Return the condition for one gap; None if the gap cannot change at this instant."""
         if is_zero(self.there(TimeRate(gap, *self.moving))):
             return None
         return Meeting(gap, restitution, unknown(letter, "momentum"), what, ends=ends, given=given)
 
     def _check_meet(self, way: Sequence[Expr], along: Vector) -> None:
-        """Check that two places meet: they are equal, or displaced along the normal, as for two balls."""
+        """Require that the two places coincide, or are displaced only along the normal, as the centres of two balls."""
         across = [way[i] * along[j] - way[j] * along[i] for i in range(len(way)) for j in range(i)] if along else way
         if not all(is_zero(c) for c in across):
             message = "the two places of this collision do not meet"
@@ -361,7 +371,7 @@ class Impact:
         return Meeting(c.residual, ZERO, letter, "kept", c.in_rates)
 
     def shares(self, q: Symbol) -> list[Expr]:
-        """Return J . dr/dq of each impulse, given or not."""
+        """Return the terms of the sum of J . dr/dq over all impulses, given and unknown."""
         pairs = [(j, c) for one in self.impulses for j, c in zip(one.components, one.at, strict=True) if j != 0]
         acting = [(j, c) for j, c in pairs if not is_zero(self.there(diff(c, q)))]
         found = [Factors(j, self.shown_there(Partial(c, q), diff(c, q))) for j, c in acting]
@@ -372,7 +382,7 @@ class Impact:
         return found
 
     def power(self) -> Expr:
-        """Return the sum of J . v, by the places as functions of the time and from the given state."""
+        """Return the sum of J . v by a second route: places as functions of time, and the state as given."""
         found = ZERO
         for one in self.impulses:
             for j, c in zip(one.given, one.at, strict=True):

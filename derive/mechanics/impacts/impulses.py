@@ -1,6 +1,6 @@
-"""Impacts: forces so great and so short that positions stay fixed and only the velocities jump.
-Lagrange's equations, integrated over the short time, give the jump of each momentum, p - p_before = sum of J . dr/dq:
-finite forces do not contribute. The rates in the results are those just after the impact.
+"""Impacts: forces so large and so short that positions stay fixed and only velocities jump.
+Lagrange's equations, integrated over the short time, give the jump of each momentum, p - p_before = sum of J . dr/dq.
+Finite forces do not contribute. The rates in the results are the rates just after the impact.
 """
 
 from __future__ import annotations
@@ -46,12 +46,13 @@ MOMENTUM_JUMP = Rule(
 
 
 def momentum_jump(impact: Impact, kinetic: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
-    """Jump of a momentum in an impact, dT/dq_dot - its value before = sum of J . dr/dq.
+    """Jump of a momentum in an impact, p - p_before = sum of J . dr/dq with p = dT/dq_dot.
 
     impact    the system, its state and the impulses
-    kinetic   its kinetic energy T, J, as `kinetic_energy_of` yields it
-    q         one of its coordinates
-    Second route: the sum of m (v - v_before) . dr/dq over mass points, and the slope of the power J . v in q_dot.
+    kinetic   the kinetic energy T of the system, J, from `kinetic_energy_of`
+    q         a coordinate of the system
+    Second route: p - p_before is the sum of m (v - v_before) . dr/dq over mass points, and the right side is the
+    derivative of the power J . v with respect to q_dot.
     Outcomes: struck, free (no impulse acts along q).
     Errors: q is not a coordinate of the impact.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz,
@@ -59,7 +60,7 @@ def momentum_jump(impact: Impact, kinetic: Quantity, q: Coordinate, key: str | N
     """
     symbol = q.symbol
     if symbol not in impact.moving:
-        raise Rejected(Complaint("wrong-argument", f"nothing in this `Impact` moves by {symbol.name}"))
+        raise Rejected(Complaint("wrong-argument", f"nothing in this `Impact` moves with {symbol.name}"))
     matter = kinetic.needed(Matter)
     momentum = explicit(Partial(kinetic.value, q.rate))
     before = tidied(impact.earlier(momentum))
@@ -115,11 +116,11 @@ MEETING_CONDITION = Rule(
 
 
 def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Quantity:
-    """Condition on the rates just after an impact, v = -e v_before, v the velocity of one place relative to another.
+    """Condition on the rates just after an impact, v = -e v_before, where v is a relative velocity of two places.
     impact   the system, its state and the collisions; e is the coefficient of restitution of the collision
-    number   the index of the condition, from 0; those of constraints come last
-    Check: the places as functions of the time, each coordinate by its Taylor series.
-    Outcomes: together (one velocity), elastic, rebound (with a part of the speed), kept (a constraint that remains).
+    number   the index of the condition, from 0; the conditions of constraints come last
+    Check: the velocities come from the places as functions of time, with each coordinate as its Taylor series.
+    Outcomes: together (equal velocities), elastic, rebound (0 < e < 1), kept (a constraint).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.5 and 4.14.
     """
     meeting = impact.meetings[number]
@@ -158,12 +159,12 @@ def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Qu
 
 
 def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[Quantity]) -> tuple[Quantity, ...]:
-    """Rates just after an impact, and the impulses that are not given, from the jumps of the momenta.
+    """Rates just after an impact, and the unknown impulses, from the jumps of the momenta.
 
     impact       the system, its state and the impulses
-    jumps        as `momentum_jump` yields them, one for each coordinate
-    conditions   as `meeting_condition` yields them, one for each impulse that is not given
-    Keys: q_dot_after, and the letter of each impulse.
+    jumps        the results of `momentum_jump`, one for each coordinate
+    conditions   the results of `meeting_condition`, one for each unknown impulse
+    Keys: q_dot_after, and the symbol of each impulse.
     Check: as `solved_for`.
     Errors: a jump or a condition is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2.
@@ -171,7 +172,7 @@ def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[
     count = len(impact.moving) + len(impact.meetings)
     if len(jumps) + len(conditions) != count:
         message = f"the unknowns of this impact need {count} equations, not {len(jumps) + len(conditions)}"
-        raise Rejected(Complaint("wrong-argument", message, help="a jump for each coordinate, and each condition"))
+        raise Rejected(Complaint("wrong-argument", message, help="give a jump for each coordinate, and each condition"))
     of = [jump.needed(OfCoordinate).coordinate for jump in jumps]
     letters = [each.letter for each in impact.meetings]
     keys = [*(f"{q.symbol.name}_dot_after" for q in of), *(letter.name for letter in letters)]
@@ -181,11 +182,11 @@ def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[
 def energy_after(
     impact: Impact, kinetic: Quantity, after: Sequence[Quantity], key: str = "kinetic_energy_after"
 ) -> Quantity:
-    """Kinetic energy just after an impact, of the system with its coordinates at that instant and the rates after it.
+    """Kinetic energy just after an impact: the coordinates and the rates just after the impact are substituted.
 
     impact    the system, its state and the impulses
-    kinetic   its kinetic energy T, J
-    after     the rates just after it, as `rates_after` yields them
+    kinetic   the kinetic energy T of the system, J
+    after     the rates just after the impact, from `rates_after`
     Check: as `put_in`.
     Source: none needed: substitution.
     """
@@ -206,12 +207,12 @@ WORK_OF_IMPULSES = Rule(
 def work_of_impulses(
     impact: Impact, energy: Quantity, after: Sequence[Quantity], symbol: str = "W", key: str = "work_of_impulses"
 ) -> Quantity:
-    """Work of an impact, the change of the kinetic energy, W = T - T_before.
+    """Work of the impulses in an impact, the change of the kinetic energy, W = T - T_before.
 
     impact   the system, its state and the impulses
-    energy   its kinetic energy T just after it, J, as `energy_after` yields it
-    after    the rates just after it and the impulses, as `rates_after` yields them
-    Second route: each impulse does the work J . (v + v_before)/2 at the place where it acts.
+    energy   the kinetic energy T just after the impact, J, from `energy_after`
+    after    the rates just after the impact and the unknown impulses, from `rates_after`
+    Second route: the work of each impulse is J . (v + v_before)/2, with the velocity of the place where it acts.
     Outcomes: zero (no energy is lost), lost, gained, generic.
     Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, section 346.
     """

@@ -1,4 +1,4 @@
-"""Predicates of kinematics: conditions under which an outcome, or a fact that its sentence names, is correct."""
+"""Predicates of kinematics: each decides whether an outcome, or a fact in its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ from derive.steps.rule import Judged, handed_on_by
 
 
 def of_its_coordinate(facts: Judged, fact: OfCoordinate) -> bool:
-    """The left side is a derivative by the fact's coordinate, or the rule's input names that coordinate."""
+    """Whether the fact names the coordinate of the result.
+
+    A partial derivative is with respect to this coordinate or its rate, an acceleration is that of this coordinate. For
+    other results, an input `coordinate` decides, if there is one.
+    """
     q, symbol = fact.coordinate.symbol, facts.symbol
     if isinstance(symbol, Partial):
         return symbol.args[1] in (q, rate(q))

@@ -1,7 +1,7 @@
 """Generalized coordinates, their rates, and the time derivatives of quantities that depend on them.
 
-A coordinate q and its rates q_dot and q_ddot are plain symbols, and `TimeRate` differentiates by the chain rule.
-Second routes replace q by its Taylor series about the instant t.
+A coordinate q and its rates q_dot and q_ddot are plain symbols. `TimeRate` differentiates by the chain rule. Second
+routes replace q by its Taylor series about the instant t.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Coordinate:
     """A generalized coordinate; in formulas it acts as its symbol: `l*sin(theta)`.
 
     symbol   the symbol of the coordinate
-    kind     `angle`, `length`, or another kind of quantity
+    kind     kind of quantity: `angle`, `length` and so on
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
 
@@ -104,14 +104,14 @@ class OfCoordinate(Fact):
 
 @dataclass(frozen=True)
 class AtOneMoment(Fact):
-    """Values at one instant are substituted for these coordinates or rates, so the rate of the quantity is unknown."""
+    """The coordinates or rates for which values at one instant are substituted: the quantity has no known rate."""
 
     missing = "holds at all times"
     fixed: tuple[Symbol, ...]
 
 
 def require_all_times(verb: str, quantity: Quantity) -> None:
-    """Reject a quantity that is known at one instant only, because a law needs its rate of change."""
+    """Reject a quantity that is known at one instant only; for a law that needs its rate of change."""
     known = quantity.fact(AtOneMoment)
     if known is not None:
         message = f"`{verb}`: `{quantity.key}` is known only for one value of {known.fixed[0].name}"
@@ -119,7 +119,7 @@ def require_all_times(verb: str, quantity: Quantity) -> None:
 
 
 def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordinate:
-    """Return a coordinate with this name, which is real; `positive` is for a distance, which cannot be negative."""
+    """Return a real coordinate with this name; `positive` is for a coordinate that cannot be negative, a distance."""
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
@@ -134,7 +134,7 @@ def euler_angles() -> tuple[Coordinate, Coordinate, Coordinate]:
 
 
 def letters_of(coordinates: Iterable[Coordinate]) -> dict[Symbol, str]:
-    """Return symbol -> kind for each coordinate, as steps store them."""
+    """Return a mapping from symbol to kind for these coordinates, as steps store it."""
     return {q.symbol: q.kind for q in coordinates}
 
 
@@ -149,7 +149,7 @@ def kind_of_rate(kind: str) -> str:
 
 
 def changing(expr: Any, coordinates: Iterable[Symbol]) -> Any:
-    """Replace every coordinate by a function of time, and its rates by the derivatives of this function."""
+    """Replace each coordinate by a function of time, and its rates by derivatives of this function."""
     replaced: dict[Any, Any] = {}
     for q in coordinates:
         f = Function(q.name)(T)
@@ -164,15 +164,15 @@ def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
         f = Function(q.name)(T)
         replaced.update({Derivative(f, (T, 3)): rate(q, 3), Derivative(f, (T, 2)): rate(q, 2)})
         replaced.update({Derivative(f, T): rate(q), f: q})
-    for derivative_or_function, name in replaced.items():  # in order from the highest derivatives
+    for derivative_or_function, name in replaced.items():  # from the highest derivatives down
         expr = expr.xreplace({derivative_or_function: name})
     return expr
 
 
 def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 1) -> Any:
-    """Differentiate `order` times with every coordinate a function of t: the second route to the result of `TimeRate`.
+    """Differentiate `order` times with respect to t, with coordinates as functions of t: a second route to `TimeRate`.
 
-    Each coordinate is its Taylor series about the instant t. If `expr` has no such series, SymPy differentiates.
+    Each coordinate is its Taylor series about the instant t. If `expr` has no Taylor series, SymPy differentiates it.
     """
     coordinates, expr = list(coordinates), explicit(expr)
     if isinstance(expr, MatrixBase):
@@ -185,7 +185,7 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
 
 @lru_cache(maxsize=64)  # all second routes of one system use the same coordinates
 def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
-    """Return the coefficients of q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; the same for each rate."""
+    """Return the coefficients of q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; likewise for each rate."""
     series: dict[Symbol, tuple[Expr, ...]] = {T: (T, Integer(1), *(Integer(0) for _ in RATES[2:]))}
     for q in coordinates:
         rates = [q, *(rate(q, n) for n in range(1, len(RATES)))]
@@ -206,7 +206,7 @@ RATE_OF = Rule(
     "rate", "the rate of change of a motion that `solution` found, or of another answer", quantity="rate: an answer"
 )
 def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
-    """Rate of change along the motion, dx/dt, by the chain rule: the sum of dx/dq q_dot.
+    """Rate of change along the motion by the chain rule, dx/dt = sum of dx/dq q_dot.
 
     quantity   a scalar x that depends on coordinates; the unit of the result is the unit of x per second
     Check: differentiate with each coordinate as its Taylor series in t.
@@ -253,11 +253,11 @@ def required(coordinates: Mapping[Symbol, str], q: Coordinate, verb: str, quanti
 
 
 def unknown(name: str, kind: str, positive: bool = False) -> Symbol:
-    """Return an unknown of the script, such as a tension, a constraint force or a height; it may change in time.
+    """Return an unknown of the script, such as a tension, a constraint force or a height; an unknown may vary in time.
 
-    name       the symbol of the unknown, whose value the problem does not give
+    name       the symbol of the unknown
     kind       the kind of quantity, such as "force"
-    positive   whether the unknown is positive, so only positive roots are valid
+    positive   whether the unknown is known to be positive, so that only positive roots are valid
     """
     if kind not in KINDS:
         message = f"`unknown`: there is no kind `{kind}`"

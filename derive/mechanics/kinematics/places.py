@@ -21,7 +21,7 @@ class Location:
     """A position, or a displacement between two positions: two components in a plane, or three in space, in m.
 
     components   along fixed axes; the last axis is upwards
-    found        pairs of the index of a component and the step that derived it, for the components that have a step
+    found        pairs (index, step) for the components that a step has derived
     """
 
     components: tuple[Expr, ...]
@@ -47,7 +47,7 @@ class Location:
     __rmul__ = __mul__
 
     def with_values(self, values: Any) -> Location:
-        """Return the position with values substituted for some symbols; the same object if nothing changes."""
+        """Return the position with values substituted for symbols; the same object if nothing changes."""
         moved = tuple(c.subs(values) for c in self.components)
         return self if moved == self.components else Location(moved)
 
@@ -67,7 +67,8 @@ class Location:
 def point(*components: Any) -> Location:
     """Return the position (x, y) in a vertical plane, with y upwards, or (x, y, z) in space, with z upwards, in m.
 
-    A component may be a step, such as a result of `components`; laws then show its symbol in heights and velocities.
+    A component may be a step, such as a result of `components`. Laws then show the symbol of this step in heights and
+    velocities.
     """
     if len(components) not in (2, 3):
         raise Rejected(Complaint("wrong-argument", f"`point` needs two components or three, not {len(components)}"))
@@ -85,8 +86,8 @@ X, Y, Z = point(1, 0, 0), point(0, 1, 0), point(0, 0, 1)
 class Axes:
     """Three perpendicular axes.
 
-    in_space   a rotation matrix, whose columns are the unit vectors of the axes along the fixed axes of space
-    turns      the rotations from the fixed axes to these axes, in order: the index of the rotation axis, and the angle
+    in_space   a rotation matrix; its columns are the unit vectors of these axes, by components along the fixed axes
+    turns      the rotations from the fixed axes to these axes, in order: pairs of the index of an axis and the angle
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4.
     """
 
@@ -94,7 +95,10 @@ class Axes:
     turns: tuple[tuple[int, Expr], ...] = ()
 
     def turned(self, about: Location, angle: Any) -> Axes:
-        """Return the axes rotated about one of themselves, X, Y or Z, by a coordinate, a constant angle or `rate*t`."""
+        """Return these axes after a rotation about one of them, X, Y or Z.
+
+        angle   a coordinate, a constant angle or `rate*t`
+        """
         if about not in (X, Y, Z):
             message = "`turned` rotates axes about one of them: X, Y or Z"
             raise Rejected(Complaint("wrong-argument", message))
@@ -104,7 +108,7 @@ class Axes:
         return turned
 
     def place(self, *components: Any) -> Location:
-        """Return the position with these three components along these axes, in m; all axes have the same origin."""
+        """Return the position with three given components along these axes, in m; all axes have the same origin."""
         along = point(*components)
         if len(along.components) != 3:
             raise Rejected(Complaint("wrong-argument", f"`place` needs three components, not {len(components)}"))

@@ -1,1 +1,1 @@
-"""A system of bodies: forces, constraints, and d'Alembert's principle, the ground of second routes."""
+"""A system of bodies: forces, constraints, and d'Alembert's principle, on which second routes are based."""

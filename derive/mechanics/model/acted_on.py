@@ -1,4 +1,4 @@
-"""Checks of a system: forces act on particles and have a reaction, and a force can keep each constraint."""
+"""Checks of a system: each force acts on a particle, each reaction has a body, a force can keep each constraint."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ WHERE_IT_ACTS: Mapping[str, str] = {
 
 
 class ActsOnNothing(Rejected):
-    """A part of a system that acts on no particle, or whose reaction acts on an unknown body."""
+    """The error for a part of a system that acts on no particle, or whose reaction acts on an unknown body."""
 
     part: Any = None
 
@@ -35,7 +35,7 @@ class ActsOnNothing(Rejected):
 
 
 class WithParts(Protocol):
-    """A system with the places at which its parts act: each part, its name, and the place."""
+    """The interface of a system that these checks use; `acting` has each part with its name and its place."""
 
     @property
     def described(self) -> Described: ...
@@ -50,7 +50,7 @@ class WithParts(Protocol):
 
 
 def check_what_is_acted_on(system: WithParts) -> None:
-    """Reject a place that moves with nothing, friction without a second body, and a constraint without a gradient."""
+    """Reject a place that moves with no particle, friction without a second body, a constraint without a gradient."""
     _check_particles(system)
     _check_gradients(system)
     _check_partners(system)
@@ -67,7 +67,7 @@ def _check_particles(system: WithParts) -> None:
 
 
 def check_ground(system: WithParts, ground: object) -> None:
-    """Require a place of the ground of a rolling body to move with a body, a particle or the ground."""
+    """Require the place that is given as the ground of a rolling body to move with a body or a particle, or to rest."""
     if isinstance(ground, Location) and places_that_move_alone(system.described.description, [ground.components]):
         where = ", ".join(map(str, ground.components))
         message = f"the place ({where}) of the ground moves with no body or particle of the system"
@@ -76,7 +76,7 @@ def check_ground(system: WithParts, ground: object) -> None:
 
 
 def _check_gradients(system: WithParts) -> None:
-    """A constraint force is along the gradient, which must not vanish wherever the constraint holds."""
+    """Reject a constraint whose gradient is zero wherever it holds: the constraint force is along this gradient."""
     for lost in conditions_that_nothing_keeps(system.described.description):
         part = next((each for each in system.constraints if each.force == lost.multiplier), None)
         message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can keep it"
@@ -85,7 +85,10 @@ def _check_gradients(system: WithParts) -> None:
 
 
 def _check_partners(system: WithParts) -> None:
-    """A force proportional to a constraint force acts between two bodies: the opposite force acts on the other body."""
+    """Require the second body of a force that contains a constraint force, such as friction.
+
+    The opposite force acts on this body. It need not be stated if there is one body, or if these forces add up to zero.
+    """
     letters: set[Symbol] = {each.force for each in system.constraints}
     touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]
     open_ = [f for f in touching if f.by is None]

@@ -1,4 +1,4 @@
-"""Predicates of models: conditions under which an outcome, or a fact that its sentence names, is correct."""
+"""Predicates of models: each decides whether an outcome, or a fact in its sentence, is correct."""
 
 from __future__ import annotations
 

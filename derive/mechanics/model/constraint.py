@@ -1,4 +1,4 @@
-"""Constraints on a motion, kept by forces: between coordinates, f(q, t) = c, or linear in their rates."""
+"""Constraints that forces keep: between coordinates, f(q, t) = c, or linear in the rates of coordinates."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class Constraint(Part):
-    """f = 0, kept by a force with the work lambda df; or a_1 q_1_dot + a_2 q_2_dot + ... + b = 0, kept by a force with
-    the work lambda (a_1 dq_1 + a_2 dq_2 + ...).
+    """A constraint f = c, kept by a force with the virtual work lambda df; or a_1 q_1_dot + a_2 q_2_dot + ... = c, kept
+    by a force with the virtual work lambda (a_1 dq_1 + a_2 dq_2 + ...).
 
-    left      f, or the sum
-    right     the other side, as written in the script
+    left      f, or the sum of rates
+    right     c, as written in the script
     force     the multiplier
-    in_rates  whether it is linear in the rates
+    in_rates  whether the constraint is linear in the rates
     """
 
     left: Expr
@@ -51,11 +51,11 @@ class Constraint(Part):
         return coordinates_in(self.residual)
 
     def along(self, q: Symbol) -> Expr:
-        """The derivative of the condition along a displacement of q: df/dq or a_q."""
+        """The change of the constraint per displacement of q: df/dq, or a_q."""
         return diff(self.residual, rate(q) if self.in_rates else q)
 
     def velocity(self, moving: list[Symbol]) -> Expr:
-        """The expression that vanishes for every allowed velocity."""
+        """An expression in the rates that vanishes for every allowed velocity."""
         return self.residual if self.in_rates else explicit(TimeRate(self.residual, *moving))
 
     def acceleration(self, moving: list[Symbol]) -> Expr:
@@ -73,7 +73,10 @@ class Constraint(Part):
 
     @property
     def kind_of_force(self) -> str | None:
-        """A force if f is a length, a torque if it is an angle, judged by its terms that are plain symbols."""
+        """The kind of the multiplier: a force if f is a length, a torque if f is an angle; None if this is unknown.
+
+        The first term of f that is a number times a coordinate decides.
+        """
         for term in Add.make_args(self.residual.expand()):
             for q, kind in self.coordinates.items():
                 if (term / (rate(q) if self.in_rates else q)).is_number:
@@ -85,16 +88,16 @@ class Constraint(Part):
 
 @dataclass(frozen=True)
 class Constrained(Fact):
-    """The constraints of a motion that forces keep."""
+    """The constraints that forces keep in a motion."""
 
     missing = "has no constraints kept by forces"
     constraints: tuple[Constraint, ...]
 
 
 def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Constraint:
-    """A constraint on coordinates, f = c, or linear in their rates, that a force keeps.
+    """A constraint f = c on coordinates or on their rates, which a force keeps.
 
-    condition   f, a formula of coordinates and time, or linear in the rates of coordinates
+    condition   f, a formula in coordinates and time, or a formula linear in the rates of coordinates
     equals      c
     force       the symbol of the multiplier: a force if f is a length
     """

@@ -1,8 +1,8 @@
-"""The mass points and forces of a Lagrangian, on which its second routes rest.
+"""The mass points and forces of a Lagrangian; second routes use them.
 
-A rigid body moves like a few mass points: one of the whole mass at the centre of mass, and for the rotation points on
-unit vectors fixed in the body, whose `masses` are second moments, in kg m^2. Kinetic energy, momenta and the virtual
-work of inertia and of forces then come only from positions, differentiated as functions of t.
+A rigid body is equivalent to a few mass points: one with the whole mass at the centre of mass, and further points for
+the rotation. Each further point is the end of a unit vector fixed in the body, and its `mass` is a second moment, in
+kg m^2. Kinetic energy, momenta and virtual work then come only from positions, differentiated as functions of t.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert's principle).
 """
@@ -27,7 +27,7 @@ Vector = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class MassPoint:
-    """A mass, in kg, at a place in space, in m; or a second moment, in kg m^2, on a unit vector."""
+    """A mass, in kg, at a place in space, in m; or a second moment, in kg m^2, at the end of a unit vector."""
 
     mass: Expr
     place: Vector
@@ -35,10 +35,10 @@ class MassPoint:
 
 @dataclass(frozen=True)
 class Load:
-    """A force, in N, at a place, in m; or a torque, in N m, on an angle.
+    """A force, in N, at a place, in m; or a torque, in N m, along an angle.
 
-    held   symbols in the place that are constant in every displacement, such as the position of a particle in its body,
-           with their values
+    held   pairs of a symbol in the place and its value; the symbol is constant in every displacement, such as the
+    position of a particle in its body
     """
 
     force: Vector
@@ -50,15 +50,15 @@ class Load:
         return _dot(self.force, self.slopes(q))
 
     def slopes(self, q: Symbol) -> Vector:
-        """dr/dq of the place of the force."""
+        """dr/dq, where r is the place of the force."""
         return tuple(c.xreplace(dict(self.held)) for c in _along(self.place, q))
 
 
 @dataclass(frozen=True)
 class MagneticForce:
-    """The force q v x B, N, on a charge in motion in a uniform magnetic field; in a plane B points to the reader.
+    """The force e v x B, N, on a charge e in a uniform magnetic field; for a motion in a plane, B points to the reader.
 
-    Its vector potential is A = (1/2) B x r, in T m.
+    The vector potential of the field is A = (1/2) B x r, in T m.
     """
 
     charge: Expr
@@ -71,7 +71,7 @@ class MagneticForce:
             raise Unverified(Complaint("unverified", message))
 
     def load(self, moving: Sequence[Symbol]) -> Load:
-        """The force by SymPy's vector product, which the potential does not use: so each checks the other."""
+        """The force, by SymPy's vector product, so independent of `vector_potential`."""
         v = _rates_of(self.place, tuple(moving), 1)
         velocity, field = (Matrix([*v, 0][:3]), Matrix([0, 0, *self.field] if len(v) == 2 else self.field))
         return Load(tuple(self.charge * c for c in list(velocity.cross(field))[: len(v)]), self.place)
@@ -85,13 +85,16 @@ class MagneticForce:
         return (by * z - bz * y) / 2, (bz * x - bx * z) / 2, (bx * y - by * x) / 2
 
     def momentum_along(self, q: Symbol) -> Expr:
-        """q A . dr/dq"""
+        """e A . dr/dq"""
         return self.charge * _dot(self.vector_potential, _along(self.place, q))
 
 
 @dataclass(frozen=True)
 class Reaction:
-    """The force of a constraint on rates: it does the work lambda a_q dq in a displacement."""
+    """The force of a constraint on rates; its virtual work is the sum of lambda a_q dq.
+
+    factors   pairs of q and a_q
+    """
 
     force: Symbol
     factors: tuple[tuple[Symbol, Expr], ...]
@@ -102,11 +105,11 @@ class Reaction:
 
 @dataclass(frozen=True)
 class Matter(Fact):
-    """Mass points and loads, and the coordinates of their places.
+    """Mass points and forces, and the coordinates that their places depend on.
 
     loads    the forces that have a potential energy
-    fields   the forces of magnetic fields, which have vector potentials in a Lagrangian
-    others   the forces without a potential energy: given forces, drag, and constraint forces
+    fields   the magnetic forces, which have a vector potential in the Lagrangian
+    others   the other forces without a potential energy: given forces, drag, and constraint forces
     """
 
     missing = "does not come from mass points and forces"
@@ -125,15 +128,15 @@ class Matter(Fact):
 
     @property
     def is_known(self) -> bool:
-        """Whether mass points, or forces with a potential energy, are known."""
+        """Whether any mass point, or any force with a potential energy, is known."""
         return bool(self.points or self.loads)
 
     def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
-        """Second routes, by names that show their basis."""
+        """The second routes by their names; a subclass changes the names to show what the routes are based on."""
         return dict(routes)
 
     def further_routes(self, q: Symbol) -> dict[str, Route]:
-        """Further routes to an equation of motion, apart from virtual work."""
+        """Further second routes to an equation of motion, in addition to virtual work; empty by default."""
         return {}
 
     @property
@@ -143,7 +146,7 @@ class Matter(Fact):
 
     @property
     def weights(self) -> set[Symbol]:
-        """The symbols in its masses."""
+        """The symbols in the masses of the mass points."""
         return {letter for point in self.points for letter in explicit(point.mass).free_symbols}
 
     def kinetic_energy(self) -> Expr:
@@ -151,19 +154,19 @@ class Matter(Fact):
         return sum((_dot(v, v) * m / 2 for m, _, v in self._moving(1)), Integer(0))
 
     def momentum_along(self, q: Symbol) -> Expr:
-        """The sum of m v . dr/dq, and of q A . dr/dq of charges in magnetic fields"""
+        """The sum of m v . dr/dq over mass points, plus the sum of e A . dr/dq over charges e in magnetic fields"""
         found = self.field_momentum_along(q)
         return sum((m * _dot(v, _along(r, q)) for m, r, v in self._moving(1)), found)
 
     def energy_in_fields(self) -> Expr:
-        """The sum of q v . A"""
+        """The sum of e v . A over charges e in magnetic fields"""
         found: Expr = Integer(0)
         for field in self.fields:
             found += field.charge * _dot(field.vector_potential, self._rates(field.place, 1))
         return found
 
     def field_momentum_along(self, q: Symbol) -> Expr:
-        """The sum of q A . dr/dq"""
+        """The sum of e A . dr/dq over charges e in magnetic fields"""
         return sum((field.momentum_along(q) for field in self.fields), Integer(0))
 
     def inertia_along(self, q: Symbol) -> Expr:
@@ -171,10 +174,9 @@ class Matter(Fact):
         return sum((m * _dot(a, _along(r, q)) for m, r, a in self._moving(2)), Integer(0))
 
     def turning_along(self, q: Symbol) -> Expr:
-        """The sum of m v . d(dr/dq)/dt, which is the derivative of T by q, plus the time derivative of the sum of
-        q A . dr/dq over charges in magnetic fields.
+        """The sum of m v . d(dr/dq)/dt, which is dT/dq, plus d/dt of the sum of e A . dr/dq over charges e.
 
-        This second term and `deflection_along` together are the derivative of the sum of q v . A by q.
+        The second term plus `deflection_along` is the derivative of the sum of e v . A with respect to q.
         """
         found: Expr = self._rates((self.field_momentum_along(q),), 1)[0] if self.fields else Integer(0)
         for m, r, v in self._moving(1):
@@ -186,11 +188,11 @@ class Matter(Fact):
         return self.stored_force_along(q) + self.deflection_along(q) + self.other_force_along(q)
 
     def other_force_along(self, q: Symbol) -> Expr:
-        """The virtual work of the forces without a term in the Lagrangian"""
+        """The virtual work of the forces that have no term in the Lagrangian"""
         return sum((load.work_along(q) for load in self.others), Integer(0))
 
     def deflection_along(self, q: Symbol) -> Expr:
-        """The virtual work of the forces q v x B"""
+        """The virtual work of the magnetic forces"""
         return sum((field.load(self.coordinates).work_along(q) for field in self.fields), Integer(0))
 
     def stored_force_along(self, q: Symbol) -> Expr:

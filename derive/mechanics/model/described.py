@@ -1,4 +1,4 @@
-"""Input of the witness for a system: its parts as described, before any constraint is used."""
+"""The input of the witness: the parts of a system as described, before any constraint is used."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ CONSERVED = "hamilton.conserved"  # the rule of conserved momenta
 
 @dataclass(frozen=True)
 class Described(Witness):
-    """The system of a quantity, as the witness sees it."""
+    """The described system to which a quantity belongs, for the witness."""
 
     missing = "does not belong to a described system"
     description: plain.Description
@@ -41,7 +41,7 @@ class Described(Witness):
 
 @dataclass(frozen=True)
 class Struck(Witness):
-    """The impact that a quantity follows from, as the witness sees it."""
+    """The described impact from which a quantity follows, for the witness."""
 
     missing = "does not follow from an impact"
     impact: plain.Impact
@@ -65,10 +65,10 @@ def described(
     coordinates: Mapping[Symbol, str],
     lagrangian: Expr | None = None,
 ) -> plain.Description:
-    """Particles, bodies and the forces on them; or a given Lagrangian with the forces along its coordinates.
+    """The description for the witness: particles, bodies and forces, or a given Lagrangian and forces.
 
-    bodies   those among the parts
-    known    coordinates that a condition expresses by others; the condition is kept as a constraint here
+    bodies   the bodies among the parts
+    known    coordinate -> its formula in other coordinates, by a condition; here the condition remains a constraint
     """
     found: dict[str, list[Any]] = {"conditions": [plain.Condition(q - function) for q, function in known.items()]}
     for part in parts:
@@ -84,7 +84,7 @@ def described(
 
 
 def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
-    """The indices of the places that move with no body or particle and not with the ground."""
+    """The indices of the places that move with no body, no particle and not with the ground."""
     moving = {q for q, _ in of.coordinates}
     asked = [i for i, place in enumerate(places) if any(explicit(c).free_symbols & moving for c in place)]
     if not asked or of.lagrangian is not None:
@@ -95,7 +95,7 @@ def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]
 
 
 def conditions_that_nothing_keeps(of: plain.Description) -> list[plain.Condition]:
-    """The constraints whose gradient vanishes wherever they hold."""
+    """The constraints whose gradient vanishes wherever the constraint holds."""
     if not any(each.multiplier is not None for each in of.conditions):
         return []
     from derive.witness.constraints import without_gradient

@@ -1,4 +1,4 @@
-"""Steps for long distances between two places of a system, each with a symbol."""
+"""Steps that name a distance between two places of a system by a symbol, if its formula is long."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ __all__: list[str] = []
 
 Lengths: TypeAlias = list[Quantity]
 
-LONG = 4  # a root of this number of terms is written only once
+LONG = 4  # a square root of this many terms, or more, has its own symbol
 LETTERS = ("s", "u", "w")
 
 
 def long_distances(system: System) -> Lengths:
-    """The lengths of springs, and other distances in potential energies, whose formulas are long."""
+    """The steps for the distances with long formulas in potential energies, such as lengths of springs."""
     long = [each for each in system.between if _is_long(each.length)]
     letter = next((each for each in LETTERS if not _is_taken(each, system)), LETTERS[0])
     names = [f"{letter}_{i}" for i in range(1, len(long) + 1)] if len(long) > 1 else [letter]
@@ -55,7 +55,7 @@ def _distance(system: System, each: Central, name: str) -> Quantity:
     """Distance between two places, s = sqrt((x_2 - x_1)^2 + (y_2 - y_1)^2 + ...), in m.
 
     Second route: the law of cosines, s^2 = r_1^2 + r_2^2 - 2 r_1 . r_2.
-    Outcomes: spring (the only one), springs, other (no spring).
+    Outcomes: spring (of the only spring), springs (of one of several springs), other (not of a spring).
     Source: Taylor, *Classical Mechanics*, section 1.2.
     """
     way = [c for c in (each.end - each.start).components if c != 0]

@@ -1,7 +1,7 @@
-"""Forces on a system other than its weight and its springs: given forces and torques, drag, charges in fields, and any
+"""Forces on a system other than weight and springs: given forces and torques, drag, charges in fields, and any
 potential energy of the coordinates.
 
-A couple on an angle, and a drag on a coordinate, act only along that coordinate; all other forces act at a place.
+A couple on an angle and drag on a coordinate act only along this coordinate. All other forces act at a place.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ ZERO = Integer(0)
 
 
 class _AtPlace(Part):
-    """A part that acts at a place, or along a coordinate.
+    """A force at a place, or along a coordinate.
 
-    at   the components of the place, or the coordinate alone
-    of   the body or particle that it acts on, if stated, or "massless"
+    at   the components of the place, or the coordinate as the only component
+    of   the body or particle on which the force acts, or "massless"; None if this is not stated
     """
 
     at: Vector
@@ -49,12 +49,12 @@ class _AtPlace(Part):
 
     @cached_property
     def point(self) -> MaterialPoint:
-        """The material point that it acts on."""
+        """The material point on which the force acts."""
         return material_point(self.verb, self.of, Location(self.at))
 
     @property
     def place(self) -> Vector:
-        """The place of action: on a body that place of it; on a particle the place of the particle."""
+        """The place of action: `at` for a body, and the place of the particle for a particle."""
         return self.at if self.point.held else self.point.place
 
     @property
@@ -68,10 +68,10 @@ class _AtPlace(Part):
 
 @dataclass(frozen=True)
 class GivenForce(_AtPlace):
-    """A force at a place, N; or along a coordinate the Q of its work Q dq: for an angle a torque, N m.
+    """A force at a place, N; or a generalized force Q along a coordinate q, with the work Q dq: a torque for an angle.
 
-    of   the body or particle that it acts on, if stated, or "massless"
-    by   the body or particle that exerts it, on which the opposite force acts, or "ground"
+    of   the body or particle on which the force acts, or "massless"; None if this is not stated
+    by   the body or particle that exerts the force, or "ground"; the opposite force acts on this body or particle
     """
 
     components: Vector
@@ -88,14 +88,14 @@ class GivenForce(_AtPlace):
 
     @property
     def opposite(self) -> GivenForce | None:
-        """The opposite force, on the body that exerts this one, at the same place."""
+        """The opposite force at the same place, on the body that exerts this force; None without such a body."""
         if self.by is None or self.by == GROUND:
             return None
         return GivenForce(tuple(-c for c in self.components), self.at, self.by, self.of)
 
     @property
     def pair(self) -> tuple[GivenForce, ...]:
-        """The force and its reaction, if there is one."""
+        """The force, and the opposite force if there is one."""
         return (self,) if self.opposite is None else (self, self.opposite)
 
     def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
@@ -107,7 +107,7 @@ class GivenForce(_AtPlace):
 
 @dataclass(frozen=True)
 class Damper(_AtPlace):
-    """A drag -c v against the velocity of a place, or the rate of a coordinate; `of` as for forces."""
+    """Drag -c v against the velocity v of a place, or -c q_dot along a coordinate; `of` as for forces."""
 
     constant: Expr
     at: Vector
@@ -130,7 +130,7 @@ class Damper(_AtPlace):
 
 @dataclass(frozen=True)
 class StoredEnergy(Part):
-    """A potential energy of the coordinates and time, J."""
+    """A potential energy as a function of the coordinates and time, J."""
 
     energy: Expr
 
@@ -145,27 +145,27 @@ class StoredEnergy(Part):
         return {"energies": [self.energy]}
 
     def stored_loads(self, moving: Sequence[Symbol]) -> list[Load]:
-        """The force -dU/dq along each coordinate; with time, the energy decreases at the rate -dU/dt."""
+        """The generalized force -dU/dq along each coordinate, and -dU/dt along t, the rate at which U decreases."""
         slopes = [(q, -diff(self.energy, q)) for q in (*moving, TIME)]
         return [Load((slope,), (q,)) for q, slope in slopes if slope != 0]
 
 
 @dataclass(frozen=True)
 class InUniformField(StoredEnergy):
-    """The energy of a charge in a uniform electric field; its force q E at a place is known independently."""
+    """The energy of a charge in a uniform electric field; the force q E does not come from this energy."""
 
     force: Vector
     at: Vector
 
     def stored_loads(self, moving: Sequence[Symbol]) -> list[Load]:
-        """The force; and as the field changes, the energy decreases at the rate (dF/dt) . r."""
+        """The force F, and (dF/dt) . r along t, the rate at which the energy decreases if the field changes."""
         changes = Add(*(diff(f, TIME) * c for f, c in zip(self.force, self.at, strict=True)))
         return [Load(self.force, self.at), *([Load((changes,), (TIME,))] if changes != 0 else [])]
 
 
 @dataclass(frozen=True)
 class Charge(Part):
-    """A charge in uniform fields: the force q(E + v x B)."""
+    """A charge in uniform fields, with the force q (E + v x B)."""
 
     charge: Expr
     at: Location
@@ -217,21 +217,22 @@ def _place(verb: str, at: Any) -> Location:
 
 
 def force(components: Any, at: Location, of: Any = None, by: Any = None) -> GivenForce:
-    """A given force at a place, N: constants, formulas of the coordinates, or of the time t.
+    """A given force at a place, N; its components are constants, or formulas in the coordinates and the time t.
 
-    of   the body or particle that it acts on, if the place does not move with it; "massless" for a part without mass
-    by   the body or particle that exerts it, on which the opposite force acts; or "ground"
+    of   the body or particle on which the force acts, needed if the place does not move with this body; or "massless"
+    for a part without mass
+    by   the body or particle that exerts the force, or "ground"; the opposite force acts on this body or particle
     """
     place = _place("force", at)
     found = GivenForce(_vector("force", "components", components, len(place.components)), place.components, of, by)
     for each in (found, found.opposite):
         if each is not None:
-            each.load(())  # raises an error if nothing can be acted on
+            each.load(())  # raises an error if `of` is not a body or particle
     return found
 
 
 def couple(torque: Any, on: Any) -> GivenForce:
-    """A given torque along an angle, N m; the angle is a coordinate, or a formula of coordinates."""
+    """A given torque along an angle, N m; the angle is a coordinate, or a formula in coordinates."""
     along = as_expr(on)
     if not coordinates_in(along):
         raise Rejected(Complaint("wrong-argument", f"`couple` needs an angle that varies, but {along} is constant"))
@@ -239,14 +240,14 @@ def couple(torque: Any, on: Any) -> GivenForce:
 
 
 def damping(constant: Any, at: Any, of: Any = None) -> Damper:
-    """A drag against the velocity of a place, -c v with c in kg/s, or of a coordinate, -c q_dot.
+    """Drag against the velocity of a place, -c v with c in kg/s, or against the rate of a coordinate, -c q_dot.
 
-    of   the body or particle whose particle at that place it acts on, if the place does not move with it
+    of   the body or particle on which the drag acts at this place, needed if the place does not move with this body
     """
     require_constant("damping", "constant", constant)
     if isinstance(at, Location):
         found = Damper(constant, at.components, of)
-        found.load(())  # raises an error if nothing can be acted on
+        found.load(())  # raises an error if `of` is not a body or particle
         return found
     if not isinstance(at, Coordinate | Expr) or not coordinates_in(as_expr(at)):
         message = "`damping` acts against the velocity of a place or against the rate of a coordinate"
@@ -255,7 +256,7 @@ def damping(constant: Any, at: Any, of: Any = None) -> Damper:
 
 
 def potential(energy: Any) -> StoredEnergy:
-    """A potential energy of the coordinates, J, and of time for a driven system."""
+    """A potential energy as a function of the coordinates, and of time for a driven system, J."""
     given: Expr = explicit(as_expr(energy))
     moving = coordinates_in(given)
     fast = [q for q in moving if given.has(rate(q), rate(q, 2))]
@@ -270,8 +271,8 @@ def potential(energy: Any) -> StoredEnergy:
 def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
     """A charge, C, at a place in a uniform electric field E, V/m, and a uniform magnetic field B, T.
 
-    E   as many components as the place
-    B   three components; in a plane only the perpendicular one, towards the reader
+    E   as many components as the place has
+    B   three components; for a place in a plane, the single component perpendicular to the plane, towards the reader
     """
     place = _place("charge", at)
     count = len(place.components)

@@ -1,7 +1,8 @@
-"""The factor between a multiplier and its force: the length of the gradient of its condition in space.
+"""The factor between a multiplier and the constraint force: the length of the gradient of the condition in space.
 
-A multiplier lambda does the work lambda df. If the gradient of f has the length 1 on the only particle, lambda is the
-magnitude of the force; otherwise the force on a particle is lambda times that gradient.
+For a condition f = c with the multiplier lambda, the virtual work of the constraint force is lambda df, so the force on
+a particle is lambda times the gradient of f. If there is only one particle and this gradient has the length 1, lambda
+is the magnitude of the force.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4; Lanczos, *The Variational Principles of Mechanics*,
 section III.2.
@@ -20,8 +21,11 @@ from derive.steps.step import Quantity
 
 
 def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
-    """The length of a condition's gradient by the place of a single particle whose coordinates leave it free to move;
-    None for several particles, for bodies, or for a condition on rates."""
+    """The length of the gradient of a condition with respect to the position of a single particle.
+
+    The coordinates must allow every displacement of this particle. None otherwise, and for several particles, for
+    bodies, and for a condition on rates.
+    """
     described = next((known for q in lagrangian.ancestors() if (known := q.fact(Described)) is not None), None)
     description = described.description if described is not None else None
     if description is None or description.bodies or len(description.particles) != 1 or kept.in_rates:
@@ -41,7 +45,7 @@ def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
 
 
 def _where_kept(square: Expr, kept: Constraint) -> Expr:
-    """4 l^2, not 4 x^2 + 4 y^2, for the condition x^2 + y^2 = l^2."""
+    """Simplify a square by the condition: 4 l^2, not 4 x^2 + 4 y^2, for the condition x^2 + y^2 = l^2."""
     moving = list(kept.coordinates)
     divided, condition = square.as_poly(*moving), kept.residual.as_poly(*moving)
     if divided is None or condition is None or divided.total_degree() < condition.total_degree():

@@ -31,11 +31,11 @@ INTEGRATED = Rule(
 
 
 def integrated(condition: Quantity, key: str | None = None) -> Quantity:
-    """A condition on rates with constant factors, integrated: s = R theta from s_dot = R theta_dot.
+    """Integral of a condition on rates with constant factors: s = R theta from s_dot = R theta_dot.
 
-    condition   from `no_slip`, if it expresses one rate by others with constant factors
-    The origin of the coordinates is where all of them are zero.
-    Check: its time derivative is the condition again; and all coordinates are zero together.
+    condition   from `no_slip`; it must express one rate as a linear combination of other rates with constant factors
+    The constant of integration is zero: all coordinates are zero at the same position.
+    Check: the time derivative of the result is the condition, and all coordinates are zero together.
     Errors: the condition cannot be integrated.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
@@ -65,14 +65,14 @@ def integrated(condition: Quantity, key: str | None = None) -> Quantity:
 
 
 def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence[str] = ()) -> tuple[Quantity, ...]:
-    """The components of a place, or of the centre of mass of a body, with conditions of rolling substituted.
+    """Components of a place, or of the centre of mass of a body, with conditions of rolling substituted.
 
     of           a body that is placed or held, or a place, m
-    conditions   from `no_slip`: the coordinates that they express by others are substituted
-    names        of the components, which are their keys; by default x, y and z, the last of them upwards
-    A `point` with these components appears by their symbols in speeds and energies.
-    Check: the velocity, with the conditions for the rates substituted, is that of the result; the same for the place
-    where all coordinates are zero.
+    conditions   from `no_slip`; a coordinate that a condition expresses by others is replaced by this expression
+    names        names of the components, also their keys; by default x, y, or x, y, z, the last one upwards
+    For a `point` with these components, speeds and energies contain the symbols of the components.
+    Check: the velocity with the conditions for the rates substituted is the time derivative of the result; and with all
+    coordinates zero, the result is the original component.
     Outcomes: centre (of a body), place.
     Errors: a condition cannot be integrated; the numbers of names and components differ.
     Source: Taylor, *Classical Mechanics*, section 7.3.
@@ -98,7 +98,7 @@ COMPONENT = Rule(
 def _component(
     body: PlacedBody | None, component: Expr, i: int, conditions: Mapping[str, Quantity], name: str
 ) -> Quantity:
-    """One component.
+    """Component of a place or of a centre of mass.
 
     Outcomes: centre, place.
     Source: that of `components`.

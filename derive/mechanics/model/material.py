@@ -1,7 +1,7 @@
-"""Material points: the particle of a body at a place, and its motion.
+"""Material points: the particle of a body that is at a given place, and the motion of this particle.
 
-A place in space may move differently from every particle, such as the contact point of a sliding ball. A force on a
-body acts on the particle at that place.
+A place in space may move differently from every particle, such as the point of contact of a sliding ball. A force on a
+body acts on the particle that is at this place.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ GROUND, MASSLESS = "ground", "massless"
 
 @dataclass(frozen=True)
 class MaterialPoint:
-    """A particle: its place, in terms of symbols for its position in its body, with the values of these symbols.
+    """A particle of a body: its place as a formula in symbols for its constant position in the body.
 
     place   to be differentiated with these symbols constant
-    held    symbol -> its value, to be substituted afterwards
+    held    pairs of a symbol and its value, to be substituted after differentiation
     """
 
     place: Vector
@@ -38,7 +38,7 @@ class MaterialPoint:
 
 
 def particle_of(body: PlacedBody, at: Location) -> MaterialPoint:
-    """The particle of a rigid body at a place: r(q) + R(q) rho with constant rho = R^T (r_place - r)."""
+    """The particle of a rigid body at a place: its path is r(q) + R(q) rho with constant rho = R^T (r_place - r)."""
     arm = ImmutableDenseMatrix((at - body.at).components)
     names = [stand_in(f"rho_{i}") for i in range(len(arm))]
     turn = body.turned.in_space if isinstance(body.turned, Axes) else after(((2, body.turned),))[:2, :2]
@@ -48,16 +48,17 @@ def particle_of(body: PlacedBody, at: Location) -> MaterialPoint:
 
 
 def at_rest_in(axes: Axes, at: Location) -> MaterialPoint:
-    """The particle of a surface that is at rest in these axes, such as a turntable, at a place."""
+    """The particle at a place of a surface, such as a turntable, that is at rest in the given axes."""
     arm = axes.in_space.T * ImmutableDenseMatrix(at.components)
     names = [stand_in(f"rho_{i}") for i in range(len(arm))]
     return MaterialPoint(tuple(axes.in_space * ImmutableDenseMatrix(names)), tuple(zip(names, arm, strict=True)))
 
 
 def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
-    """The material point at a place: the particle of a body, a given particle, or the place itself.
+    """The material point on which a force at a place acts.
 
-    of   a placed body; a particle, wherever it is; "massless" for a part without mass that moves with the place
+    of   a placed body: its particle at this place; a particle: this particle, wherever it is; None or "massless": a
+    point that moves with the place
     """
     if of is None or of == MASSLESS:
         return MaterialPoint(at.components)

@@ -1,4 +1,4 @@
-"""Rolling without slipping: the particle of a body that touches a surface has the velocity of the surface there."""
+"""Rolling without slipping: the particle of the body at the contact has the velocity of the surface there."""
 
 from __future__ import annotations
 
@@ -42,16 +42,16 @@ def no_slip(
 ) -> Quantity | tuple[Quantity, ...]:
     """Condition of rolling without slipping, v + omega x (r_contact - r) = 0, solved for a rate.
 
-    body     a body that is placed or held; v is the velocity of the point r of the body whose place is given
-    at       the place where it touches the surface, m
-    ground   a place of the surface, if the surface moves without rotation, or the axes in which the surface is at rest,
-             for example for a turntable; by default the surface is at rest
-    fixes    the coordinate whose rate is isolated, if possible; by default that of the last rotation of the body
-    The result is one condition for each rate that it fixes. As a part of a `System`, a condition expresses a coordinate
-    by others, if it can be integrated.
-    Second route: the position in the body of the particle at the contact is held constant and differentiated; the
-    condition follows from the vanishing velocity of this particle, and is not stronger.
-    Errors: the body is always at rest there, or cannot roll.
+    body     a body that is placed or held; r is the place of its given point, and v the velocity of this point
+    at       the place where the body touches the surface, m
+    ground   a place on the surface, if the surface moves without rotation; or the axes in which the surface is at rest,
+    for example those of a turntable; by default the surface is at rest in space
+    fixes    the coordinate whose rate to isolate, if possible; by default the coordinate of the last rotation
+    There is one condition for each rate that can be isolated. A condition that can be integrated may be a part of a
+    `System`, and then expresses a coordinate by others.
+    Second route: the path of the particle at the contact, whose position in the body is constant, is differentiated.
+    With all conditions its velocity vanishes, and each condition follows from this vanishing velocity.
+    Errors: the particle at the contact is always at rest, or the body cannot roll.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
     found: dict[Symbol, Quantity] = {}
@@ -64,7 +64,7 @@ def no_slip(
 def rolling_constraint(
     body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
-    """The conditions of rolling, each kept by a force: F, or F_1, F_2 for several conditions."""
+    """Conditions of rolling as constraints, each kept by a force: F, or F_1 and F_2 for two conditions."""
     conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
     _check_against_particle(body, at, ground, conditions)
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
@@ -74,10 +74,10 @@ def rolling_constraint(
 
 
 def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr]:
-    """The components of the slip velocity along perpendicular directions: friction has the same components.
+    """The components of the slip velocity along perpendicular directions; multipliers are then components of friction.
 
-    The slip velocity is a sum of the conditions, each times a vector; the directions come from these vectors by
-    orthogonalization.
+    The slip velocity is the sum of each condition times a vector. Orthogonalization of these vectors gives the
+    directions.
     """
     vectors: list[ImmutableMatrix] = []
     for each in conditions:
@@ -98,7 +98,7 @@ def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr
 
 
 def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
-    """The sum, collected by its rates; a single condition with the factor 1 is unchanged."""
+    """The sum of share times condition, with its terms collected by rates; a single condition is unchanged."""
     parts = [(share, each.left) for share, each in zip(shares, conditions, strict=True) if share != 0]
     if len(parts) == 1 and parts[0][0] == 1:
         return parts[0][1]
@@ -109,7 +109,7 @@ def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
 
 
 def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
-    """Check the constraints, which have no step: together they say only that the particle at the contact is at rest."""
+    """Check that the constraints together mean exactly that the particle at the contact is at rest on the surface."""
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     at_rest = velocity_of_particle(body, at, ground)
     ranks = {_rank(lines, moving) for lines in (at_rest, conditions, [*at_rest, *conditions])}
@@ -123,7 +123,7 @@ def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | Non
 
 @dataclass(frozen=True)
 class Rolling(Fact):
-    """The rolling body, the place of contact, and the ground, if it moves."""
+    """The rolling body, the place of contact, and the ground; the ground is None if it is at rest."""
 
     missing = "is not a condition of rolling"
     body: PlacedBody
@@ -132,7 +132,7 @@ class Rolling(Fact):
 
 
 class _Condition:
-    """A vanishing sum of rates, and the coordinate whose rate it determines."""
+    """A condition left = 0 on rates, and the coordinate whose rate this condition determines."""
 
     def __init__(self, left: Expr, q: Symbol, known: dict[Symbol, Expr]):
         self.left, self.q, self.known = left, q, known
@@ -149,7 +149,7 @@ class _Condition:
 def _independent(
     body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None = None
 ) -> Iterator[_Condition]:
-    """Independent conditions: none follows from the others."""
+    """The conditions of rolling, each solved for a rate; a condition that follows from earlier ones is skipped."""
     _check(body, at, ground)
     known: dict[Symbol, Expr] = {}
     first = [fixes.symbol] if fixes is not None else []
@@ -191,7 +191,7 @@ def _check(body: Any, at: Location, ground: Ground | None) -> None:
 
 
 def _check_reaches(body: PlacedBody, at: Location) -> None:
-    """Reject a contact of a round body that is farther from its centre than its radius."""
+    """Reject a place of contact whose distance from the centre of a round body is greater than the radius."""
     radius = getattr(body.body, "radius", None)
     if not isinstance(radius, Expr) or not body.is_plane:
         return
@@ -204,7 +204,7 @@ def _check_reaches(body: PlacedBody, at: Location) -> None:
 
 
 def _order(body: PlacedBody, at: Location) -> list[Symbol]:
-    """The coordinates of the last rotation first, then those of earlier rotations, then the others."""
+    """The coordinates in order of preference: of the last rotation, of earlier rotations, then all others."""
     if isinstance(body.turned, Axes):
         turning = [q for _, angle in reversed(body.turned.turns) for q in coordinates_in(angle)]
     else:
@@ -214,7 +214,7 @@ def _order(body: PlacedBody, at: Location) -> list[Symbol]:
 
 
 def contact_velocity(body: PlacedBody, at: Location, ground: Ground | None) -> ImmutableMatrix:
-    """Velocity of the particle of the body at the contact, relative to the surface: v + omega x (r_contact - r)."""
+    """Velocity of the particle at the contact relative to the surface: v + omega x (r_contact - r) - v_surface."""
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     arm = ImmutableDenseMatrix((at - body.at).components)
     v = ImmutableDenseMatrix([explicit(TimeRate(c, *moving)) for c in body.at.components])
@@ -234,7 +234,7 @@ def contact_velocity(body: PlacedBody, at: Location, ground: Ground | None) -> I
 
 
 def _velocity_of_ground(ground: Ground, at: Location) -> ImmutableMatrix:
-    """Velocity of the surface at the contact: for rotating axes, omega x r with omega from R_dot R^T."""
+    """Velocity of the surface at the contact: for rotating axes R_dot R^T r, which is omega x r."""
     if isinstance(ground, Location):
         return ImmutableDenseMatrix([explicit(TimeRate(c, *coordinates_in(c))) for c in ground.components])
     turn, moving = ground.in_space, list(coordinates_in(ground.in_space))
@@ -243,7 +243,7 @@ def _velocity_of_ground(ground: Ground, at: Location) -> ImmutableMatrix:
 
 
 def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
-    """The vanishing components; only one of them if all are multiples of the same expression in the rates."""
+    """The components of the velocity that must vanish; only one if all are multiples of one expression in the rates."""
     parts = [_rates_alone(component) for component in velocity if component != 0]
     if parts and all(is_zero(part - parts[0]) or is_zero(part + parts[0]) for part in parts):
         return parts[:1]
@@ -251,7 +251,7 @@ def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
 
 
 def _rates_alone(component: Expr) -> Expr:
-    """The component without its factors that contain no rate."""
+    """The component without the factors that contain no rate."""
     fast = {s for q in coordinates_in(component) for s in (rate(q),)}
     kept = [f for f in Mul.make_args(factor(component)) if f.free_symbols & fast]
     return Mul(*kept) if kept else component
@@ -267,19 +267,19 @@ NO_SLIP = Rule(
 def _solved(
     body: PlacedBody, at: Location, ground: Ground | None, condition: _Condition, key: str, fixes: Coordinate | None
 ) -> Quantity:
-    """The condition, solved for the rate that it fixes."""
+    """Condition of rolling, solved for one rate."""
     q, found = condition.q, condition.rate
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     marks = [stand_in(f"delta_{i}") for i in range(len(at.components))]
 
     def at_rest(relation: Relation) -> tuple[Expr, Expr]:
-        """The particle of the body at the contact is at rest, by all conditions together."""
+        """Check that the particle at the contact is at rest, by all conditions together."""
         velocity = velocity_of_particle(body, at, ground)
         known = {**_all_rates(body, at, ground, fixes), relation.left: relation.right}
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """The condition follows from the particle at rest: as a further row it does not change the rank."""
+        """Check that the condition follows from the particle at rest: as a further row it keeps the rank."""
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 
@@ -289,7 +289,7 @@ def _solved(
     facts: list[Fact] = [Rolling(body, at, ground)]
     if constant:
         function = Add(*(c * other for c, other in zip(coefficients, moving, strict=True)))
-        facts.append(KnownCoordinate(q, function))  # up to a constant, zero by choice of origins
+        facts.append(KnownCoordinate(q, function))  # the constant of integration is zero by choice of the origins
     factors = tuple(f.as_base_exp()[0] for f in Mul.make_args(condition.factor) if not f.is_nonzero)
     for each in factors:
         assume(Relation(each, "!=", ZERO))
@@ -314,7 +314,7 @@ def _solved(
 
 
 def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
-    """The rank of linear conditions on the rates, at a generic point."""
+    """The rank of conditions that are linear in the rates, at a generic point."""
     rates = [rate(q) for q in moving]
     still = dict.fromkeys(rates, ZERO)
     rows = Matrix([[*(slope(line, v) for v in rates), line.xreplace(still)] for line in lines])
@@ -324,7 +324,7 @@ def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
 
 
 def _are_as_long(components: list[Expr], vector: list[Expr]) -> bool:
-    """Whether both have the same sum of squares, numerically at a generic point."""
+    """Whether two lists have the same sum of squares, numerically at a generic point."""
     apart = Add(*(c**2 for c in components), *(-(c**2) for c in vector))
     there = {s: Rational(5 * i + 3, 3 * i + 8) for i, s in enumerate(sorted(apart.free_symbols, key=str))}
     return bool(abs(apart.xreplace(there).evalf(30)) < Rational(1, 10**15))
@@ -339,7 +339,10 @@ def _all_rates(body: PlacedBody, at: Location, ground: Ground | None, fixes: Coo
 
 
 def velocity_of_particle(body: PlacedBody, at: Location, ground: Ground | None) -> list[Expr]:
-    """Velocity of the particle at the contact: its position in the body is constant, its place a function of t."""
+    """Velocity of the particle at the contact relative to the surface, by differentiation with respect to t.
+
+    The position of the particle in the body is constant.
+    """
     point = particle_of(body, at)
     place = list(point.place)
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))

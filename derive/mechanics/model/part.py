@@ -1,6 +1,6 @@
-"""A part of a system says for itself what moves with it, what it weighs, which forces it exerts, and on what.
+"""The interface of a part of a system: its places, its masses, its forces, and the places at which they act.
 
-A system loops over its parts and knows no sort of part.
+A system loops over its parts and does not distinguish sorts of parts.
 """
 
 from __future__ import annotations
@@ -17,68 +17,68 @@ Vector = tuple[Expr, ...]
 
 
 class Part:
-    """A part with nothing of all this; each sort of part states what it has."""
+    """A part without places, masses or forces; each sort of part overrides what it has."""
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
-        """The same part with expressions substituted for some coordinates."""
+        """Return the same part with expressions substituted for some coordinates."""
         return self
 
     @property
     def places(self) -> Sequence[Location]:
-        """The places that move with it, in m."""
+        """The places that belong to the part, in m."""
         return ()
 
     @property
     def depends_on(self) -> Vector:
-        """The expressions whose coordinates are those of the system."""
+        """Expressions whose coordinates become coordinates of the system."""
         return tuple(c for place in self.places for c in place.components)
 
     @property
     def masses(self) -> Sequence[tuple[Expr, Location]]:
-        """Its masses, in kg, at their centres of mass."""
+        """The masses of the part, in kg, each with the place of its centre of mass."""
         return ()
 
     @property
     def mass_points(self) -> Sequence[MassPoint]:
-        """The mass points that move as it does."""
+        """Mass points that are equivalent to the part."""
         return [MassPoint(mass, at.components) for mass, at in self.masses]
 
     @property
     def acts_by(self) -> Vector:
-        """The expressions of its forces or conditions, which must not contain any other coordinates."""
+        """The expressions in forces or conditions; their coordinates must already be coordinates of the system."""
         return ()
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """The places at which it acts without stating on what, each with the name of the part."""
+        """The places at which the part acts on an unstated particle, each with the name of the part."""
         return ()
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
-        """Its forces with a potential energy."""
+        """The forces with a potential energy."""
         return ()
 
     def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load | Reaction]:
-        """Its forces without a potential energy, and constraint forces."""
+        """The forces without a potential energy, including constraint forces."""
         return ()
 
     @property
     def fields(self) -> Sequence[MagneticForce]:
-        """Its forces in magnetic fields."""
+        """The forces in magnetic fields."""
         return ()
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
-        """What it adds to the fields of a `derive.witness.description.Description`.
+        """Field of a `derive.witness.description.Description` -> the entries that this part adds to the field.
 
-        bodies   the bodies of the system, whose indices forces refer to
+        bodies   the bodies of the system; forces refer to a body by its index in this list
         """
         return {}
 
 
 def moved(thing: Any, known: Mapping[Symbol, Expr]) -> Any:
-    """A particle or a body with expressions substituted for some coordinates; anything else is unchanged."""
+    """Return a particle or a body with expressions substituted for some coordinates; other objects are unchanged."""
     return thing.moved(known) if hasattr(thing, "moved") else thing
 
 
 def number_of(thing: Any, bodies: Sequence[Any]) -> int | None:
-    """The index of a body; None for anything else."""
+    """The index of a body in the list; None for other objects."""
     return next((i for i, body in enumerate(bodies) if body is thing or body == thing), None)

@@ -1,4 +1,4 @@
-"""Angular velocity of a body, and its inertia: about the point at which it is held, or its centre of mass."""
+"""Angular velocity of a body, and its inertia about the point at which it is held or about its centre of mass."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from derive.steps.subject import NOTHING, Subject
 
 __all__ = ["angular_velocity"]
 
-Inertia: TypeAlias = Quantity | Expr  # a step, or the symbol of a moment about the axis across the plane
+Inertia: TypeAlias = Quantity | Expr  # a step, or the symbol of a moment about the axis perpendicular to the plane
 _SQUARES = (lambda value: value, TR5, TR6)  # unchanged, by cosines, by sines
 
 
@@ -48,14 +48,13 @@ def angular_velocity(
     symbol: str = "omega",
     key: str = "angular_velocity",
 ) -> Quantity:
-    """Angular velocity of rotating axes, omega = sum of alpha_i_dot n_i over their rotations, in 1/s.
+    """Angular velocity of rotating axes, omega = sum of alpha_i_dot n_i over the rotations of the axes, in 1/s.
 
-    axes    each of their rotations is about one of the axes after the rotations before it
-    along   the axes of the components: `space`, or those after some of the rotations; by default after all of them
+    axes    the rotating axes; each rotation is about one of the axes as they are after the previous rotations
+    along   the axes of the components: `space`, or the axes after some of the rotations; by default the axes themselves
     body    the body that rotates with the axes, if it has a name
-    Second route: the rotation matrix R differentiated as a function of t: the antisymmetric matrix R_dot R^T.
-    Outcomes: body (components along the axes themselves), following (along axes that share all rotations except the
-    last ones), space.
+    Second route: the antisymmetric matrix R_dot R^T, where the rotation matrix R is differentiated as a function of t.
+    Outcomes: body (components along the axes themselves), following (along the axes before the last rotations), space.
     Errors: the axes do not rotate; `along` is not one of the intermediate axes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
@@ -95,7 +94,7 @@ def angular_velocity(
 
 
 def by_squares(value: Expr) -> Expr:
-    """-cos^2 a/sin a, not (sin^2 a - 1)/sin a, whichever is shorter."""
+    """Rewrite squares of sines or cosines if the result is shorter: -cos^2 a/sin a, not (sin^2 a - 1)/sin a."""
     value = tidied(value)
     above, below = value.as_numer_denom()
     uppers, lowers = (_factored_by_squares(part.expand()) for part in (above, below))
@@ -114,7 +113,7 @@ def _minuses_below(value: Expr) -> int:
 
 
 def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
-    """The unit vector of this rotation's axis, along the axes after `count` rotations."""
+    """The unit vector of the axis of rotation i, by components along the axes after `count` rotations."""
     about = column(*(int(k == axes.turns[i][0]) for k in range(3)))
     if i < count:
         return ImmutableDenseMatrix(after(axes.turns[i + 1 : count]).T * about)
@@ -124,7 +123,7 @@ def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
 def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
     """Axes along which the inertia of a body in space is constant and its angular velocity has short components.
 
-    If the last rotations are about an axis of symmetry, these are the axes before them.
+    If the last rotations are about an axis of symmetry, these are the axes before the last rotations.
     """
     axes: Any = placed.turned
     count = len(axes.turns)
@@ -149,7 +148,7 @@ def turning_rate_of(placed: PlacedBody) -> Expr:
 
 
 def is_about_the_point(placed: PlacedBody) -> bool:
-    """Whether the body is held, with a known inertia about the point at which it is held."""
+    """Whether the body is held at a point about which its inertia is known or can be derived."""
     if not placed.is_held:
         return False
     body, point = placed.body, placed.point

@@ -1,7 +1,8 @@
 """Mechanical systems: particles and bodies, the forces on them, and the conditions on their motion.
 
-Places are formulas in the coordinates, so they contain the geometric constraints between particles. The energies derive
-only from the places; so do the mass points and forces of every second route (d'Alembert's principle).
+Places are formulas in the coordinates, so geometric constraints between particles are built into the places. The
+energies are derived only from the places. The same is true of the mass points and forces of second routes (d'Alembert's
+principle).
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ DISTANCE = Dummy("r", positive=True)
 class Particle(Part):
     """A particle of constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1.
 
-    name   its kind for a drawing: a "bob" hangs on a rod, a "bead" is on a wire
+    name   the kind of particle for a drawing: a "bob" hangs on a rod, a "bead" is on a wire
     """
 
     mass: Expr
@@ -95,9 +96,9 @@ class MovingBody(Part):
 
     @property
     def mass_points(self) -> Sequence[MassPoint]:
-        """The mass at the centre of mass, and second moments on unit vectors that rotate with the body.
+        """The mass at the centre of mass, and second moments at the ends of unit vectors that rotate with the body.
 
-        The moments come from the body's particles, so no inertia tensor is used.
+        The second moments come from the particles of the body, so no inertia tensor is used.
         """
         placed = self.placed
         spread = central_second_moments(placed.body)
@@ -112,7 +113,7 @@ class MovingBody(Part):
         return [point for point in points if point.mass != 0]
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
-        """By its known point, the displacement of its centre of mass from there, and its second moments."""
+        """The body for the witness: the place of its known point, the centre of mass relative to it, second moments."""
         placed = self.placed
         axes = placed.in_plane if placed.is_plane else (0, 1, 2)
         arm = explicit(ImmutableDenseMatrix(placed.body.middle.position - placed.point.position))
@@ -145,9 +146,9 @@ class Weight(Part):
 
 @dataclass(frozen=True)
 class Central(Part):
-    """A potential energy U(r) of the distance between two places, J, and the force along the line between them, N.
+    """A potential energy U(r), J, where r is the distance between two places, and its force along their line, N.
 
-    branch   u or -u for the distance |u| of two places on one line, if the system chooses one of them
+    branch   for places on a fixed line, where r = |u|: u or -u, if the system has chosen the sign; None otherwise
     """
 
     start: Location
@@ -164,7 +165,7 @@ class Central(Part):
 
     @cached_property
     def along(self) -> Expr | None:
-        """The expression whose absolute value is the distance, if the line between the places has a fixed direction."""
+        """The u of a distance |u|, if the line between the two places has a fixed direction; None otherwise."""
         components = [c for c in (self.end - self.start).components if c != 0]
         if len(components) == 1 and _is_sum_of_letters(components[0]):
             return components[0]
@@ -177,7 +178,7 @@ class Central(Part):
 
     @cached_property
     def length(self) -> Expr:
-        """The distance; if the system chooses a branch, that branch, and the page states the condition."""
+        """The distance; if the system has chosen a branch, this branch, and the page states that it is positive."""
         if self.branch is not None:
             assume(Relation(self.branch, ">", ZERO), self.is_spring)
             return self.branch
@@ -202,7 +203,7 @@ class Central(Part):
         return {"pairs": [pair]}
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
-        """The forces at its two ends, towards each other if the energy increases with the distance."""
+        """The forces at the two ends; they attract if the energy increases with the distance."""
         way = (self.end - self.start).components
         size = self.pull.xreplace({self.distance: self.length})
         pull = tuple(size * c / self.length for c in way)
@@ -216,9 +217,10 @@ def weight(gravity: Expr) -> Weight:
 
 
 def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO, massless: bool = False) -> Central:
-    """A massless spring between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m.
+    """A massless spring between two places, U = (1/2) k (r - l)^2, with k in N/m and the natural length l in m.
 
-    massless   whether it may end at a massless joint; otherwise each end moves with a body, a particle or the ground
+    massless   whether the spring may end at a massless joint; by default each end must move with a body, a particle
+    or the ground
     """
     require_constant("spring", "spring constant", constant)
     require_constant("spring", "natural length", natural)
@@ -227,7 +229,7 @@ def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO,
 
 
 def central(energy: Expr, distance: Symbol, start: Location, end: Location, massless: bool = False) -> Central:
-    """A potential energy U(r) of the distance r between two places: `central(-G*M*m/r, r, sun, planet)`.
+    """A potential energy U(r), where r is the distance between two places: `central(-G*M*m/r, r, sun, planet)`.
 
     massless   as for `spring`
     """
@@ -243,7 +245,7 @@ PartOfSystem: TypeAlias = Part | PlacedBody | Quantity
 
 @dataclass(frozen=True)
 class KnownCoordinate(Fact):
-    """A coordinate that a condition expresses by others, with its formula."""
+    """A coordinate that a condition expresses by other coordinates, with this expression."""
 
     missing = "is not a condition that expresses a coordinate by others"
     coordinate: Symbol
@@ -252,7 +254,7 @@ class KnownCoordinate(Fact):
 
 @dataclass(frozen=True)
 class Eliminated(Fact):
-    """The coordinates that conditions of a system express by others: later quantities do not depend on them."""
+    """The coordinates that conditions of a system express by others; later quantities do not contain them."""
 
     missing = "has no coordinate that is expressed by others"
     eliminates: tuple[Symbol, ...]
@@ -261,7 +263,7 @@ class Eliminated(Fact):
 class System:
     """Particles and bodies, the forces on them, and the conditions on their motion.
 
-    name   "first": keys of its steps begin with `first_`, symbols have the index `first`
+    name   a name such as "first": keys of its steps begin with `first_`, and symbols have the index `first`
     """
 
     def __init__(self, *parts: PartOfSystem, name: str = ""):
@@ -312,7 +314,7 @@ class System:
         if len(self.weights) > 1:
             raise Rejected(Complaint("wrong-argument", "a `System` can have only one weight, of all its particles"))
         if len({len(place.components) for place in self.places}) > 1:
-            message = "some places of this `System` have two components, others have three"
+            message = "some places of this `System` have two components, and some have three"
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
         if not self.coordinates:
             message = "nothing in this `System` moves: its places depend on no coordinate"
@@ -348,12 +350,12 @@ class System:
 
     @property
     def places(self) -> list[Location]:
-        """The places of its particles, bodies and charges, and the ends of springs and central forces."""
+        """The places of the particles, bodies and charges, and the ends of springs and central forces."""
         return [place for part in self.parts for place in part.places]
 
     @property
     def masses(self) -> list[tuple[Expr, Location]]:
-        """The masses of its particles and bodies, with the places of their centres of mass."""
+        """The masses of the particles and bodies, with the places of their centres of mass."""
         return [each for part in self.parts for each in part.masses]
 
     @property
@@ -362,28 +364,28 @@ class System:
 
     @cached_property
     def coordinates(self) -> Mapping[Symbol, str]:
-        """The coordinates of its places and of the rotation of its bodies, with their kinds."""
+        """The coordinates in the places and in the rotations of the bodies, with their kinds."""
         return coordinates_in(ImmutableDenseMatrix([c for part in self.parts for c in part.depends_on]))
 
     @property
     def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
-        """Parts that do not state what they act on: each with its name and its place."""
+        """The parts that do not state on what they act; each with its name and its place."""
         return [(part, what, place) for part in self._described for what, place in part.loose_ends]
 
     @property
     def described_bodies(self) -> list[PlacedBody]:
-        """Its bodies as described, in the order of the witness."""
+        """The bodies as described, in the order that the witness uses."""
         return [part.placed for part in self._described if isinstance(part, MovingBody)]
 
     @cached_property
     def described(self) -> Described:
-        """The input of the witness: its parts before conditions eliminate coordinates."""
+        """The input of the witness: the parts before conditions eliminate coordinates."""
         moving = {**self.coordinates, **coordinates_in(ImmutableDenseMatrix([*self.known, ZERO]))}
         return Described(described(self._described, self.described_bodies, self.known, moving))
 
     @cached_property
     def matter(self) -> Matter:
-        """Its mass points, and the forces on them."""
+        """The mass points of the system, and the forces on them."""
         moving = list(self.coordinates)
         points = [point for part in self.parts for point in part.mass_points]
         loads = [each.on(mass, at) for each in self.weights for mass, at in self.masses]
@@ -410,7 +412,7 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
 
 
 def _check_kept(condition: Quantity) -> None:
-    """Check that the formula of the coordinate satisfies the condition, or the condition on rates for all rates."""
+    """Check that the expression for the coordinate satisfies the condition; a condition on rates, for all rates."""
     q, function = _known_by(condition)
     value = explicit(condition.value)
     if isinstance(value, Relation):
@@ -423,19 +425,19 @@ def _check_kept(condition: Quantity) -> None:
 
 
 def _is_put_into(condition: Quantity, parts: Sequence[Part]) -> bool:
-    """Whether a part depends on the coordinate that a condition expresses by others."""
+    """Whether any part depends on the coordinate that the condition expresses by others."""
     known = dict([_known_by(condition)])
     return any(part.moved(known) != part for part in parts)
 
 
 def _with_branches(system: System) -> tuple[Part, ...]:
-    """The parts of a system, each potential of a distance with its branch of |x - d| near equilibrium, if it has one.
+    """The parts of a system, where potentials of a distance |u| have a branch, u or -u, if there is a natural choice.
 
-    A distance along a line is |u|, so it is u or -u, depending on the side. A branch is chosen only if the place with
-    all coordinates zero is special: there the spring has its natural length, or all forces with a potential energy
-    balance. Then the coordinates are displacements from that place, as for carts at x_1 and d + x_2, and the page
-    states that u keeps its sign. Otherwise, as for a cart at x with a spring to a wall at d, no side is special:
-    |x - d| remains, and equations for x are solved for both sides.
+    A branch is chosen only if the position with all coordinates zero is special: the spring has its natural length
+    there, or all forces with a potential energy balance there. The coordinates are then displacements from this
+    position, as for carts at x_1 and d + x_2, and the page states that u keeps its sign. Otherwise neither side is
+    special, as for a cart at x with a spring to a wall at d: |x - d| remains, and equations for x are solved for both
+    sides.
     """
     sided = tuple(_near_rest(each) for each in system.between)
     balanced = all(each is not None for each in sided) and _is_balanced(system, [each for each in sided if each])
@@ -448,7 +450,10 @@ def _with_branches(system: System) -> tuple[Part, ...]:
 
 
 def _near_rest(each: Central) -> Central | None:
-    """The potential with the branch that is positive where all coordinates are zero; unchanged without branches."""
+    """The potential with the branch that is positive where all coordinates are zero.
+
+    Unchanged if the line has no fixed direction; None if no branch is known to be positive there.
+    """
     if each.along is None:
         return each
     at_rest = _undriven(each.along)
@@ -462,7 +467,7 @@ def _has_natural_length(each: Central) -> bool:
 
 
 def _is_balanced(system: System, between: Sequence[Central]) -> bool:
-    """Whether all forces with a potential energy vanish where all coordinates are zero."""
+    """Whether all generalized forces of the potential energy vanish where all coordinates are zero."""
     energy = Add(*(each.energy.xreplace({each.distance: each.branch or each.length}) for each in between))
     energy += Add(*(each.energy for each in system.stored))
     energy += Add(*(mass * system.gravity * at.height for mass, at in system.masses))
@@ -474,10 +479,10 @@ def _at_zero(value: Expr) -> Expr:
 
 
 def _undriven(way: Expr) -> Expr:
-    """The displacement between two places where all coordinates are zero, without the terms of a prescribed motion."""
+    """The displacement between two places where all coordinates are zero, without terms that contain the time."""
     return Add(*(term for term in Add.make_args(_at_zero(way).expand()) if not term.has(TIME)))
 
 
 def _is_sum_of_letters(way: Expr) -> bool:
-    """Whether it is a sum of symbols with signs and no other factors."""
+    """Whether the expression is a sum of symbols, each with a sign but no other factor."""
     return way.is_Add and all(term.is_Symbol or (-term).is_Symbol for term in way.args)

@@ -1,4 +1,4 @@
-"""Predicates of the outcomes of motions, and of the things that their sentences name."""
+"""Predicates of motions: each decides whether an outcome, or a thing that its sentence names, is correct."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def released(at_rest: bool) -> Predicate:
 
 
 def isochronous(wanted: bool) -> Predicate:
-    """Judge whether the acceleration is proportional to the coordinate."""
+    """Whether the acceleration is, or is not, proportional to the coordinate."""
 
     def is_so(facts: Judged) -> bool:
         q, a = facts.inputs["coordinate"], facts.inputs["acceleration"]
@@ -64,7 +64,7 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Judge numerically by the force at the start: it is positive there, or, for a later loss, zero."""
+    """Whether, numerically, the force at the start is positive or, for a later loss of contact, zero."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -76,7 +76,7 @@ def lost(later: bool) -> Predicate:
 
 
 def _gets_there_as_told(facts: Judged) -> bool:
-    """Whether, numerically, the squared rate is positive at the place exactly where its condition holds."""
+    """Whether, numerically, the squared rate at the place is positive exactly if the stated condition is satisfied."""
     told = facts.inputs.get("reached")
     if "squared" not in facts.inputs:
         return told is None
@@ -94,8 +94,11 @@ def _gets_there_as_told(facts: Judged) -> bool:
 
 
 def turned_back(facts: Judged) -> bool:
-    """Whether, numerically, the force vanishes at the place and the squared rate is negative there, or zero, while
-    at the start the force is positive and the squared rate is not negative."""
+    """Whether, numerically, the motion turns back before the force vanishes, or exactly there.
+
+    At the place the force is zero, and the squared rate is negative or, for >=, zero. At the start the force is
+    positive, and the squared rate is not negative.
+    """
     just_there = facts.result.operator == ">="
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
@@ -110,7 +113,7 @@ def turned_back(facts: Judged) -> bool:
 
 
 def by_energy(facts: Judged, fact: ByEnergy) -> bool:
-    """Whether the acceleration is half the slope of the squared rate, which has the given value at the start."""
+    """Whether the acceleration is (1/2) d(q_dot^2)/dq, and q_dot^2 has the given value at the start."""
     square, q = explicit(facts.result), fact.coordinate
     acceleration = fact.acceleration.subs(rate(q) ** 2, square)
     there = square.subs(q, fact.start) - fact.start_rate**2
@@ -118,7 +121,7 @@ def by_energy(facts: Judged, fact: ByEnergy) -> bool:
 
 
 def steady(facts: Judged, fact: Steady) -> bool:
-    """Whether the fact agrees with the sentence on each coordinate, and one of its conditions is the result."""
+    """Whether the fact has the constant values that the sentence states, and the result is one of its conditions."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
     fits = any(same_equation(each, explicit(facts.result).residual) for each in fact.conditions)
@@ -126,7 +129,7 @@ def steady(facts: Judged, fact: Steady) -> bool:
 
 
 def energy_there(facts: Judged, place: Any) -> bool:
-    """Whether the energy at this place, with the rate at the start, has the conserved value."""
+    """Whether the energy at this place with the initial rate is the conserved value."""
     start = {place.left: explicit(place.right), rate(place.left): explicit(facts.inputs["initial"])}
     return place.operator == "=" and is_zero(
         value_of_role(facts, "energy").subs(start, simultaneous=True) - explicit(facts.result).right
@@ -138,7 +141,7 @@ def turns_back_there(facts: Judged, amplitude: Any) -> bool:
 
 
 def pushes_there(facts: Judged, place: Any) -> bool:
-    """Whether the two touch at the start: the force is not negative."""
+    """Whether the surfaces touch at the start: the force there is not negative."""
     alone = bool(facts.result.left == place.left) and place.operator == "="
     if not isinstance(place.left, Symbol):
         return alone
@@ -146,14 +149,17 @@ def pushes_there(facts: Judged, place: Any) -> bool:
 
 
 def force_vanishes_there(facts: Judged, place: Any) -> bool:
-    """Whether the force would be zero at a place that the motion does not reach."""
+    """Whether the force is zero at this place, which the motion does not reach."""
     return place.operator == "=" and is_zero(
         value_of_role(facts, "force").xreplace({place.left: explicit(place.right)})
     )
 
 
 def stays_and_turns(facts: Judged, relation: Any) -> bool:
-    """Whether, with the constant coordinates and rates of the sentence, the slope of L vanishes with the result."""
+    """Whether dL/dq = 0, with the constant coordinates and rates that the sentence states, is equivalent to the result.
+
+    For a condition from an equation of motion, the values are substituted in this equation instead.
+    """
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     if relation.operator != "=" or relation.left == relation.right:
         return False
@@ -170,7 +176,7 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def sum_left(wanted: str) -> Predicate:
-    """Judge the terms without a highest rate: there were none, they cancelled, or some remain."""
+    """Whether there are no terms without a highest rate ("plain"), these terms cancel, or some of them remain."""
 
     def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
@@ -184,20 +190,20 @@ def sum_left(wanted: str) -> Predicate:
 
 
 def times_its_factor(facts: Judged) -> bool:
-    """Whether the result is the equation times the factor that the sentence names."""
+    """Whether the result is the equation of motion times the factor that the sentence names."""
     multiplied = explicit(facts.inputs["factor"]) * explicit(facts.inputs["written"].left)
     return is_zero(explicit(facts.result.left) - multiplied)
 
 
 def nothing_else_moves(facts: Judged) -> bool:
-    """Whether the rest of the equation of motion contains no acceleration, and not the rate of its coordinate."""
+    """Whether the result contains no acceleration and not the rate of the coordinate, and is not trivial."""
     q = facts.inputs["coordinate"]
     moving = {s for s in facts.result.free_symbols if s.name.endswith("_ddot")} | {rate(q)}
     return not is_zero(facts.result.residual) and not moving & facts.result.free_symbols
 
 
 def sum_of_the_equations_times_their_factors(facts: Judged, outcome: str) -> bool:
-    """Whether the named equations, times their named factors, add up to the result."""
+    """Whether the sum of the named equations, each times its named factor, is the result."""
     named = [role for role in facts.quantities if role.startswith("equation_")]
     products = (facts.inputs[f"factor_{role[9:]}"] * explicit(facts.quantities[role].value).residual for role in named)
     return is_zero(explicit(facts.result).residual - sum(products, Integer(0)))

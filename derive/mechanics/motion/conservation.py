@@ -1,7 +1,7 @@
 """The rate of change of a quantity by the equations of motion, and whether it is conserved.
-As in a textbook, each equation is multiplied by a factor, the products are added, and the sum is recognised as the rate
-of change of the quantity Q. The factors are computed: the rate of Q is linear in the highest rates, and the sum of the
-products must contain them with the same coefficients.
+As in a textbook, each equation is multiplied by a factor, the products are added, and the sum turns out to be the rate
+of change of the quantity Q. The factors follow from the highest rates: dQ/dt is linear in these rates, and the sum of
+the products must have the same coefficients.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ RATE_UNDER = Rule(
 def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | None = None) -> Quantity:
     """Rate of change of a quantity along every motion that obeys the equations, dQ/dt.
 
-    quantity    a scalar Q in coordinates and their rates; its unit per second is that of the result
-    equations   equations of motion, as many as they have highest rates, and linear in these
-    Each equation times its factor is a step, and so is the sum of several products.
-    Second route: Q as a function of time, with its highest rates by the equations substituted; the same minus the sum
-    of the equations, for any motion; if Q belongs to a body, also the contributions of its particles, with the sum
-    substituted back, and a body whose inertia tensor is not diagonal; and one motion integrated numerically.
+    quantity    a scalar Q in coordinates and their rates; the unit of the result is the unit of Q per second
+    equations   equations of motion that are linear in the highest rates; as many equations as highest rates
+    Each equation times its factor is a step. The sum of several products is a step too.
+    Second route: differentiate Q as a function of time and substitute the highest rates from the equations; for any
+    motion, subtract the sum of the products; integrate one motion numerically. If Q belongs to a body, also add the
+    contributions of its particles, and repeat the calculation for an inertia tensor that is not diagonal.
     Outcomes: conserved (the rate is zero), changes.
-    Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
+    Errors: the equations do not determine the highest rates; dQ/dt contains rates of higher order than the equations.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
     require_all_times("rate_under", quantity)
@@ -92,8 +92,9 @@ def _moving(quantities: Sequence[Quantity]) -> list[Symbol]:
 
 
 def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequence[Symbol]) -> tuple[Expr, list[Expr]]:
-    """Return a number and the factors: with them the sum of the equations has the highest rates of dQ/dt.
-    The number is the common factor, which the page leaves out.
+    """Return a number and the factors of the equations.
+    The sum of the equations, each times the number and its factor, has the same highest rates as dQ/dt. The page omits
+    the number, which is common to all equations.
     """
     matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
     wanted = Matrix([diff(own_rate, a) for a in unknown])
@@ -116,7 +117,7 @@ PRODUCT = Rule(
 def _product(
     quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr], of_many: int
 ) -> Quantity:
-    """Equation of motion times a factor, multiplied out.
+    """Equation of motion times a factor, expanded.
 
     Outcomes: alone, one_of_several (products that are added).
     """
@@ -141,7 +142,7 @@ def _product(
 
 
 def _divided(found: Relation, factor: Expr, written: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Any, Any]:
-    """Divide each side by the factor, if it is not zero, and compare with the equation: its rates, and the rest."""
+    """Divide both sides by the factor and compare with the equation: coefficients of highest rates, and other terms."""
 
     def parts(relation: Relation, divisor: Expr) -> list[Expr]:
         at_rest = dict.fromkeys(motion, Integer(0))
@@ -153,7 +154,7 @@ def _divided(found: Relation, factor: Expr, written: Relation, motion: Mapping[S
 
 
 def _one_by_one(found: Relation, products: Sequence[Quantity]) -> tuple[Any, Any]:
-    """Subtract the sides of the products one after another: nothing remains."""
+    """Subtract the sides of all products from the sum, one after another, to compare the difference with zero."""
     left = [explicit(side) for side in found.sides]
     for product in products:
         left = [side - explicit(other) for side, other in zip(left, product.value.sides, strict=True)]
@@ -182,7 +183,7 @@ def _sum(
     of: Sequence[tuple[Quantity, Expr]],
     motion: Mapping[Symbol, Expr],
 ) -> Quantity:
-    """Sum of the products, collected.
+    """Sum of the products, with like terms collected.
 
     Outcomes: plain, cancel (the terms without a highest rate), remain.
     """
@@ -215,7 +216,7 @@ def _sum(
 
 
 def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
-    """Return the line: the terms with highest rates = (c_1 + c_2 + ...) times the common product of the other terms."""
+    """Return the line "terms with highest rates = (c_1 + c_2 + ...) P", if P is a common factor of the other terms."""
     with_rates, rest = [], []
     for equation, factor in of:
         number, moved = factor.as_independent(*moving, as_Add=False)
@@ -232,12 +233,12 @@ def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], hig
 
 
 def _added(sides: Sequence[Expr]) -> list[Expr]:
-    """Return the terms of several sums in a row, without zeros, unless there is nothing else."""
+    """Return the terms of several sums as one list without zeros; a single zero if there are no other terms."""
     return [term for side in sides for term in side.as_ordered_terms() if term != 0] or [Integer(0)]
 
 
 def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
-    """Return the outcome for the terms without a highest rate: there were none, they cancel, or some remain."""
+    """Return the outcome: no terms without a highest rate ("plain"), these terms "cancel", or some of them "remain"."""
     without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
     if all(rest == 0 for rest in without):
         return "plain"
@@ -250,6 +251,6 @@ def _sides(value: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
 
 
 def _by_sides(value: Relation, moving: Sequence[Symbol]) -> Relation:
-    """Multiply out and collect both sides, the terms with rates first."""
+    """Expand and collect both sides, with the terms that contain rates first."""
     left, right = (by_products(explicit(side), moving) for side in value.sides)
     return Relation(left, value.operator, right)

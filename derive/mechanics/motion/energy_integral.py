@@ -1,4 +1,4 @@
-"""Conservation of energy for one coordinate: its rate at any place, and the period of an oscillation."""
+"""Conservation of energy for one coordinate: the rate as a function of the coordinate, and the period of a swing."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ __all__ = ["period_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
-NOISE = 1e-9  # error allowed near the turning points, where most figures cancel
+NOISE = 1e-9  # relative error allowed by cancellation near the turning points
 
 
 SPEED_FROM_ENERGY = Rule(
@@ -51,17 +51,17 @@ def speed_from_energy(
     motion: Quantity | None = None,
     key: str | None = None,
 ) -> Quantity:
-    """Square of a coordinate's rate by conservation of energy, q_dot^2 = 2 (E - V(q))/m(q), for E = m q_dot^2/2 + V.
+    """Square of the rate of a coordinate by conservation of energy, q_dot^2 = 2 (E - V(q))/m(q).
 
-    energy       of the motion, J: a conserved quantity in this one coordinate and its rate
+    energy       a conserved energy, J, of the form E = m(q) q_dot^2/2 + V(q)
     q            the coordinate
-    start        its value at the start
-    start_rate   its rate at the start, 0 if it is released from rest
-    motion       the equation of motion, or q_ddot from it, for an energy without mass points and forces
-    The conservation of the initial energy is a separate step.
-    Second route: along every motion of the mass points the energy does not change (d'Alembert's principle); the
-    acceleration q_ddot is half the derivative of q_dot^2 by q, and at the start the rate has its given value.
-    Errors: the energy is not conserved, contains another coordinate, or is not quadratic in the rate.
+    start        value of q at the start
+    start_rate   value of q_dot at the start, by default 0, for a release from rest
+    motion       the equation of motion, or q_ddot from it; needed if no mass points and forces belong to the energy
+    A separate step states that the energy has its initial value.
+    Second route: with q_ddot by d'Alembert's principle for the mass points, the energy does not change in time, and
+    q_ddot is half the derivative of q_dot^2 with respect to q; at the start the rate has the given value.
+    Errors: the energy is not conserved, contains another coordinate, or is not of this form.
     Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
     """
     value = explicit(energy.value)
@@ -126,12 +126,12 @@ def _energy_kept(
     key: str,
     about: Sequence[Quantity],
 ) -> Quantity:
-    """Conservation of energy: its value is that at the start."""
+    """Conservation of energy: at all times the energy has its initial value."""
     value, letter, speed = explicit(energy.value), q.symbol, q.rate
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 
     def keeps(found: Relation) -> tuple[Any, Any]:
-        """Check that the equation holds at the start, and that its rate vanishes along the motion."""
+        """Check that the equation is satisfied at the start, and that E has no rate of change along the motion."""
         there = found.residual.xreplace({letter: first, speed: initial})
         changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
         is_equation = int(found.operator == "=")
@@ -155,7 +155,7 @@ def _energy_kept(
 
 
 def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> Expr:
-    """Return q_ddot by the equation of motion, or by d'Alembert's principle."""
+    """Return q_ddot from the equation of motion, or from d'Alembert's principle."""
     matter = energy.fact(Matter)
     if motion is not None and motion.symbol == q.acceleration:
         return tidied(explicit(motion.value))
@@ -212,13 +212,13 @@ PERIOD_BY_ENERGY = Rule(
 def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = None, key: str = "period") -> Quantity:
     """Period of an oscillation, 4 times the integral of dq/q_dot from 0 to the amplitude A, in powers of A.
 
-    squared   q_dot^2 as `speed_from_energy` yields it for a release from rest at q = A, the same for q and -q, 1/s^2
-    order     the highest power of the amplitude that is kept
-    The series has a separate letter, tau_lim; the numbers of the period are those of the integral.
-    Second route: for small amplitudes the period of the linearised equation of motion, 2 pi/omega_0; and the integral,
+    squared   q_dot^2 from `speed_from_energy`, 1/s^2, for a release from rest at q = A; it must be even in q
+    order     the highest power of A in the series
+    The series has its own symbol, tau_lim. Numerical values of the period come from the integral.
+    Second route: for small amplitudes, 2 pi/omega_0 from the linearised equation of motion; and the integral,
     numerically.
     Outcomes: exact (the period does not depend on the amplitude), expanded.
-    Errors: the start is not from rest at a letter; the motion is not the same to both sides.
+    Errors: the motion does not start from rest at a symbol; q_dot^2 is not an even function of q.
     Source: Landau, Lifshitz, *Mechanics*, section 11.
     """
     known = squared.needed(ByEnergy)
@@ -274,7 +274,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
 
 
 def _written(value: Expr, amplitude: Symbol) -> Expr:
-    """Write 2 pi sqrt(l/g) (1 + A^2/16), in ascending powers."""
+    """Write the series with its first term as a factor and in ascending powers: 2 pi sqrt(l/g) (1 + A^2/16)."""
     whole = value.subs(amplitude, 0)
     rest = tidied(value / whole).expand()
     terms = sorted(Add.make_args(rest), key=lambda term: int(term.as_coeff_exponent(amplitude)[1]))
@@ -282,15 +282,18 @@ def _written(value: Expr, amplitude: Symbol) -> Expr:
 
 
 def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order: int) -> Verdict:
-    """Compare with the numerical integral at two amplitudes: the rest decreases faster than the last power."""
+    """Compare the series with the numerical integral at two amplitudes.
+
+    The relative difference must decrease faster than the last power of the amplitude.
+    """
     from mpmath import mp
 
     letters = (letters_of(value) | letters_of(found)) - {q, amplitude}
     drawn = islice(points(letters, seed_of(value)), 40)
     point = next((p for p in drawn if _swings(found, {**p, amplitude: Rational(1, 40)})), None)
     if point is None:
-        return Verdict(Grade.REFUTED, "the period is real for no numbers that were tried")
-    figures = FIGURES + 5 * order  # the rest is compared with that power of a small amplitude
+        return Verdict(Grade.REFUTED, "the period is not real for any of the numbers tried")
+    figures = FIGURES + 5 * order  # enough to compare the difference with a power of a small amplitude
     with mp.workdps(figures):
         rests = []
         for small in (Rational(1, 40), Rational(1, 80)):
@@ -306,7 +309,7 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
 
 
 def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:
-    """Whether the period is real there, so the force is restoring."""
+    """Whether the period is positive for these numbers, so that the force is restoring."""
     return bool(found.subs(point).evalf().is_positive)
 
 
@@ -328,7 +331,7 @@ def _in_results(
     motion: Quantity | None = None,
     ask: Ask | None = None,
 ) -> Quantity:
-    """Ask for the equation of motion, if the energy does not determine the forces."""
+    """Call `speed_from_energy`, with the equation of motion if the energy does not determine the forces."""
     matter = energy.fact(Matter)
     says_all = matter is not None and tuple(matter.coordinates) == (q.symbol,)
     if motion is None and not says_all and ask is not None:

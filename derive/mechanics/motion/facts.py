@@ -1,4 +1,4 @@
-"""Facts that results carry in addition to their value, for later steps."""
+"""Facts about results, in addition to their values, for later steps."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from derive.steps.step import Fact, Quantity
 
 @dataclass(frozen=True)
 class Steady(Fact):
-    """A steady motion: the constant values of coordinates, the constant rates of others, and their conditions."""
+    """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and the conditions."""
 
     missing = "is not the condition of a steady motion, as `steady_motion` yields it"
     lagrangian: Quantity
@@ -23,7 +23,7 @@ class Steady(Fact):
 
 @dataclass(frozen=True)
 class ByEnergy(Fact):
-    """The start of a motion of one coordinate, and its acceleration by the equation of motion."""
+    """The start of a motion of one coordinate, and the acceleration by the equation of motion."""
 
     missing = "is not the square of a rate by conservation of energy"
     coordinate: Symbol

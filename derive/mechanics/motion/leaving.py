@@ -61,23 +61,23 @@ LEAVES_CONTACT = Rule(
     start="start",
 )
 def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "leaves_contact") -> Quantity:
-    """Place where a contact that can only push is lost: the normal force vanishes, N = 0, solved for one letter.
+    """Place where contact is lost: N = 0, solved for one unknown, since the normal force can only push.
 
-    force    the normal force, positive while it pushes, N; or the tension of a string, which can only pull
-    letter   the unknown: a coordinate, or such as `cos(theta)`
-    start    the value of that letter at the start, where the surfaces touch
-    The motion must reach the place: if the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
-    f must be positive there. If its sign depends on the letters, f > 0 is a condition; if it never is, contact is not
-    lost.
-    Factors of the force that are positive in the ranges of the letters, sin(theta) for 0 < theta < pi/2, are left out.
-    Check: a little towards the start the force is still positive, a little beyond it would be negative; with such
-    factors also numerically, along the coordinate. Witness: the described motion, followed from
-    the start until the multiplier vanishes.
-    Outcomes: lost; lost_later (at the start the force is zero, and positive after it); never (the force is always
-    positive); turns_back (it would vanish at a place that the motion does not reach);
-    turns_there (it vanishes only where the motion turns back).
-    Errors: the force is not positive from the start on, or it is not linear in the letter; the motion need not reach
-    the place.
+    force    the normal force N, positive while it pushes, N; or the tension of a string, positive while it pulls
+    letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
+    start    the value of the unknown at the start, where the surfaces touch
+    The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
+    f must be positive at the place. If the sign of f there depends on the symbols, the page states the condition f > 0.
+    If f cannot be positive there, contact is not lost.
+    Factors of the force that are known to be positive, such as sin(theta) for 0 < theta < pi/2, are omitted.
+    Check: the force is zero at the place and positive between the start and the place. If factors are omitted, also
+    numerically along the coordinate: positive before the place, negative beyond it. Witness: the described motion,
+    followed from the start until the multiplier vanishes.
+    Outcomes: lost; lost_later (the force is zero at the start, and positive just after it); never (the force is always
+    positive); turns_back (the motion does not reach the place where the force would vanish);
+    turns_there (the force vanishes only where the motion turns back).
+    Errors: the force is not positive at the start, or not linear in the unknown; the motion may turn back before the
+    place.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
@@ -115,7 +115,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     existing = existence(force, result)
 
     def on_both_sides(found: Relation) -> tuple[object, object]:
-        """Compare N at the place, and between the start and the place, without the factor that stays positive."""
+        """Check the solution without the omitted factor: N vanishes at the place, and is linear in the unknown."""
         place = explicit(found.right)
         u = part_of_the_way()
         on_the_way = tidied(with_unknown(pushing, unknown, place + u * (begin - place)))
@@ -153,18 +153,18 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
 
 
 def _as_positive(condition: Relation) -> Relation:
-    """Write an inequality without its positive factors: v^2 < 5 g l."""
+    """Write an inequality without positive factors: v^2 < 5 g l."""
     return positive(condition.residual if condition.operator in (">", ">=") else -condition.residual)
 
 
 def _speed_behind(force: Quantity, unknown: Expr) -> Quantity | None:
-    """Return the squared rate of the coordinate, f(q) by conservation of energy, from which a force was derived."""
+    """Return the step q_dot^2 = f(q), by conservation of energy, from which the force was derived; or None."""
     q = letter_of(unknown)
     return next((a for a in force.ancestors() if (known := a.fact(ByEnergy)) and known.coordinate == q), None)
 
 
 def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: Expr) -> None:
-    """Check that the contact begins at the start of the motion from which the force was found."""
+    """Require that the given start is the start of the motion from which the force was derived."""
     known = speed.needed(ByEnergy)
     begun = unknown.xreplace({known.coordinate: known.start})
     if not is_zero(tidied(begun - start)):
@@ -173,7 +173,7 @@ def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: 
 
 
 def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
-    """Statement that the motion turns back before the place where the force would vanish, or exactly there.
+    """Turning back of the motion before the place where the force would vanish, or exactly there: N > 0 or N >= 0.
 
     Outcomes: turns_back, turns_there.
     Source: that of `leaves_contact`.
@@ -186,7 +186,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
     at_angle = squared.xreplace({q: angle})
 
     def on_the_way(found: Relation) -> tuple[object, object]:
-        """Check that the force is positive from the start to the place, where it would vanish."""
+        """Check that the force is positive between the start and the place where it would vanish."""
         u = part_of_the_way()
         between = tidied(with_unknown(value, unknown, place + u * (begin - place)))
         sure = int(sign_known(between) == 1 and found.operator == mark)
@@ -210,7 +210,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 
 
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
-    """Split sin(theta)(a cos(theta) - b) into the sine, if it is known to be positive, and the bracket."""
+    """Split sin(theta)(a cos(theta) - b) into the sine and the bracket, if the sine is known to be positive."""
     u = mark_for(unknown)
     rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
     held = Mul(*beside)
@@ -218,7 +218,7 @@ def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
 
 
 def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:
-    """Whether a factor that is positive on the way is zero at the start, as sin(theta) in an upright position."""
+    """Whether a factor that is positive during the motion is zero at the start, as sin(theta) at theta = 0."""
     (letter, there) = next(iter(meaning(unknown, explicit(start)).items()))
     return bool(tidied(held.xreplace({letter: there})) == 0)
 
@@ -231,7 +231,7 @@ def _unsolvable_contact(force: Quantity, unknown: Expr) -> Rejected:
 
 
 def _pushes_until(found: Relation, value: Expr, unknown: Expr, start: Expr) -> Verdict:
-    """Check numerically, along the coordinate: the force is positive before the place, zero there, negative beyond."""
+    """Check numerically, along the coordinate, that the force is positive before the place and negative beyond it."""
     letter = letter_of(unknown)
     value, begin, end = (with_numbers(each) for each in (value, start, explicit(found.right)))
     letters = letters_of(value) | letters_of(begin) | letters_of(end)
@@ -245,11 +245,9 @@ def _pushes_until(found: Relation, value: Expr, unknown: Expr, start: Expr) -> V
         except (Undefined, NoNumber, TypeError):
             continue
         if not all(force > 0 for force in there[:-1]) or not there[-1] < 0:
-            return Verdict(Grade.REFUTED, "the force is not positive on the way, or is positive beyond it")
+            return Verdict(Grade.REFUTED, "the force is not positive before the place, or not negative beyond it")
         seen += 1
-    return (
-        Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "undefined wherever it was tried")
-    )
+    return Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "undefined at all points tried")
 
 
 def _inverse(unknown: Expr, value: Expr) -> Expr:

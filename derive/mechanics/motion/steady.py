@@ -1,5 +1,4 @@
-"""Steady motions: the cyclic coordinates change at constant rates while the others are constant; and small
-oscillations about them, with constant momenta of the cyclic coordinates.
+"""Steady motions: the cyclic coordinates have constant rates, and all other coordinates are constant.
 
 Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.6 and 5.7.
 """
@@ -43,18 +42,18 @@ def steady_motion(
     at: Mapping[Any, Any] | None = None,
     key: str = "steady_motion",
 ) -> Quantity | tuple[Quantity, ...]:
-    """Condition of a steady motion, dL/dq = 0 with q_dot = 0 for each coordinate that is not cyclic, with
-    constant rates of the cyclic ones; one condition for each coordinate that is not cyclic.
-    of      the Lagrangian, J, which does not contain the time; or the equation of motion of one coordinate, with the
-            values of conserved momenta substituted: they determine the rates of their coordinates
-    rates   of the cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its letter
-    at      the constant values of the others, `{theta: alpha}`; one that is not given keeps its letter
-    key     the beginning of the keys; followed by the name of the coordinate if there are several
-    Second route: the mass points in this motion, with their accelerations as functions of the time:
-    sum of (m a - F) . dr/dq = 0.
-    Outcomes: generic, always (it holds for any rates), of_equation.
-    Errors: L contains the time, has no cyclic coordinate or no other; a force without a potential energy acts; a rate
-    is given for a coordinate that is not cyclic; the condition can never hold.
+    """Condition of a steady motion, dL/dq = 0 at q_dot = 0, for each coordinate q that is not cyclic; the cyclic
+    coordinates have constant rates.
+    of      the Lagrangian, J, which must not contain the time; or the equation of motion of one coordinate, with the
+    values of conserved momenta substituted: these momenta determine the rates of the cyclic coordinates
+    rates   constant rates of cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its symbol
+    at      constant values of other coordinates, `{theta: alpha}`; a coordinate that is not given keeps its symbol
+    key     the key; if there are several conditions, the name of the coordinate is appended
+    Second route: sum of (m a - F) . dr/dq = 0 for the mass points in this motion, with accelerations a from the places
+    as functions of time.
+    Outcomes: generic, always (satisfied for any rates), of_equation.
+    Errors: L contains the time; no coordinate is cyclic, or all are; a force without a potential energy acts; a rate is
+    given for a coordinate that is not cyclic; the condition cannot be satisfied.
     Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
     known = of.fact(WithMomenta)
@@ -101,7 +100,7 @@ STEADY_MOTION = Rule(
 def _of_equation(
     equation: Quantity, steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key: str
 ) -> Quantity:
-    """Equation of motion with a constant value of its coordinate and constant rates of the cyclic ones.
+    """Condition of a steady motion from an equation of motion, with a constant coordinate and constant cyclic rates.
 
     Outcomes: of_equation.
     Source: that of `steady_motion`.
@@ -137,19 +136,19 @@ def _of_equation(
 def _given(
     role: str, given: Mapping[Any, Any] | None, turning: Sequence[Coordinate], still: Sequence[Coordinate]
 ) -> dict[Symbol, Expr]:
-    """Return the constant value that is given for each coordinate."""
+    """Return the given constant values, of rates or of coordinates, by coordinate."""
     known = {q.symbol for q in (turning if role == "rate" else still)}
     moving = {TIME, *(s for q in (*turning, *still) for s in (q.symbol, q.rate))}
     found: dict[Symbol, Expr] = {}
     for q, value in (given or {}).items():
         letter = q.symbol if isinstance(q, Coordinate) else q
         if letter not in known:
-            wrong = "not cyclic" if role == "rate" else "cyclic, or not a coordinate of it"
+            wrong = "not cyclic" if role == "rate" else "cyclic, or not a coordinate of the Lagrangian"
             message = f"`steady_motion`: a {role} is given for {letter}, which is {wrong}"
             raise Rejected(Complaint("wrong-argument", message))
         number = value.value if isinstance(value, Quantity) else as_expr(value)
         held = {s for s in number.free_symbols if any(s == q.rate for q in turning)}  # constant in this motion
-        held |= ({number} if isinstance(number, Symbol) else set()) - moving  # the symbol of the rate, or of the place
+        held |= ({number} if isinstance(number, Symbol) else set()) - moving  # a symbol for a constant value
         require_constant("steady_motion", role, number.xreplace({s: Dummy("held", real=True) for s in held}))
         found[letter] = number
     return found
@@ -188,7 +187,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
 
 
 def _rates_first(value: Expr, steady: Steady) -> Expr:
-    """Choose the sign so that the highest power of a rate is positive."""
+    """Choose the sign so that the highest power of a rate has a positive coefficient."""
     for letter in sorted({s for v in steady.rates.values() for s in v.free_symbols}, key=str):
         for each in Mul.make_args(value):
             polynomial = each.as_poly(letter)
@@ -212,7 +211,7 @@ def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
     return left - explicit(Add(*works)).xreplace(rates).xreplace(motion)
 
 
-# --- small oscillations about it --------------------------------------------------------------------------------------
+# --- for `results:` ---------------------------------------------------------------------------------------------------
 
 
 NONE: Mapping[str, Expr] = MappingProxyType({})
@@ -228,7 +227,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 def _in_results(
     of: Quantity, key: str, coordinates: Mapping[str, Coordinate], values: Values = NONE, symbols: Symbols = ()
 ) -> Quantity | tuple[Quantity, ...]:
-    """Find the steady motion with the given places and rates; the other cyclic rates have letters."""
+    """Call `steady_motion` with the given values; the remaining cyclic rates get the given symbols."""
     places = {coordinates[name]: value for name, value in values.items() if name in coordinates}
     rates: dict[Coordinate, Any] = {
         q: value for name, value in values.items() for q in coordinates.values() if q.rate.name == name

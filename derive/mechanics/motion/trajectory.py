@@ -1,6 +1,6 @@
-"""Numerical integration of a motion: a quantity is compared with the integral of its rate.
-This proves nothing, since it is one motion, to some figures; but it shares nothing with the algebra that it checks. The
-integration is by Gragg's rule, extrapolated to zero step length.
+"""Numerical integration of a motion, to compare the change of a quantity with the integral of its rate.
+One motion with a limited number of figures proves nothing, but the integration shares no code with the algebra that it
+checks. The integration is by Gragg's rule, extrapolated to zero step length.
 Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 17.3.
 """
 
@@ -16,16 +16,16 @@ from sympy import Expr, Rational, Symbol, lambdify
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import RATES, TIME, rate, scalar
 
-FIGURES = 10  # to which the two must agree, out of 15
-STEPS = (4, 16, 64, 256)  # from 0 to 1; more steps if the two do not agree
-PARTS = range(2, 18, 2)  # of a step, for the extrapolation to zero length
+FIGURES = 10  # number of figures, out of 15, to which change and integral must agree
+STEPS = (4, 16, 64, 256)  # numbers of steps from t = 0 to t = 1, tried in turn until change and integral agree
+PARTS = range(2, 18, 2)  # numbers of parts of a step, for the extrapolation to zero length
 
-State: TypeAlias = list[complex]  # a root may be imaginary at the random numbers
+State: TypeAlias = list[complex]  # complex, because a square root may be imaginary for random numbers
 Flow: TypeAlias = Callable[..., Sequence[complex]]
 
 
 def followed(value: Expr, its_rate: Expr, motion: Mapping[Symbol, Expr]) -> Verdict:
-    """Whether Q(1) - Q(0) is the integral of dQ/dt from 0 to 1 along one motion.
+    """Whether Q(1) - Q(0) is the integral of dQ/dt from t = 0 to t = 1 along one motion.
 
     value, its_rate   Q and the claimed dQ/dt
     motion            highest rate -> its value by the equations of motion
@@ -59,13 +59,13 @@ def _shown(number: complex) -> str:
 
 
 def _end(flow: Flow, start: State, steps: int) -> State:
-    """Return the state at time 1."""
+    """Return the state at t = 1."""
     y, length = start, 1 / steps
     for n in range(steps):
         row: list[State] = []
         for k, parts in enumerate(PARTS):
             further = [_by_midpoints(flow, y, n * length, length / parts, parts)]
-            for j, beside in enumerate(row):  # the error has only even powers of the parts' length
+            for j, beside in enumerate(row):  # the error contains only even powers of the step length
                 weight = 1 / ((parts / PARTS[k - 1 - j]) ** 2 - 1)
                 further.append([a + (a - b) * weight for a, b in zip(further[-1], beside, strict=True)])
             row = further
@@ -74,7 +74,7 @@ def _end(flow: Flow, start: State, steps: int) -> State:
 
 
 def _by_midpoints(flow: Flow, y: State, t: float, h: float, parts: int) -> State:
-    """Gragg's rule: one Euler step, then midpoint steps, each from the point before last."""
+    """Return the state after one step by Gragg's rule: an Euler step, then midpoint steps of length 2h."""
     last, now = y, [a + h * v for a, v in zip(y, flow(t, y), strict=True)]
     for k in range(1, parts):
         slopes = flow(t + k * h, now)
@@ -84,7 +84,7 @@ def _by_midpoints(flow: Flow, y: State, t: float, h: float, parts: int) -> State
 
 
 def _state(motion: Mapping[Symbol, Expr]) -> list[Symbol]:
-    """Return the coordinates and rates below the highest ones: their values at one instant determine the motion."""
+    """Return all coordinates and rates below the highest rates; their values at one instant determine the motion."""
     found: list[Symbol] = []
     for highest in motion:
         order = next(n for n in (3, 2, 1) if highest.name.endswith(RATES[n]))

@@ -1,4 +1,4 @@
-"""Whether a motion of one coordinate reaches a place: by conservation of energy it does not turn back before it."""
+"""Test whether a motion of one coordinate reaches a place or, by conservation of energy, turns back before it."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from derive.steps.record import assume, assumed
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity
 
-TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # of the way to a place
+TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # PARTS of the distance to a place
 
 
 def squared_by_energy(speed: Quantity) -> Expr:
-    """Return the squared rate by conservation of energy, f(q); raise the error of the fact for any other quantity."""
+    """Return the squared rate f(q) of a step by conservation of energy; any other quantity is an error."""
     assert speed.symbol == rate(speed.needed(ByEnergy).coordinate) ** 2
     return explicit(speed.value)
 
@@ -30,15 +30,16 @@ def squared_by_energy(speed: Quantity) -> Expr:
 def condition_to_reach(
     of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None
 ) -> Relation | None:
-    """Return the condition on the letters under which a motion reaches a place; None if it always does.
-    of        the result that refers to the place
+    """Return the condition on the symbols under which a motion reaches a place; None if it always does.
+    of        the result that refers to the place, for messages
     speed     the squared rate of a coordinate by conservation of energy, f(q)
-    unknown   the coordinate q or a function of it, cos(q), and `place` its value there, which may be infinite
-    there     f at the place, if it is a limit
-    The motion turns back where f = 0. It reaches the place if f is negative neither there nor between the start and the
-    place. If the sign of f at the place depends on the letters, the condition is f > 0 there. Between the start and the
-    place the sign is decided by algebra or, if algebra does not decide, numerically.
-    Errors: the motion turns back before the place, always or for some values of the letters.
+    unknown   the coordinate q, or a function of q such as cos(q)
+    place     the value of `unknown` at the place, which may be infinite
+    there     f at the place, if f has only a limit there; by default f is evaluated
+    The motion turns back where f = 0. It reaches the place if f is not negative at the place, nor between the start and
+    the place. If the sign of f at the place depends on the symbols, the condition is f > 0 there. Between the start and
+    the place, algebra decides the sign of f or, if algebra cannot decide, numerical values do.
+    Errors: the motion turns back before the place, always or for some values of the symbols.
     """
     q = speed.needed(ByEnergy).coordinate
     there = tidied(_put(explicit(speed.value), unknown, place) if there is None else there)
@@ -52,14 +53,14 @@ def condition_to_reach(
 
 
 def assume_reached(of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None) -> None:
-    """Assume that the motion reaches a substituted place: the page states the condition."""
+    """Assume that the motion reaches a place; the page states the condition for this."""
     condition = condition_to_reach(of, speed, unknown, place, there)
     if condition is not None:
         assume(Relation(condition.left, ">=", condition.right))
 
 
 def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
-    """Whether algebra shows that the squared rate, if it is not negative at the place, is positive before it."""
+    """Whether algebra shows that f is positive between start and place, if f is not negative at the place."""
     squared, mark = explicit(speed.value), mark_for(unknown)
     written = with_unknown(squared, unknown, mark)
     if left_over(written, unknown) or place in (oo, -oo):
@@ -73,13 +74,13 @@ def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
 
 
 def _put(squared: Expr, unknown: Expr, place: Expr) -> Expr:
-    """Return the squared rate at this value of the unknown; by the coordinate, if it occurs outside the unknown too."""
+    """Return f at this value of the unknown; if q occurs outside the unknown too, the value of q is substituted."""
     found = with_unknown(squared, unknown, place)
     return squared.xreplace(meaning(unknown, place)) if left_over(found, unknown) else found
 
 
 def part_of_the_way() -> Expr:
-    """Return an arbitrary number between 0 and 1."""
+    """Return an expression for an arbitrary number between 0 and 1."""
     way = Dummy("s", positive=True)
     return way / (1 + way)
 
