@@ -59,7 +59,7 @@ class Linear(LinearSystem, Fact):
 
 @dataclass(frozen=True)
 class Mode(Fact):
-    """The root lambda = omega^2 behind the frequency or growth rate of a mode, with the sign and columns of the root."""
+    """The root lambda = omega^2 behind the frequency or growth rate of a mode, with its sign and its columns."""
 
     missing = "is not the frequency of a normal mode"
     root: CharacteristicRoot

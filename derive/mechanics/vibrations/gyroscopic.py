@@ -193,7 +193,10 @@ def _by_square(value: Expr, letter: Symbol, square: Expr) -> Expr:
 
 
 def _sum_of_squares(system: LinearSystem) -> Expr:
-    """Return the sum of all omega^2, tr(M^-1 K) - tr((M^-1 G)^2)/2, the trace of -A^2/2 for the first-order system A."""
+    """Return the sum of all omega^2: tr(M^-1 K) - tr((M^-1 G)^2)/2.
+
+    This is the trace of -A^2/2, where A is the matrix of the equivalent first-order system.
+    """
     inverse = system.mass.inv()
     turning = inverse * system.turning
     return tidied((inverse * system.stiffness).trace() - (turning * turning).trace() / 2)
