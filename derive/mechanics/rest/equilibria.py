@@ -336,7 +336,7 @@ def _term_by_term(force: Expr, q: Symbol) -> Expr:
 
 
 def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
-    """Return the coordinate that is constant in a steady motion; empty if no momentum is constant, or several remain."""
+    """Return the coordinate that is constant in a steady motion; empty if no momenta are constant."""
     seen = potential.fact(SeenWith)
     if seen is None or not seen.constants or len(sought) != 1:
         return {}

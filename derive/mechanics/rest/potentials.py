@@ -235,7 +235,7 @@ def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, wher
 
 
 def _first_that_decides(value: Expr, q: Symbol, place: Expr) -> tuple[int, Expr]:
-    """Return the lowest order from 2 to 8 whose coefficient is not zero, and this coefficient; (0, 0) if all are zero."""
+    """Return the lowest order from 2 to 8 whose coefficient is not zero, with this coefficient; (0, 0) if none is."""
     for n in range(2, HIGHEST + 1):
         coefficient = tidied(_coefficient(value, q, place, n))
         if coefficient != 0:
