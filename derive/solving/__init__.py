@@ -1,1 +1,1 @@
-"""Solve for a letter, decide a sign, find roots, treat a linear system, write results as textbooks do; no physics."""
+"""Solve for a symbol, decide a sign, find roots, solve a linear system, write results as in a textbook; no physics."""

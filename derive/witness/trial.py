@@ -174,7 +174,7 @@ class Trial:
         return State(np.array(q), np.array(v), abs(time))
 
     def _projected(self, state: State, given: Sequence[Given]) -> State:
-        """Project a state onto the conditions and given values by least changes, first of coordinates, then of rates."""
+        """Project a state onto the conditions and given values by least changes: of coordinates, then of rates."""
         inputs = [*self.blueprint.coordinates, *self.blueprint.rates, TIME]
         kept = [(self.momenta[g.target], self.value(g.value)) for g in given if g.target in self.momenta]
         given = [g for g in given if g.target not in self.momenta]

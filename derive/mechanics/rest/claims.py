@@ -300,7 +300,10 @@ def depends(border: str | None) -> Predicate:
 
 
 def bordered(border: str | None) -> Predicate:
-    """Judge whether the condition includes its boundary exactly if the order that decides there says "stable"."""
+    """Judge whether the condition includes its boundary exactly if the equilibrium is stable on the boundary.
+
+    border   the verdict of the higher order that decides on the boundary; None if no order decides
+    """
 
     def is_so(facts: Judged) -> bool:
         where = facts.inputs.get("at_border")

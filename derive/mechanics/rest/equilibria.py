@@ -184,7 +184,7 @@ def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
     """Reject coordinates with a constraint between them, because a constraint force would balance the other forces."""
     tied = next((c for c in constraints_of(of) if any(c.along(q) != 0 for q in sought)), None)
     if tied is not None:
-        message = f"`equilibria`: a force keeps the constraint {tied.left} = {tied.right} between the coordinates"
+        message = f"`equilibria`: a force maintains the constraint {tied.left} = {tied.right} between the coordinates"
         help_line = "use free coordinates: write the places with fewer coordinates, without this constraint"
         raise Rejected(Complaint("constrained", message, help=help_line))
 

@@ -48,7 +48,7 @@ BY_FIRST_ORDER = Spelled(
     "to first order the equations of motion decide, `linear_stability(linearised(motion))`", "ask for `linearised`"
 )
 STEADY = Spelled(
-    "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`",
+    "`steady_motion` finds a steady motion there, and `frequency_squared_about` determines its stability",
     "such a motion is steady: under `results`, `steady` gives its condition and `frequency` its stability",
 )
 
@@ -254,7 +254,7 @@ def _decided_where(
 
 
 def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relation | None, Relation | None]:
-    """Return the outcome, the condition for stability, and its boundary, which gives a symbol its value there."""
+    """Return the outcome, the condition for stability, and the value of a symbol on the boundary of this condition."""
     if is_zero(value):
         return _by_higher_order(place, place.energy), None, None
     sign = sign_where(value, place.exists)
@@ -451,6 +451,6 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         turned = derivative(matter.momentum_along(p), q) - derivative(matter.momentum_along(q), p)
         turned += derivative(matter.other_force_along(p), rate(q)) - derivative(matter.other_force_along(q), rate(p))
         if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
-            message = f"`stability`: `{place.potential.key}` has no minimum there for all values, and forces that"
-            message += f" depend on the rates of {q.name} and {p.name} may still stabilise the equilibrium"
+            message = f"`stability`: `{place.potential.key}` has no minimum there for some values of the"
+            message += f" symbols, and forces that depend on the rates of {q.name} and {p.name} may still stabilise the equilibrium"
             raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))

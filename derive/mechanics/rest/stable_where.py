@@ -58,7 +58,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
     border = known.border if known.border is not None and result.left == known.border.left else None
 
     def beside(found: Relation) -> tuple[Any, Any]:
-        """Compare the relation above and below its boundary with the sign of the second derivative there."""
+        """Compare the relation, above and below its boundary, with the sign of the second derivative."""
         u = Dummy("u", positive=True)
         says, is_so = [Integer(1)], [Integer(1)]
         for side in (1, -1) if border is not None else ():
@@ -104,7 +104,7 @@ def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -
                 is_true = holds(value_at(found.residual, case), found.operator)
                 if is_true != bool(known.lifted(case) > 0):
                     where = tuple((str(s), str(x)) for s, x in case.items())
-                    return Verdict(Grade.REFUTED, "the energy near the place contradicts it", where)
+                    return Verdict(Grade.REFUTED, "the energy near the equilibrium contradicts the condition", where)
         except (Undefined, NoNumber, TypeError):
             continue
         seen += 1

@@ -107,7 +107,7 @@ def frequency_squared_about(
     at        an equilibrium of `of`, as `equilibria` yields it; or, for an effective potential energy, the condition of
     a steady motion of the same Lagrangian, as `steady_motion` yields it
     without   the symbol that the condition of the steady motion eliminates; by default the result is the shortest
-    The momenta of the cyclic coordinates keep their values in the steady motion.
+    During the oscillation, the momenta of the cyclic coordinates have the values of the steady motion.
     Second route: d'Alembert's principle for all coordinates, including the cyclic ones, to first order in the
     displacements: the determinant of its equations vanishes for oscillations of this frequency.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).

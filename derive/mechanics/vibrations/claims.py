@@ -111,7 +111,7 @@ def loses(wanted: bool) -> Predicate:
 
 
 def dies_away(manner: str) -> Predicate:
-    """Judge how a free displacement decays, by the exponents s of a s^2 + b s + c = 0."""
+    """Judge how a free displacement decays, from the sign of the discriminant of a s^2 + b s + c."""
     signs = {"oscillating": -1, "critical": 0, "creeping": 1, "unknown": None}
 
     def is_so(facts: Judged) -> bool:

@@ -470,7 +470,7 @@ def _without_squares(value: Expr, square: Symbol) -> Expr:
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """Reduce the value where both sides of a condition are equal: a remainder of polynomials in one of its symbols."""
+    """Return the remainder of the value on division by left minus right side of a condition, in one of its symbols."""
     residual = Poly(condition.residual.as_numer_denom()[0].expand())
     letter = min(residual.gens, key=lambda each: (not each.is_Symbol, str(each)))
     return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual.as_expr(), letter)).as_expr()

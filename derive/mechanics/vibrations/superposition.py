@@ -278,7 +278,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
     q="for: a coordinate",
     start="start",
     start_rate="start_rate: 0 by default",
-    values="values: from `normal_modes`, in place of these three: `{x_1: A, x_2_dot: v}`, all else zero",
+    values="values: from `normal_modes`, in place of these three: `{x_1: A, x_2_dot: v}`, all other values zero",
     case="case",
 )
 def _in_results(
