@@ -68,7 +68,8 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     depends on the symbols); if two or more modes have this frequency: oscillating_repeated, growing_repeated,
     free_repeated, conditional_repeated; ordered, ordered_part (a numbered root without a formula); of shapes: in_phase,
     opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing (growing),
-    any_of_several (repeated); of the determinant: several, one (coordinate).
+    any_of_several (repeated); of the
+    determinant: several, one (coordinate).
     Errors: the roots have no closed form, and some symbols have no numbers; with drag the modes do not separate; too
     many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
