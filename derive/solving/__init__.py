@@ -1,1 +1,1 @@
-"""Solve for a letter, find roots, treat a linear system, write results as textbooks do; no physics."""
+"""Solve for a symbol, find roots, solve linear systems, write results as in a textbook; no physics."""

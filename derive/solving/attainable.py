@@ -15,12 +15,12 @@ from derive.solving.relations import positive
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity
 
-DRAWN = 24  # sets of numbers for the symbols
+DRAWN = 24  # sets of numbers that are drawn for the symbols
 LITTLE = Rational(1, 10**12)
 
 
 def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, if one is needed, and whether it is impossible."""
+    """The condition for -1 < v < 1, or None if no condition is needed; and whether v is never in this interval."""
     sign = sign_for_all(value)
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
     known = sign_for_all(room)
@@ -30,9 +30,9 @@ def within_one(value: Expr) -> tuple[Relation | None, bool]:
 
 
 def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
-    """The condition under which an unknown can have the value, and whether it never can.
+    """The condition under which an unknown can have the value, and whether the unknown can never have it.
 
-    A cosine is not greater than one, and a symbol does not leave its range.
+    A sine or cosine is not greater than one, and the value of a symbol is in its range.
     """
     exists, never = (None, False)
     if isinstance(unknown, sin | cos) and value not in (1, -1):
@@ -48,8 +48,10 @@ def is_out_of_range(unknown: Expr, value: Expr) -> bool:
 
 
 def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:
-    """Whether a value is in the range of a symbol, tested with numbers for which the value exists; None if this is
-    true for some of these numbers only."""
+    """Whether a value is in the range of a symbol, tested with numbers that satisfy the condition `exists`.
+
+    The result is None if the numbers disagree, or if no numbers can be tested.
+    """
     known, seen = range_of(letter), set()
     if known is None:
         return True
@@ -73,7 +75,7 @@ def _is_inside(number: Expr, known: Range) -> bool:
 
 
 def existence(of: Quantity, solution: Relation) -> Relation | None:
-    """The condition under which a solution of an equation exists; an inequality holds or fails without one."""
+    """The condition under which the solution of an equation exists; None for an inequality."""
     alone, solved = solution.sides
     exists, never = reached(alone, solved) if solution.operator == "=" else (None, False)
     if never:

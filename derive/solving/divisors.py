@@ -1,4 +1,4 @@
-"""The divisors of a result: the conditions under which they do not vanish, which a sentence states."""
+"""Conditions under which the divisors of a result do not vanish; a sentence of the page states these conditions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,10 @@ def may_vanish(*values: Expr) -> Relation | None:
 
 
 def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
-    """The condition that a sentence states on the denominators: the factors that must not vanish, if any may."""
+    """The condition that a sentence states: the factors of the denominators that may vanish are not zero.
+
+    The result is empty if no factor may vanish.
+    """
     below: Expr = Integer(1)
     for value in values:
         below = lcm(below, tidied(value).as_numer_denom()[1])
@@ -40,7 +43,7 @@ def different_from_zero(value: Expr) -> Relation | None:
 
 
 def check_no_resonance(stiffness: Expr) -> None:
-    """Reject a driving frequency for which c - a w^2 vanishes with the given numbers: the result then has no value."""
+    """Reject a driving frequency w for which c - a w^2 vanishes with the given numbers: this is resonance."""
     if not is_zero(stiffness) and sign_known(stiffness) == 0:
         message = f"with the given numbers {stiffness} vanishes: this motion is at resonance"
         help_line = "write the driving frequency in symbols, such as `sqrt(k/m)`"

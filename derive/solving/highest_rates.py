@@ -1,4 +1,4 @@
-"""Solve equations of motion for their highest rates, in which they are linear."""
+"""Solve equations of motion for their highest rates; the equations are linear in these rates."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.steps.step import Quantity
 
-HIGHEST = 2  # the order of the rates that equations of motion determine
+HIGHEST = 2  # highest order of a rate that equations of motion determine
 
 
 def highest_rates(equations: Sequence[Quantity], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Solve the equations of motion for their highest rates, as linear equations."""
+    """Solve the equations of motion, which are linear in their highest rates, for these rates."""
     residuals = [_equation(equation).residual.expand() for equation in equations]
     unknown = [highest for q in moving if (highest := _highest(q, residuals)) is not None]
     matrix = Matrix([[diff(residual, a) for a in unknown] for residual in residuals])

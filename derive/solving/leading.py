@@ -1,4 +1,4 @@
-"""The leading terms of a result for a small or large symbol or near a value, and two methods to check them."""
+"""The leading terms of a result for a small symbol, a large symbol or near a value, and two methods to check them."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from derive.steps.step import Quantity
 
 DISTANCES = ((Rational(1, 10**8), Rational(1, 10**9)), (Rational(1, 40), Rational(1, 80)))
 POINTS = 4
-SLOWEST = Rational(1, 6)  # the least power of the distance with which a remainder must vanish: some are fractional
+SLOWEST = Rational(1, 6)  # least power of the distance with which a remainder must vanish; powers may be fractional
 
 
 def entries_of(value: Any) -> list[Expr]:
@@ -51,7 +51,7 @@ def entry_by_entry(change: Callable[[Expr], Expr], value: Any) -> Any:
 
 
 def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | None) -> list[Series]:
-    """The terms of each entry; if no order is given, only those with the leading power of the largest entry."""
+    """The terms of each entry; if no order is given, only terms with the lowest power that occurs in any entry."""
     is_one = not isinstance(value, MatrixBase)
     each = [expansion_of(of, entry, x, place, order, is_one) for entry in entries_of(value)]
     if order is None:
@@ -63,9 +63,10 @@ def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | No
 
 
 def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None, is_one: bool = True) -> Series:
-    """The terms to that order, by default the leading term only; rejected if there is no expansion in powers.
+    """The terms up to an order, by default the leading term only; an error if no expansion in powers exists.
 
-    is_one   whether the first term must be within that order; an entry of a vector need not have one
+    is_one   whether the value is a single number: then the first term must be within the order; an entry of a vector
+             may have no term within the order
     """
     try:
         return expanded(value, x, place, None if order is None else Rational(order))
@@ -98,7 +99,7 @@ def _of_squares_drawn(value: Expr) -> Expr:
 
 
 def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: Expr, power: Rational) -> Any | None:
-    """The same terms without derivatives, by series arithmetic; None if its rules are not enough."""
+    """The same terms, computed by series arithmetic without derivatives; None if its rules do not suffice."""
     first = min((n for each in series for n in each), default=Rational(0))
     if not first.is_Integer or not power.is_Integer:
         return None
@@ -118,7 +119,7 @@ def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: 
 
 
 def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
-    """Whether the terms are the same; for a truncated series this holds to an order, for a limit (`whole`) exactly."""
+    """Compare two sets of terms; a truncated series is confirmed to its order only, a limit (`whole`) exactly."""
     verdict = equal(found, again)
     if whole or verdict.grade is Grade.REFUTED:
         return verdict
@@ -126,10 +127,11 @@ def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
 
 
 def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rational) -> Verdict:
-    """Compare the remainder at two distances: divided by the last power kept, it must shrink with the distance.
+    """Compare the remainder at two distances: the remainder over the last power kept must shrink with the distance.
 
-    The next power may be fractional, a + b x^(1/4), so it need not shrink as much as the distance. Both sides of a
-    place are tested, except at the end of a range: |m - M| has two leading terms at m = M.
+    The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink less than the distance. Both sides
+    of the value `place` are tested, because |m - M| has two leading terms at m = M; at the end of a range only one side
+    is tested.
     """
     for before, after in zip(entries_of(value), entries_of(found), strict=True):
         for side in _sides(x, place):
@@ -140,7 +142,7 @@ def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rationa
 
 
 def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
-    """The sides of a place on which the symbol may be."""
+    """The sides of the value `place` on which the symbol may be."""
     known = range_of(x)
     if place in (oo, -oo):
         return (1,)
@@ -150,7 +152,7 @@ def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
 
 
 def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int) -> Verdict:
-    """Compare close to the place, or farther away if the remainder has no number there."""
+    """Compare the remainder close to the value `place`, or farther away if the remainder has no number close to it."""
     seen = 0
     letters = (letters_of(value) | letters_of(found) | letters_of(place)) - {x}
     for point in islice(points(letters, seed_of(value)), POINTS):
@@ -170,8 +172,10 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
 def _shrinks(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
 ) -> bool | None:
-    """Whether the remainder over that power of the small quantity shrinks from one distance to the other; None if it
-    has no value."""
+    """Whether the remainder over the given power of the small quantity shrinks from the farther to the closer distance.
+
+    The result is None if the remainder has no value.
+    """
     sizes = []
     for near in distances:
         there = {**point, x: _at(place, near, point, side)}

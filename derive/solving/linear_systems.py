@@ -1,11 +1,11 @@
 """Linear systems M q_ddot + (G + C) q_dot + K q = 0: the characteristic equation, its roots, and the shapes.
 
-G is antisymmetric, by forces that do no work, and C is symmetric, by drag. A motion a e^(s t) is possible where
-det(M s^2 + (G + C) s + K) = 0. Three classes of systems differ in what this determinant is:
+The matrix G is antisymmetric and describes forces that do no work; the matrix C is symmetric and describes drag. A
+motion a e^(s t) is possible if det(M s^2 + (G + C) s + K) = 0. The form of this determinant depends on the class:
 conservative, without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a are real;
-gyroscopic, without C: a polynomial in omega^2 too, which often splits into two mirror-image factors in omega, one for
-each sense of rotation; then their roots are simpler than the roots in omega^2;
-damped: a polynomial in s, solved if each factor is linear or quadratic.
+gyroscopic, without C: also a polynomial in omega^2, which often splits into two mirror-image factors in omega, one for
+each sense of rotation; the roots of these factors are simpler than the roots in omega^2;
+damped: a polynomial in s, which is solved if each of its factors is linear or quadratic.
 """
 
 from __future__ import annotations
@@ -67,18 +67,19 @@ LAMBDA, OMEGA, S = (
     Dummy("omega", positive=True),
     Dummy("s", real=True),
 )  # the roots of the three classes
-LARGEST, LETTERS = 12, 40  # of a conservative system: coordinates; coordinates times symbols of the matrices
-LARGEST_WITH_RATES = 4  # coordinates of any other system
-FINEST = 60  # most parts of a right angle that are tried for the frequency of a chain
+LARGEST, LETTERS = 12, 40  # limits of a conservative system: coordinates; coordinates times symbols of the matrices
+LARGEST_WITH_RATES = 4  # limit on the coordinates of any other system
+FINEST = 60  # the angles a pi/2b of a uniform chain are tried for b below this number
 
 
 @dataclass(frozen=True)
 class Factor:
-    """An irreducible factor of the determinant, a polynomial in the root: its coefficients from the highest power, with
-    the first positive if its sign is known, and its power in the determinant.
+    """An irreducible factor of the determinant, a polynomial in the root.
 
-    even       whether only even powers occur, whose coefficients these are: it is a polynomial in omega^2
-    mirrored   whether its mirror image, with -omega for omega, is a factor too, which this one represents
+    coefficients   from the highest power; the first coefficient is positive if its sign is known
+    times          the power of the factor in the determinant
+    even           whether only even powers of omega occur; the coefficients are then those of a polynomial in omega^2
+    mirrored       whether the factor also represents its mirror image, in which -omega replaces omega
     """
 
     coefficients: tuple[Expr, ...]
@@ -97,7 +98,7 @@ class Factor:
 
     @property
     def is_free(self) -> bool:
-        """Whether its only root is zero."""
+        """Whether the only root of the factor is zero."""
         return all(is_zero(c) for c in self.coefficients[1:])
 
     @cached_property
@@ -107,7 +108,7 @@ class Factor:
 
     @cached_property
     def needs(self) -> tuple[Expr, ...]:
-        """Expressions that must be positive for all roots omega to be real, different and nonzero."""
+        """Expressions that must be positive for all roots omega to be real, distinct and nonzero."""
         if self.is_free:
             return ()
         a, b, *rest = self.coefficients
@@ -128,12 +129,13 @@ class Factor:
 class CharacteristicRoot:
     """A root of the characteristic equation.
 
-    value     of a conservative system lambda = omega^2, of a gyroscopic one the frequency or the rate of growth, of a
-              damped one the rate of decay b/2a or b/a
-    sign      whether the motion oscillates (1), is free (0) or grows (-1); of a rate of decay b/a its own sign; None if
-              this is unknown
-    columns   of a conservative system: the shapes, orthogonal with respect to M; none if the root has no formula
-    turn      of a gyroscopic system, 1 or -1: the root of the factor is the frequency or its negative; 0 if unknown
+    value     for a conservative system lambda = omega^2; for a gyroscopic system the frequency or the rate of growth;
+              for a damped system the rate of decay, b/2a of a quadratic factor or b/a of a linear one
+    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; for a rate of decay b/a the sign of this
+              rate; None if the sign is unknown
+    columns   the shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
+    turn      for a gyroscopic system, 1 if the frequency is a root of the factor, -1 if minus the frequency is a root;
+              0 if this is unknown
     """
 
     value: Expr
@@ -152,7 +154,7 @@ class CharacteristicRoot:
 
     @property
     def needs(self) -> tuple[Expr, ...]:
-        """Expressions that must be positive for an oscillation, if it is unknown whether they are."""
+        """Expressions that must be positive for an oscillation; empty if the sign of the root is known."""
         return self.factor.needs if self.sign is None else ()
 
 
@@ -178,7 +180,7 @@ class LinearSystem:
 
     @property
     def is_gyroscopic(self) -> bool:
-        """Whether forces linear in the rates do no work."""
+        """Whether the forces linear in the rates do no work."""
         return is_zero((self.turning + self.turning.T).applyfunc(tidied))
 
     def at(self, s: Expr) -> MatrixBase:
@@ -186,12 +188,12 @@ class LinearSystem:
         return ImmutableDenseMatrix(self.mass * s**2 + self.turning * s + self.stiffness)
 
     def sign(self, value: Expr) -> int | None:
-        """The sign of an expression where the condition `exists` holds."""
+        """The sign of an expression, given the condition `exists`; None if the sign is unknown."""
         return 0 if is_zero(value) else sign_where(value, self.exists)
 
     @cached_property
     def is_minimum(self) -> bool:
-        """Whether the potential energy has a minimum and the kinetic energy is never negative: then no motion grows."""
+        """Whether no motion grows: the potential energy has a minimum and the kinetic energy is never negative."""
         return is_positive_definite(self.stiffness, self.sign) and sign_of_form(self.mass, self.sign) in (0, 1)
 
     def written(self, letter: Symbol) -> Expr:
@@ -209,7 +211,7 @@ class LinearSystem:
 
     @cached_property
     def roots(self) -> tuple[CharacteristicRoot, ...]:
-        """The roots in ascending order for ordinary values of the symbols; those without a formula come last."""
+        """The roots in ascending order for typical values of the symbols; roots without a formula come last."""
         return tuple(sorted((root for each in self.factors for root in self._roots_of(each)), key=_in_order))
 
     def _roots_of(self, factor: Factor) -> list[CharacteristicRoot]:
@@ -217,7 +219,7 @@ class LinearSystem:
 
     @staticmethod
     def _factored(determinant: Expr, root: Symbol, degree: int) -> list[tuple[Poly, int]]:
-        """The irreducible factors of a polynomial of this degree, with their powers."""
+        """The irreducible factors of the determinant, a polynomial of this degree, with their powers."""
         try:
             found = Poly(determinant, root).factor_list()[1]
         except PolynomialError:
@@ -243,18 +245,20 @@ def _check_size(size: int, fits: bool, what: str, help: str | None = None) -> No
 
 @dataclass(frozen=True)
 class Conservative(LinearSystem):
-    """K - lambda M with symmetric matrices. Common factors are taken out of the matrices first, so that mostly numbers
-    are left. Columns are computed with lambda as a symbol, modulo the irreducible factor that has it as a root: this
-    decides exactly whether a pivot vanishes.
+    """The matrix K - lambda M with symmetric K and M.
 
-    name   of the numbered roots of a factor without formulas; by default such a factor is rejected
+    Common factors are taken out of the matrices first, so that mostly numbers are left. The entries of a column are
+    polynomials in lambda, modulo the irreducible factor of which lambda is a root. So the code decides exactly whether
+    a pivot vanishes.
+
+    name   the name of the numbered roots of a factor without root formulas; by default such a factor is rejected
     """
 
     name: str = ""
 
     @cached_property
     def scale(self) -> Expr:
-        """The unit of lambda, such as k/m, for which as few symbols as possible are left."""
+        """The unit of lambda, such as k/m: the common factor of K over the common factor of M."""
         return common_factor(list(self.stiffness)) / common_factor(list(self.mass))
 
     @cached_property
@@ -296,8 +300,11 @@ class Conservative(LinearSystem):
         return [CharacteristicRoot(OrderedRoot(coefficients, n + 1, name), 1, factor) for n, name in enumerate(names)]
 
     def _are_positive(self, coefficients: Sequence[Expr]) -> bool:
-        """Whether all roots of that factor are positive. They are real if M is positive definite; by Descartes' rule,
-        no real root is negative or zero if the signs of the coefficients alternate."""
+        """Whether all roots of the polynomial with these coefficients are positive.
+
+        The roots are real if M is positive definite. By Descartes' rule, no real root is negative or zero if the signs
+        of the coefficients alternate.
+        """
         signs = [self.sign(tidied(each)) for each in coefficients]
         alternate = None not in signs and 0 not in signs and all(u == -v for u, v in pairwise(signs))  # type: ignore[operator]
         return alternate and is_positive_definite(self.mass, self.sign)
@@ -317,8 +324,10 @@ class Conservative(LinearSystem):
 
 
 def _by_powers(value: Expr, letter: Symbol) -> Expr:
-    """Collect by powers, each with one factored coefficient, if that is shorter; without a minus sign before the
-    highest power."""
+    """Collect a polynomial by powers of the symbol, with factored coefficients, if this is shorter.
+
+    The highest power has no minus sign: if necessary, the whole polynomial changes its sign.
+    """
     polynomial = value.as_poly(letter)
     if polynomial is None:
         return value
@@ -328,7 +337,7 @@ def _by_powers(value: Expr, letter: Symbol) -> Expr:
 
 
 def _values_of(factor: Factor) -> list[Expr] | None:
-    """The roots of a linear or quadratic polynomial, or of that of a uniform chain; None for any other."""
+    """The roots of a linear or quadratic polynomial, or of the polynomial of a uniform chain; None for any other."""
     if factor.degree > 2:
         return _of_chain(Poly(factor.at(LAMBDA), LAMBDA))
     a, b, *rest = factor.coefficients
@@ -346,9 +355,10 @@ def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
 
 
 def _of_chain(part: Poly) -> list[Expr] | None:
-    """The roots if all are 4 sin^2(a pi/2b): then the polynomial divides T_b(1 - lambda/2) -+ 1, with Chebyshev's T_b.
+    """The roots if all of them have the form 4 sin^2(a pi/2b); otherwise None.
 
-    T_(b + 1) = 2 x T_b - T_(b - 1) is computed modulo the polynomial, so all powers are below its degree.
+    Such a polynomial divides T_b(1 - lambda/2) -+ 1, where T_b is a Chebyshev polynomial. The recursion
+    T_(b + 1) = 2 x T_b - T_(b - 1) is computed modulo the polynomial, so all powers stay below its degree.
     """
     if not part.get_domain().is_ZZ and not part.get_domain().is_QQ:
         return None
@@ -368,7 +378,10 @@ def _of_chain(part: Poly) -> list[Expr] | None:
 
 
 def _entry_at(entry: Expr, value: Expr) -> Expr:
-    """An entry with the value of lambda substituted; for a chain, 4 sin^2 u, with multiple angles instead of powers."""
+    """Substitute the value of lambda into an entry.
+
+    For a chain, where lambda = 4 sin^2 u, the entry has multiple angles instead of powers.
+    """
     roots = [p for p in value.atoms(Pow) if p.exp == Rational(1, 2) and p.has(Symbol)]
     if len(roots) == 1 and (split := value.as_poly(roots[0])) is not None and split.degree() == 1:
         before, plain = split.all_coeffs()
@@ -382,7 +395,7 @@ def _entry_at(entry: Expr, value: Expr) -> Expr:
 
 
 def _null_columns(matrix: MatrixBase, part: Poly) -> list[MatrixBase]:
-    """A basis of the null space of the matrix, where lambda is a root of the irreducible polynomial."""
+    """A basis of the null space of the matrix, if lambda is a root of the irreducible polynomial `part`."""
     size, root = matrix.shape[0], part.gen
 
     def reduced(entry: Expr) -> Poly:
@@ -438,7 +451,7 @@ def _orthogonal(columns: Iterable[MatrixBase], mass: MatrixBase) -> list[MatrixB
 
 
 def _presentable(column: MatrixBase) -> MatrixBase:
-    """(2, 3) for (1, 3/2), if all entries are rational numbers."""
+    """Clear the denominators if all entries are rational numbers: (2, 3) for (1, 3/2)."""
     if not all(entry.is_Rational for entry in column):
         return column
     return ImmutableDenseMatrix(column * ilcm(1, *(entry.q for entry in column)))
@@ -449,7 +462,7 @@ def _presentable(column: MatrixBase) -> MatrixBase:
 
 @dataclass(frozen=True)
 class Gyroscopic(LinearSystem):
-    """K + i omega G - omega^2 M, with G antisymmetric."""
+    """The matrix K + i omega G - omega^2 M with antisymmetric G."""
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
@@ -476,7 +489,7 @@ class Gyroscopic(LinearSystem):
 
     @staticmethod
     def _forwards(part: Poly) -> Poly:
-        """Of two mirror images, the one whose roots have a positive sum, if this is known."""
+        """The mirror image whose roots have a positive sum; the given polynomial if the sign of the sum is unknown."""
         a, b = part.all_coeffs()[:2]
         return Poly(part.as_expr().subs(OMEGA, -OMEGA), OMEGA) if sign_for_all(tidied(b / a)) == 1 else part
 
@@ -525,7 +538,10 @@ class Gyroscopic(LinearSystem):
         return [CharacteristicRoot(root_of(-square if sign == -1 else square), sign, factor) for square, sign in both]
 
     def _sign_of_square(self, square: Expr, factor: Factor) -> int | None:
-        """The sign of a root of a z^2 + b z + c: both are positive if all `needs` are; one is positive if a c < 0."""
+        """The sign of one root of a z^2 + b z + c, where z = omega^2.
+
+        Both roots are positive if all `needs` are positive; exactly one root is positive if a c < 0.
+        """
         signs = [self.sign(need) for need in factor.needs]
         if all(sign == 1 for sign in signs):
             return 1
@@ -534,10 +550,10 @@ class Gyroscopic(LinearSystem):
         return -1 if signs == [-1] else None
 
     def column(self, root: CharacteristicRoot) -> tuple[Expr, ...] | None:
-        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1. None if there is not exactly
-        one column, or if an amplitude is neither real nor imaginary.
+        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1.
 
-        For a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
+        The result is None if there is not exactly one column, or if an amplitude is neither real nor imaginary. For a
+        growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
         """
         if root.times > 1 or root.sign == 0 or not root.turn:
             return None
@@ -560,7 +576,7 @@ class Gyroscopic(LinearSystem):
 
 
 def _remainder(entry: Expr, modulus: Poly) -> Expr:
-    """A polynomial in the root, its real and its imaginary part reduced modulo the polynomial of this root."""
+    """Reduce the real and imaginary parts of a polynomial in the root modulo the polynomial `modulus` of this root."""
     parts = [Poly(part.expand(), OMEGA) for part in entry.expand().as_real_imag()]
     field, _ = construct_domain([c for each in (modulus, *parts) for c in each.all_coeffs()], field=True)
     over = Poly(modulus.as_expr(), OMEGA, domain=field)
@@ -579,7 +595,10 @@ def _tidy_ratio(ratio: Expr) -> Expr:
 
 @dataclass(frozen=True)
 class Damped(LinearSystem):
-    """M s^2 + C s + K. A factor a s^2 + b s + c has the roots -b/2a +- i omega, with omega^2 = c/a - b^2/4a^2."""
+    """The matrix M s^2 + C s + K.
+
+    A factor a s^2 + b s + c of its determinant has the roots -b/2a +- i omega, with omega^2 = c/a - b^2/4a^2.
+    """
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
@@ -590,14 +609,14 @@ class Damped(LinearSystem):
         worst = max(each.degree for each in found)
         if worst > 2:
             exponents = f"{worst} exponents are the roots of a polynomial that does not factor"
-            help_line = "the modes separate if masses, springs and drags are equal, or drag is proportional to mass"
+            help_line = "the modes separate if masses, springs and drags are equal, or if drag is proportional to mass"
             message = f"with this drag the modes do not separate: {exponents}"
             raise Rejected(Complaint("no-closed-form", message, help=help_line))
         return tuple(sorted(found, key=lambda each: (not each.is_free, each.degree, len(str(each.at(S))))))
 
     @cached_property
     def roots(self) -> tuple[CharacteristicRoot, ...]:
-        """One for each factor, in their order."""
+        """One root for each factor, in the order of the factors."""
         return tuple(map(self._root, self.factors))
 
     def _root(self, factor: Factor) -> CharacteristicRoot:
@@ -612,8 +631,10 @@ class Damped(LinearSystem):
         return spread(c / a) - spread(b**2 / (4 * a**2))
 
     def column(self, root: CharacteristicRoot) -> MatrixBase | None:
-        """The amplitudes, if they are the same for both exponents of a factor, and so real; None if they are not, or if
-        there is not exactly one column."""
+        """The amplitudes, which are real if they are the same for both exponents of a factor.
+
+        The result is None if they depend on the exponent, or if there is not exactly one column.
+        """
         columns = _null_columns(self.at(S), Poly(root.factor.at(S), S)) if root.times == 1 else []
         return None if len(columns) != 1 or columns[0].has(S) else ImmutableDenseMatrix(columns[0].applyfunc(tidied))
 
@@ -622,9 +643,11 @@ class Damped(LinearSystem):
 
 
 def _with_root(plain: Expr, before: Expr, root: Expr, by_terms: bool = False) -> Expr:
-    """u + v sqrt(D) over one denominator, with u and v factored if that is shorter.
+    """Write u + v sqrt(D), given u as `plain` and v as `before`, in its shortest form.
 
-    by_terms   or as u +- sqrt(v^2 D)
+    The forms are a tidied sum, and one fraction with factored numerators.
+
+    by_terms   whether the form u +- sqrt(v^2 D) is tried too
     """
     below = lcm(*(fraction(together(part))[1] for part in (plain, before)))
     apart = (factor(plain * below) + factor(before * below) * root) / factor(below)
@@ -636,7 +659,7 @@ def _with_root(plain: Expr, before: Expr, root: Expr, by_terms: bool = False) ->
 
 
 def size_of(value: Expr) -> float:
-    """The value for ordinary values of the symbols; 0 if it is not real."""
+    """The value of an expression for fixed typical values of the symbols; 0 if it is not real."""
     letters = sorted(value.free_symbols, key=str)
     drawn = {s: Integer(prime(n + 20)) / prime(20) for n, s in enumerate(letters)}
     number = explicit(value.subs(fulfilling(drawn))).evalf()
@@ -644,13 +667,16 @@ def size_of(value: Expr) -> float:
 
 
 def _is_power_of_one_sum(value: Expr) -> bool:
-    """Whether the value is like m A^2/(l^2 + m c A)^(3/2): one root of a sum, with no other factor under a root."""
+    """Whether the only root in a product is a sum to a power such as 3/2: m A^2/(l^2 + m c A)^(3/2)."""
     halves = [p for p in Mul.make_args(value) if not p.as_base_exp()[1].is_Integer]
     return len(halves) == 1 and halves[0].base.is_Add and abs(halves[0].exp) > 1
 
 
 def root_of(square: Expr) -> Expr:
-    """The square root, with one root sign as in sqrt(k/m); a rational root, or one of a sine, is evaluated."""
+    """The square root with one root sign, as in sqrt(k/m).
+
+    The root is simplified instead if it becomes rational, or if the square contains a sine.
+    """
     drawn = tidied(sqrt(square))
     if drawn == 0 or square.has(sin) or not is_irrational(drawn):
         return drawn

@@ -43,7 +43,7 @@ SHORT = 40  # number of operations up to which multiples of an angle are tried
 def presented(value: Expr, *, in_sums: bool = True) -> Expr:
     """The value in textbook form: factored, or as separate terms, whichever is shorter.
 
-    in_sums     products of sines and cosines may become sums; not under a root, where squares must stay visible
+    in_sums     whether products of sines and cosines may become sums; under a root squares must stay visible
     """
     value = explicit(value)
     tidy = tidied(value)
@@ -63,16 +63,19 @@ def presented(value: Expr, *, in_sums: bool = True) -> Expr:
 
 
 def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:
-    """The factors that decide the sign of a value: without those that are positive for all values of the letters.
+    """Drop the factors that are positive for all values of the symbols: the sign of the value stays the same.
 
-    in_equation     the factors that decide whether it vanishes: also without a number
+    in_equation     whether to drop nonzero numbers too: the value still vanishes at the same points
     """
     factors = (f for f in Mul.make_args(value) if not (in_equation and f.is_Rational and f.is_nonzero))
     return Mul(*(f for f in factors if sign_for_all(f) != 1))
 
 
 def without_sine_below(value: Expr) -> Expr:
-    """(1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a; sin a/(1 + cos a), not (1 - cos a)/sin a."""
+    """Remove sines from the denominator: (1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a.
+
+    For an odd power one sine moves to the numerator: sin a/(1 + cos a), not (1 - cos a)/sin a.
+    """
     above, below = factored(value).as_numer_denom()
     for sine in sorted(below.atoms(sin), key=str):
         c, mark = cos(sine.args[0]), Dummy("c", real=True)
@@ -91,22 +94,22 @@ def _is_power_of(sine: Expr, e: Expr) -> bool:
 
 
 def _by_cosine(c: Expr, power: Expr) -> Expr:
-    """sin^2 as 1 - c^2; for an odd power one sine is left."""
+    """Write a power of a sine with 1 - c^2 for each sin^2; an odd power keeps one sine."""
     return (1 - c**2) ** (power.exp // 2) * power.base ** (power.exp % 2)
 
 
 def _turns_under_root(value: Expr) -> bool:
-    """Whether a root contains sines or cosines; their products are kept so that squares can be taken out of it."""
+    """Whether a root contains sines or cosines; products of these are kept, so that squares can be taken out."""
     roots = (power for power in value.atoms(Pow) if not power.exp.is_Integer)
     return any(root.base.has(sin, cos) for root in roots)
 
 
-MOST_LETTERS = 4  # number of symbols for which squares are completed
-LONGEST_SQUARED = 120  # number of operations of a quadratic form for which squares are completed
+MOST_LETTERS = 4  # number of symbols up to which squares are completed
+LONGEST_SQUARED = 120  # number of operations of a quadratic form up to which squares are completed
 
 
 def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
-    """A polynomial in the symbols: squares completed if that is shorter, else by products, else one fraction."""
+    """Write a polynomial in the symbols in its shortest form: completed squares, products or one fraction."""
     value = explicit(value)
     present = [p for p in letters if value.has(p)]
     if not present:
@@ -130,7 +133,7 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def by_one_square(value: Expr) -> Expr:
-    """m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; and no sum in a denominator begins with a minus."""
+    """Write m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; no sum in a denominator begins with a minus sign."""
     if not value.has(sin, cos):
         return value
     if value.is_Add:
@@ -152,7 +155,7 @@ def by_one_square(value: Expr) -> Expr:
 
 
 def _without_minus(value: Expr) -> Expr:
-    """(b - a) c, not -(a - b) c."""
+    """Write (b - a) c, not -(a - b) c."""
     number, rest = value.as_coeff_Mul()
     turned = next((f for f in Mul.make_args(rest) if f.is_Add and any(map(_is_taken_off, f.args))), None)
     if not number.is_negative or turned is None:
@@ -177,7 +180,7 @@ def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
 
 
 def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Expr:
-    """a (p + b q/a)^2 + ..., symbol by symbol, each bracket without a denominator."""
+    """Complete the squares, a (p + b q/a)^2 + ..., one symbol after the other; no bracket has a denominator."""
     squares: list[Expr] = []
     rest = {_letters_in(monomial): c for monomial, c in terms}
     for p in order:
@@ -195,7 +198,7 @@ def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Exp
 
 
 def _letters_in(monomial: Expr) -> tuple[Symbol, ...]:
-    """p, p for p^2; p, q for p q."""
+    """The symbols of a monomial, each as often as its power: p, p for p^2; p, q for p q."""
     powers = sorted(monomial.as_powers_dict().items(), key=str) if monomial != 1 else []
     return tuple(sorted((p for p, n in powers for _ in range(int(n))), key=str))
 
@@ -214,7 +217,7 @@ def _shortest(forms: Sequence[Expr]) -> Expr:
 
 
 def as_one_root(value: Expr) -> Expr:
-    """sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m); any value but such a root unchanged."""
+    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m); any other value is returned unchanged."""
     factors = Mul.make_args(value)
     outside = Mul(*(f for f in factors if not (f.is_Pow and f.base.is_Add)))
     sign, square = sign_for_all(outside), (value**2).expand()
@@ -223,8 +226,10 @@ def as_one_root(value: Expr) -> Expr:
 
 
 def roots_together(value: Expr) -> Expr:
-    """p c/sqrt(p^2 + m^2 c^2), not p/(m sqrt(1 + p^2/(m^2 c^2))): one fraction under each root, and positive factors
-    outside."""
+    """Write p c/sqrt(p^2 + m^2 c^2), not p/(m sqrt(1 + p^2/(m^2 c^2))).
+
+    Each root contains one fraction, and positive factors are taken out of the root.
+    """
 
     def in_one(base: Expr, exponent: Expr) -> Expr:
         whole = together(roots_together(base))

@@ -1,4 +1,4 @@
-"""Solve a relation, v > 0, v < 0 or v = 0, for one letter or another unknown."""
+"""Solve a relation, v > 0, v < 0 or v = 0, for a symbol or another unknown."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LARGEST_PRODUCT = 60  # number of operations of a sum that is tested for being a
 
 
 class Isolated(NamedTuple):
-    """An expression a (x^n - v): the value v of x^n where it vanishes, n, and the factor a."""
+    """An expression a (x^n - v): `value` is v, `power` is n and `factor` is a."""
 
     value: Expr
     power: int
@@ -29,13 +29,15 @@ class Isolated(NamedTuple):
 
 
 def mark_between(mark: str, sign: int | None) -> str | None:
-    """The mark between x^n and v that is equivalent to that between a (x^n - v) and zero, by the sign of a; None if an
-    inequality would be divided by a factor of unknown sign."""
+    """Turn the mark between a (x^n - v) and zero into the mark between x^n and v, given the sign of a.
+
+    The result is None if an inequality would be divided by a factor of unknown sign.
+    """
     return mark if mark in ("=", "!=") else {1: mark, -1: TURNED[mark]}.get(sign or 0)
 
 
 def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
-    """The expression as a (x^n - v); None where its numerator is not of the form a x^n + b."""
+    """The expression as a (x^n - v); None if its numerator is not of the form a x^n + b."""
     above, below = expr.as_numer_denom()
     polynomial = above.as_poly(letter)
     terms = polynomial.terms() if polynomial is not None else []
@@ -47,9 +49,9 @@ def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
 
 
 def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
-    """The value of a letter at which the expression vanishes, if that is one value other than zero.
+    """The value of a symbol at which the expression vanishes; None unless there is one such value other than zero.
 
-    The letter occurs in the first power alone, or in the second if it is positive.
+    The symbol may occur to the first power only, or, if it is positive, to the second power only.
     """
     found = isolated(expr, letter)
     if found is None or found.value == 0 or found.power > (2 if letter.is_positive else 1):
@@ -61,7 +63,8 @@ def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
 def positive(value: Expr, letter: Symbol | None = None) -> Relation:
     """The condition v > 0 without positive factors, solved for a symbol if that is possible.
 
-    Positive terms are on one side, negative terms on the other: R omega^2 > g.
+    Otherwise a difference of two terms has one term on each side, as in R omega^2 > g; any other sum is compared with
+    zero.
     """
     above, below = tidied(value).as_numer_denom()
     core = expand(without_positive(above) * without_positive(below))  # a quotient has the sign of the product
@@ -75,7 +78,7 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
 
 
 def _in_factors(core: Expr) -> Expr:
-    """The sum as a product, (k - m w^2) (c - m w^2), if it is one."""
+    """Factor the sum if it is a product of sums, such as (k - m w^2) (c - m w^2)."""
     if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
         return tidied(core)
     number, factors = factor_list(core)
@@ -92,7 +95,7 @@ def _solved(core: Expr, letter: Symbol) -> Relation | None:
 
 
 def border_of(condition: Relation) -> Relation | None:
-    """The symbol of a condition and its value at the boundary."""
+    """The equation of a symbol of the condition and its value at the boundary; None if no symbol can be isolated."""
     left, right = condition.sides
     if isinstance(left, Symbol):
         return Relation(left, "=", right)
@@ -109,7 +112,7 @@ def border_of(condition: Relation) -> Relation | None:
 
 
 def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
-    """The relation between a value and zero, solved for a symbol; None if that is not possible without numbers."""
+    """The relation between a value and zero, solved for a symbol; None if the relation cannot be solved in symbols."""
     try:
         return solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
     except Rejected:
@@ -117,7 +120,7 @@ def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Rela
 
 
 def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
-    """The conditions that the sentence states."""
+    """The conditions that a sentence states, each followed by its tidied form."""
     return {
         role: (each, Relation(tidied(each.left), each.operator, tidied(each.right)))
         for role, each in conditions.items()
@@ -132,7 +135,7 @@ def number_of(of: Quantity) -> Expr:
 
 
 def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> Relation:
-    """The relation between a difference and zero, solved for an unknown, or for its square if it may be negative."""
+    """The relation between a difference and zero, solved for an unknown, or for its square if its sign is unknown."""
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
     if left_over(written, unknown):
@@ -164,7 +167,7 @@ def _without_sign(value: Expr) -> Expr | None:
 
 
 def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
-    """The factor by which the two sides differ, made positive; empty if its sign is unknown."""
+    """The factor difference/(alone - solved) with its sign made positive; empty if its sign is unknown."""
     slope = tidied(difference.diff(alone)) if alone.is_Symbol else alone
     factor = slope if slope != 0 and not slope.has(alone) else tidied(difference / (alone - solved))
     return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())

@@ -19,9 +19,9 @@ FOUR = Integer(4)
 
 @dataclass(frozen=True)
 class RootOf(Fact):
-    """One root of a factor of the polynomial, with the coefficients of the factor from the highest power.
+    """One root of a linear or quadratic factor of a polynomial, given by the coefficients from the highest power.
 
-    sign   the sign of the square root; it has no meaning for a linear factor
+    sign   the sign before the square root; 0 for a linear factor
     """
 
     coefficients: tuple[Expr, ...]
@@ -42,9 +42,11 @@ class RootOf(Fact):
         return _drawn(a, b, self.discriminant, self.sign)
 
     def sign_where_real(self, sign_of: Callable[[Expr], int | None] = sign_known) -> int | None:
-        """The sign of the root; for a quadratic factor by Vieta: the sign of -b/a if the product is positive.
+        """The sign of the root where the root is real; None if the sign is unknown.
 
-        Without a linear term a root is real only if a and c have opposite signs, so one of the two decides.
+        For a quadratic factor Vieta's formulas apply: if the product c/a of the roots is positive, both roots have the
+        sign of their sum -b/a. If b = 0, a root is real only if a and c have opposite signs, so one of these signs
+        suffices.
         """
         if len(self.coefficients) == 2:
             return sign_of(self.value)
@@ -70,13 +72,13 @@ class RootOf(Fact):
 
 
 def roots_of(factor: Poly, times: int = 1) -> list[RootOf]:
-    """The root of a linear polynomial, or both roots of a quadratic one, that with the minus sign first."""
+    """The root of a linear polynomial, or both roots of a quadratic polynomial, first the root with the minus sign."""
     coefficients = tuple(tidied(c) for c in factor.all_coeffs())
     return [RootOf(coefficients, sign, times) for sign in ((0,) if len(coefficients) == 2 else (-1, 1))]
 
 
 def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
-    """k (-b/k +- sqrt(D/k^2))/(2 a), with the common factor k of b and the root in front."""
+    """Write a root as k (-b/k +- sqrt(D/k^2))/(2 a), where k is a common factor of b and of the square root of D."""
     under = sqrt(discriminant)
     if not any(isinstance(part, Pow) and part.exp == Rational(1, 2) and part.free_symbols for part in under.atoms(Pow)):
         return presented((-b + sign * under) / (2 * a))
@@ -89,7 +91,7 @@ def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
 
 
 def _common_root(b: Expr, discriminant: Expr) -> Expr:
-    """The largest product k of positive factors for which b/k and D/k^2 have no new denominators."""
+    """The largest product k of positive factors such that b/k and D/k^2 have no new denominators."""
     try:
         content, factors = factor_list(gcd(b**2, discriminant))
     except PolynomialError:

@@ -1,7 +1,7 @@
 """Unknowns: expressions that an equation may be solved for or that may be substituted, such as a symbol or a cosine.
 
-An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). It is replaced wherever it occurs; if its
-symbol also occurs in another form, it cannot be an unknown.
+An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). The unknown is replaced wherever it
+occurs. If an equation also contains the symbol in another form, it cannot be solved for this unknown.
 """
 
 from __future__ import annotations
@@ -43,14 +43,14 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """The unknown of the equation that has this root: the root replaces that unknown, whatever its own name is."""
+    """The unknown of the equation of which this quantity is a root: the root can replace it under any name."""
 
     missing = "is not a root of an equation"
     unknown: Expr
 
 
 def unknown_of(verb: str, given: Any) -> Expr:
-    """The expression of an unknown: for a coordinate or a quantity, its symbol."""
+    """The expression of an unknown: the symbol of a coordinate or quantity, or any other valid expression unchanged."""
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found
@@ -59,7 +59,7 @@ def unknown_of(verb: str, given: Any) -> Expr:
 
 
 def _letter_within(unknown: Any) -> Symbol | None:
-    """The symbol in theta_dot^2 or in cos(theta)."""
+    """The symbol of a power such as theta_dot^2 or a function such as cos(theta); None for any other expression."""
     if isinstance(unknown, Pow) and isinstance(unknown.base, Symbol) and unknown.exp.is_Integer and unknown.exp > 0:
         return unknown.base
     if isinstance(unknown, Function) and unknown.func in INVERSE and isinstance(unknown.args[0], Symbol):
@@ -76,7 +76,7 @@ def letter_of(unknown: Expr) -> Symbol:
 
 
 def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
-    """The symbol of an unknown with its value, given the value of the unknown: theta from cos(theta) = 2/3."""
+    """The symbol of an unknown and its value, given the value of the unknown: theta from cos(theta) = 2/3."""
     if isinstance(unknown, Symbol):
         return {unknown: value}
     letter = letter_of(unknown)
@@ -86,7 +86,7 @@ def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
 
 
 def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
-    """Substitute a value for the unknown: for theta_dot^2 also in theta_dot^4, for cos also in sin^2."""
+    """Substitute a value for the unknown: for theta_dot^2 also in theta_dot^4, for a cosine also in sin^2."""
     if isinstance(unknown, Symbol):
         return expr.xreplace({unknown: value})
     if isinstance(unknown, Pow):
@@ -119,7 +119,7 @@ def is_number(quantity: Quantity) -> bool:
 
 
 def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
-    """Left minus right of an equation; with `or_value`, also a value that is to vanish."""
+    """The left side of an equation minus its right side; with `or_value`, a plain value is returned unchanged."""
     value = equation.value
     if or_value and is_number(equation):
         return explicit(value)
@@ -138,14 +138,14 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
 
 
 def mark_for(unknown: Expr) -> Dummy:
-    """A symbol in place of the unknown, positive if the unknown is positive."""
+    """A dummy symbol that replaces the unknown; it is positive if the unknown is positive, otherwise real."""
     return Dummy("u", positive=True) if unknown.is_positive else Dummy("u", real=True)
 
 
 def polynomial_in(
     verb: str, equation: Quantity, unknowns: Sequence[Expr], or_value: bool = False
 ) -> tuple[Expr, list[Dummy]]:
-    """The residual of an equation with a mark for each unknown, and these marks."""
+    """The residual of an equation in which a mark replaces each unknown, and these marks."""
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]
     for unknown, mark in zip(unknowns, marks, strict=True):
@@ -160,7 +160,10 @@ def polynomial_in(
 
 
 def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
-    """The other factors, which may vanish: for the unknown cos(theta), the sine in sin(theta)(a cos(theta) - b)."""
+    """The factors that may vanish and contain the symbol but not the unknown.
+
+    For the unknown cos(theta) such a factor is the sine in sin(theta)(a cos(theta) - b).
+    """
     mark = mark_for(unknown)
     _, beside = without_factors_beside(with_unknown(value, unknown, mark), unknown, mark)
     above = (f.as_base_exp() for f in beside if not never_vanishes_within(f))
@@ -168,7 +171,10 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 
 def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
-    """For the unknown cos(theta), split sin(theta)(a cos(theta) - b) into the bracket and its other factors."""
+    """Split off the factors that contain the symbol but not the unknown.
+
+    For the unknown cos(theta), sin(theta)(a cos(theta) - b) gives the bracket and the sine.
+    """
     for form in (left, factored(left)) if left.is_Add and left.count_ops() <= LARGEST else (left,):
         factors = Mul.make_args(form)
         beside = [f for f in factors if left_over(f, unknown) and not f.has(mark)]
@@ -179,7 +185,7 @@ def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr
 
 
 def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:
-    """The kind of a coordinate, of its rate or acceleration, or of another symbol in `known`; None if unknown."""
+    """The kind of a symbol in `known`, or of the rate or acceleration of such a symbol; None if unknown."""
     if not isinstance(unknown, Symbol):
         return None
     if unknown in known:
@@ -202,7 +208,7 @@ def coordinates_of(*quantities: Quantity) -> dict[Symbol, str]:
 
 
 def linear_coefficients(expressions: Sequence[Expr], marks: Sequence[Symbol]) -> tuple[Matrix, Matrix] | None:
-    """The matrix and right side of linear equations A u = b; None if an equation is not linear."""
+    """The matrix A and right side b of linear equations A u = b; None if an equation is not linear."""
     matrix = Matrix([[tidied(each.diff(mark)) for mark in marks] for each in expressions])
     if matrix.has(*marks):
         return None

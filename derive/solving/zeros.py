@@ -1,7 +1,8 @@
 """All real zeros of a force in closed form: each factor is solved, or the whole force is rejected.
 
-A product vanishes only where a factor does. Each factor is solved completely: a polynomial in the cosine or in the
-sine, a cos q + b sin q, a polynomial, a square root minus a constant. So all zeros are found.
+A product vanishes only if one of its factors vanishes. A factor may be a polynomial in the cosine or in the sine, a sum
+a cos q + b sin q, a polynomial, or a square root minus a constant. Each factor is solved completely, so all zeros are
+found.
 """
 
 from __future__ import annotations
@@ -44,13 +45,13 @@ from derive.solving.root_of_factor import roots_of
 from derive.steps.record import assume
 from derive.steps.signs import sign_for_all
 
-HIGHEST = 6  # highest power of a coordinate
+HIGHEST = 6  # highest power of a coordinate that is solved
 LARGEST_PRODUCT = 60  # number of operations of a sum that is tested for being a product
 ZERO, ONE = Integer(0), Integer(1)
 
 
 class Unsolved(Exception):
-    """A factor whose zeros have no closed form, or none that this module can find."""
+    """Reports a factor whose zeros have no closed form, or no closed form that this module can find."""
 
     def __init__(self, factor: Expr):
         self.factor = factor
@@ -59,14 +60,17 @@ class Unsolved(Exception):
 
 @dataclass(frozen=True)
 class Zero:
-    """A zero: a value of the coordinate, and the condition under which it is a zero, if any."""
+    """A value of the coordinate at which the force vanishes.
+
+    exists   the condition under which this value is real; None if it is always real
+    """
 
     value: Expr
     exists: Relation | None = None
 
 
 def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
-    """All real zeros: for an angle those with -pi < q <= pi, for a positive coordinate only positive ones."""
+    """All real zeros; for an angle only zeros with -pi < q <= pi, for a positive coordinate only positive zeros."""
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):
@@ -75,9 +79,9 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros near x = 0, for an interval of x; of a periodic function those within three half turns at least.
+    """All real zeros of a function; for a periodic function only zeros about three half turns to each side.
 
-    A product of sines and cosines is also tried as a sum.
+    A product of sines and cosines that cannot be solved is written as a sum and tried again.
     """
     numerator = value.as_numer_denom()[0]
     for form in (numerator, tidied(TR8(numerator.expand()))):
@@ -90,7 +94,7 @@ def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
 
 
 def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
-    """The zeros of cos(k x + c) within three half turns; none for any other function."""
+    """The zeros of sin(k x + c) or cos(k x + c) up to three half turns from the first; none for any other function."""
     slope = function.args[0].diff(x) if isinstance(function, sin | cos) else x
     if slope.has(x):
         return []
@@ -99,13 +103,13 @@ def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
 
 
 def _turned(factor: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros; if the factor is the same after a full turn, also those one turn before and after."""
+    """All real zeros of a factor; if its period is a full turn, also the zeros one turn before and after."""
     turns = (0, -1, 1) if factor.has(sin, cos) and factor.subs(x, x + 2 * pi) == factor else (0,)
     return [Zero(zero.value + 2 * n * pi, zero.exists) for zero in zeros_of(factor, x) for n in turns]
 
 
 def _order(zero: Zero) -> tuple[bool, int, str]:
-    """Sort key: zeros without a condition come first, with 0 before pi and pi before all others."""
+    """Sort key: zeros without a condition come first; among them 0 comes before pi, and pi before all other values."""
     value = zero.value
     rank = 0 if value == 0 else 1 if value == pi else 2 if not value.could_extract_minus_sign() else 3
     return zero.exists is not None, rank, str(value)
@@ -125,7 +129,10 @@ def factors_of(force: Expr, q: Symbol) -> Iterator[Expr]:
 
 
 def _in_sine_and_cosine(value: Expr, q: Symbol) -> Expr:
-    """Write in sin q and cos q, or those of a fraction of q, with cos^2 for sin^2 if the result has more factors."""
+    """Write the value in sin u and cos u, where u is q or a fraction of q.
+
+    Replace sin^2 by 1 - cos^2 if the result then has more factors.
+    """
     angles = {f.args[0] for f in value.atoms(sin, cos) if f.has(q)}
     if not angles:
         return expand(value)
@@ -151,7 +158,7 @@ def _factors_or_none(value: Expr) -> list[Expr]:
 
 
 def _part(angles: set[Expr], q: Symbol) -> Expr:
-    """The largest fraction of q of which all angles are multiples, up to added constants."""
+    """The largest fraction q/n such that each angle is an integer multiple of it, up to an added constant."""
     numbers = [angle.coeff(q) for angle in (expand(angle) for angle in angles)]
     if not all(number.is_Rational and number != 0 for number in numbers):
         raise Unsolved(next(iter(angles)))
@@ -174,7 +181,7 @@ def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _is_one_turn(value: Expr, parts: int) -> bool:
-    """Whether an angle found from a fraction of it is within one full turn."""
+    """Whether an angle, `parts` times the angle that was solved for, is within one full turn."""
     return parts == 1 or not value.is_number or bool(-pi < value and value <= pi)
 
 
@@ -212,7 +219,7 @@ def _with_sine(value: Expr) -> list[Zero]:
 
 
 def _sure_roots(factor: Expr, x: Expr) -> list[Expr]:
-    """The roots of a polynomial in a cosine or a sine, whose own condition is that they are not greater than one."""
+    """The roots of a polynomial in a cosine or a sine; they must be real for all values of the symbols."""
     found = [root for root, _ in _roots(factor, x)]
     if any(root.exists is not None for root in found):
         raise Unsolved(factor)
@@ -220,8 +227,10 @@ def _sure_roots(factor: Expr, x: Expr) -> list[Expr]:
 
 
 def _roots(factor: Expr, x: Expr) -> list[tuple[Zero, int | None]]:
-    """The real roots of a polynomial of first or second degree in x, with the condition that they are real, and their
-    signs where they are."""
+    """The real roots of a polynomial of first or second degree in x, each with the condition under which it is real.
+
+    The number next to each root is its sign where the root is real; None if the sign is unknown.
+    """
     polynomial = factor.as_poly(x)
     if polynomial is None or polynomial.degree() > 2:
         raise Unsolved(factor)
@@ -238,7 +247,7 @@ def _roots(factor: Expr, x: Expr) -> list[tuple[Zero, int | None]]:
 
 
 def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
-    """The zeros of a polynomial in q, or of sqrt(P(q)) minus a constant."""
+    """The zeros of a polynomial in q, of sqrt(P(q)) minus a constant, or of two powers with symbols as exponents."""
     if q.is_positive and any(p.exp.free_symbols for p in factor.atoms(Pow) if p.base == q):
         return [Zero(value) for value in _of_two_powers(factor, q)]
     roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
@@ -256,7 +265,7 @@ def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
-    """The root of A q^a + B q^b, q^(a - b) = -B/A, where the exponents contain symbols and are never equal."""
+    """The positive root of A q^a + B q^b, where q^(a - b) = -B/A; the exponents contain symbols and are never equal."""
     terms: dict[Expr, Expr] = {}
     for term in Add.make_args(expand(factor)):
         outside, inside = term.as_independent(q, as_Add=False)
@@ -278,7 +287,7 @@ def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
 
 
 def _exponent(product: Expr, q: Symbol) -> Expr:
-    """The exponent of q: a + b for q^a q^b, zero for 1; for any other expression q itself."""
+    """The exponent of q in a product of powers of q: a + b for q^a q^b, zero for 1; q itself for any other product."""
     parts = [f.as_base_exp() for f in Mul.make_args(product) if f != 1]
     return Add(*(power for _, power in parts)) if all(base == q for base, _ in parts) else q
 
@@ -294,7 +303,7 @@ def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
 
 
 def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
-    """The zeros of A sqrt(P) + B with A and B constant: P = (B/A)^2, if -B/A is not negative."""
+    """The zeros of A sqrt(P) + B with constants A and B: the solutions of P = (B/A)^2, if -B/A is not negative."""
     root = roots[0]
     linear = factor.as_poly(root)
     if len(roots) > 1 or root.exp != Rational(1, 2) or linear is None or linear.degree() != 1:
@@ -321,7 +330,10 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
 
 
 def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
-    """The zero with that sign, without values that are not positive if the coordinate is positive."""
+    """Keep a zero of the given sign if the coordinate can have its value.
+
+    A positive coordinate can have a positive value only; if the sign is unknown, the condition v > 0 is added.
+    """
     if not q.is_positive:
         return [zero]
     value = zero.value
@@ -333,7 +345,10 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
 
 
 def _is_square_of_letters(value: Expr) -> bool:
-    """Whether the value is positive if some symbols do not vanish, which is then assumed: l^2 of a momentum."""
+    """Whether the value is positive if its symbols do not vanish, such as l^2 for a momentum l.
+
+    In this case the step records the assumption that these symbols do not vanish.
+    """
     above, below = value.as_numer_denom()
     parts = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]
     letters = [base.args[0] if isinstance(base, Abs) else base if power.is_even else None for base, power in parts]
@@ -345,6 +360,6 @@ def _is_square_of_letters(value: Expr) -> bool:
 
 
 def _is_size(below: Expr) -> bool:
-    """Whether a denominator, which does not vanish, is positive: c^2, or |c|."""
+    """Whether a denominator that does not vanish is positive, such as c^2 or |c|."""
     parts = (f.as_base_exp() for f in Mul.make_args(below) if not f.is_positive)
     return all(isinstance(base, Abs) or bool(base.is_real and power.is_even) for base, power in parts)

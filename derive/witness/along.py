@@ -23,7 +23,7 @@ OF_MOTION = frozenset(
         "hamilton.rate_by_momenta",
     ]
 )
-PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # rules whose result holds at each instant if their inputs do
+PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # a result of these rules holds at each instant if its inputs do
 CONSERVED = frozenset(["energy", "conserved", "given_conserved"])
 
 
@@ -65,8 +65,10 @@ def substitution(claim: Claim) -> Verdict | None:
 
 
 def _fits_together(claim: Claim) -> Verdict | None:
-    """Test whether the described system has a state with all given values; rates that contradict a constraint refute
-    the claim."""
+    """Test whether the described system has a state with all given values.
+
+    If the given rates contradict a constraint, the claim is refuted.
+    """
     letters = {*claim.blueprint.coordinates, *claim.blueprint.rates}
     plain = [each for each in claim.states_given if each.target in letters]
     if not plain or not claim.blueprint.of.conditions:
@@ -124,6 +126,6 @@ def _unchanging(claim: Claim, value: Expr) -> Verdict | None:
 
 
 def _terms(residual: Expr) -> list[Expr]:
-    """The terms with whose sizes the difference is compared."""
+    """The terms of a residual, whose sizes are the scale of the comparison."""
     terms = list(residual.args) if residual.is_Add else [residual]
     return [part for term in terms for part in ((term.args) if term.is_Add else [term])]

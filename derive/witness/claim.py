@@ -63,11 +63,11 @@ class Claim:
 
     @property
     def residuals(self) -> list[Expr]:
-        """Differences that vanish if the step is right: of the sides of an equation, or of a symbol and its value."""
+        """Differences that vanish if the step is right: left minus right side, or a symbol minus its value."""
         if isinstance(self.value, Relation):
             return [self.value.residual] if self.value.operator == "=" else []
         if isinstance(self.symbol, Symbol) and self.symbol not in self.moving and self.symbol not in self.momenta:
-            return []  # a separate symbol
+            return []  # the symbol is only a name of the value
         return [explicit(self.symbol) - self.value] if isinstance(self.symbol, Expr) else []
 
     @cached_property
@@ -122,7 +122,7 @@ class Claim:
                 return
 
     def moments(self, trial: Trial, given: Sequence[Given] | None = None) -> Iterator[tuple[State, Response]]:
-        """States of the motion with their responses, except states at which the accelerations are not determined."""
+        """States of the motion with their responses; states that do not determine the accelerations are left out."""
         for which in range(STATES):
             try:
                 state = trial.state(self.states_given if given is None else given, which)

@@ -1,6 +1,6 @@
-"""Whether a constraint force can enforce a condition: the gradient does not vanish where the condition holds.
+"""Whether a constraint force can enforce a condition: its gradient must not vanish where the condition holds.
 
-The gradient of (x - y)^2 vanishes where the condition holds, so no multiple of it gives a force there.
+For example, the gradient of (x - y)^2 vanishes where x = y, so no multiple of this gradient is a constraint force.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Trial
 
 TRIALS, STATES = 2, 3
-NO_GRADIENT = 1e-4  # symbols are of order one, and a position at a double zero is found to 1e-5
+NO_GRADIENT = 1e-4  # symbols have values of order one, and a double zero is found with an error of 1e-5
 
 
 def without_gradient(of: Description) -> list[int]:
-    """The numbers of the conditions whose gradient vanishes wherever all conditions hold."""
+    """The indices of the conditions whose gradients vanish in all tested states that satisfy all conditions."""
     vanishing: list[set[int]] = []
     try:
         blueprint = Blueprint(of)

@@ -12,7 +12,7 @@ Vector: TypeAlias = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Particle:
-    """A mass in kg, at a place in m."""
+    """A particle: its mass in kg and its position `place` in m."""
 
     mass: Expr
     place: Vector
@@ -20,14 +20,14 @@ class Particle:
 
 @dataclass(frozen=True)
 class Body:
-    """A rigid body, given by the place of one of its points and by its orientation.
+    """A rigid body, given by the position of one of its points and by its orientation.
 
-    mass     kg
-    place    place of the known point in space, m
-    arm      from that point to the centre of mass, along the axes of the body, m
-    spread   second moments, the sums of m r_i r_j about the centre of mass along the axes of the body, kg m^2
-    turns    successive rotations, each by an angle about an axis (0, 1, 2) as rotated by the earlier ones; in a
-             vertical plane there is one rotation, about the normal
+    mass     the mass, kg
+    place    the position in space of one known point of the body, m
+    arm      the vector from the known point to the centre of mass, in components along the body axes, m
+    spread   second moments, the sums of m r_i r_j about the centre of mass along the body axes, kg m^2
+    turns    successive rotations, each given by the number (0, 1, 2) of a body axis and an angle; each rotation also
+             rotates the axes of the later rotations; in a vertical plane there is one rotation, about the normal
     axes     in a plane, the numbers of the two body axes in this plane; in space (0, 1, 2)
     """
 
@@ -41,7 +41,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Pair:
-    """A potential energy in J that depends on the distance between two places."""
+    """A potential energy in J that depends on the distance between the positions `start` and `end`."""
 
     start: Vector
     end: Vector
@@ -51,9 +51,9 @@ class Pair:
 
 @dataclass(frozen=True)
 class Force:
-    """A force in N at a place; or a torque in N m on an angle, if the place has one component, the angle.
+    """A force in N at the position `place`; or a torque in N m, if `place` has only one component, an angle.
 
-    body   number of the body with the particle on which the force acts; by default the force moves with the place
+    body   the index of the body on whose particle at this position the force acts; by default no body
     """
 
     components: Vector
@@ -63,7 +63,10 @@ class Force:
 
 @dataclass(frozen=True)
 class Drag:
-    """A force -c v against the velocity of a place, or of a body's particle there; or a torque, likewise."""
+    """A drag force -c v, where v is the velocity of `place`; or a drag torque, if `place` is an angle.
+
+    body   the index of a body: v is then the velocity of the particle of this body at `place`
+    """
 
     constant: Expr
     place: Vector
@@ -82,9 +85,9 @@ class Charge:
 
 @dataclass(frozen=True)
 class Condition:
-    """A formula that vanishes during the motion: of coordinates and time, or linear in the rates.
+    """A formula that is zero during the motion; it contains coordinates and time, or is linear in the rates.
 
-    multiplier   the symbol of its constraint force, if any
+    multiplier   the symbol of the constraint force; None if this force has no symbol
     """
 
     residual: Expr
@@ -94,7 +97,7 @@ class Condition:
 
 @dataclass(frozen=True)
 class Description:
-    """A mechanical system as described, or a given Lagrangian instead.
+    """A mechanical system as it is described, or a given Lagrangian in place of masses and forces.
 
     coordinates   each coordinate with its kind: "angle", "length"
     gravity       the acceleration of free fall against the last axis, m/s^2
@@ -124,10 +127,11 @@ class Description:
 class Meeting:
     """A collision of two particles, or of one particle with an object at rest.
 
-    start, end    their places, given as for forces
-    normal        the direction of the impulse on `end`; empty if the two stay together
-    restitution   the ratio of the speeds of separation and of approach
-    letters       the symbols of the impulse, or of its components
+    start, end    the positions of the colliding particles, given like the positions of forces; `start` is None for an
+                  object at rest
+    normal        the direction of the impulse on `end`; empty if the colliding objects stay together
+    restitution   the ratio of the speed of separation to the speed of approach
+    letters       the symbol of the impulse, or the symbols of its components
     """
 
     start: Force | None
@@ -141,8 +145,8 @@ class Meeting:
 class Impact:
     """An impact on a system at one instant: given impulses and collisions.
 
-    at       coordinate -> its value at that instant
-    before   rate -> its value just before; all others are zero
+    at       coordinate -> its value at the instant of the impact
+    before   rate -> its value just before the impact; all other rates are zero
     """
 
     system: Description

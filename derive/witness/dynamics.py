@@ -1,11 +1,12 @@
 """The Newton-Euler equations, numerically: the accelerations and multipliers of a described system in any state.
 
-Each place X is differentiated by the coordinates and along the motion by complex steps. With the Jacobians J and the
-accelerations c at constant rates, virtual work gives
+Complex steps differentiate each position with respect to the coordinates and along the motion. With the Jacobians J and
+the accelerations c at constant rates, virtual work gives
 
     sum of W J^T J a + sum of W J^T c = sum of J^T F + A^T lambda,    A a + b = 0,
 
-linear equations for the accelerations a and the multipliers lambda. W are the masses and second moments.
+which are linear equations for the accelerations a and the multipliers lambda. The weights W are masses and second
+moments; A and b come from the time derivatives of the constraints.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4; Hairer, Lubich, Wanner, *Geometric
 Numerical Integration*, section I.4.
@@ -28,12 +29,12 @@ from derive.witness.geometry import AROUND, STEP, WEIGHTS, Place, Placed, Reals,
 from derive.witness.tape import Compiled, Tape
 
 NEAR = 1e-4  # step for second derivatives of a given Lagrangian, which may be singular at a nearby speed
-LEAST = 1e-12  # a row of the equations below this does not determine an acceleration
+LEAST = 1e-12  # a row of the equations with all entries below this number does not determine an acceleration
 RANK = 1e-9  # singular values below this fraction of the largest count as zero
 
 
 class Singular(Exception):
-    """The accelerations are not determined in this state: a mass or gradient vanishes there."""
+    """Reports a state that does not determine the accelerations, because a mass or a gradient vanishes."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ class Blueprint:
 
     @cached_property
     def in_rates(self) -> NDArray[np.bool_]:
-        """Whether each condition is one in rates."""
+        """For each condition, whether it is a condition on the rates."""
         return np.array([c.in_rates for c in self.of.conditions], dtype=bool)
 
     def with_numbers(self, numbers: Mapping[Symbol, float]) -> Dynamics:
@@ -126,7 +127,7 @@ class Dynamics:
         self._lagrangian = blueprint.lagrangian.bound(numbers) if of.lagrangian is not None else None
 
     def placed(self, state: State) -> Placed:
-        """The places of all parts of the description in a state."""
+        """The positions of all parts of the description in a state."""
         return placed(self.blueprint.of, self._places, [arm for _, arm, _ in self._bodies], state)
 
     # --- the equations ----------------------------------------------------------------------------------------------
@@ -181,7 +182,7 @@ class Dynamics:
         return Response(known[: self.count], known[self.count :], rank)
 
     def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
-        """Masses with their places, and second moments with their pairs of axes."""
+        """Each mass with its position, twice, and each second moment with its pair of axes."""
         for mass, place in self._weighed(at):
             yield mass, place, place
         for body, (_, _, spread) in zip(at.bodies, self._bodies, strict=True):
@@ -200,13 +201,13 @@ class Dynamics:
         return matrix, forces
 
     def _weighed(self, at: Placed) -> Iterator[tuple[float, Place]]:
-        """Each mass with its place; for a body, this is its centre of mass."""
+        """Each mass with its position; the position of a body is its centre of mass."""
         yield from zip(self._masses, at.particles, strict=True)
         for (mass, _, _), body in zip(self._bodies, at.bodies, strict=True):
             yield mass, body.centre
 
     def _stored(self, state: State, at: Placed) -> Reals:
-        """The forces of springs and other pairs, of potential energies and of charges in electric fields."""
+        """The generalized forces of springs and other pairs, and of potential energies."""
         forces = np.zeros(self.count)
         for pull, (start, end) in zip(self._pulls, at.pairs, strict=True):
             way = end.at - start.at
@@ -220,7 +221,10 @@ class Dynamics:
         return forces
 
     def _given(self, state: State, at: Placed) -> Reals:
-        """The generalized forces of given forces, drag and charges: a column without multipliers, and one for each."""
+        """The generalized forces of given forces, drag and charges.
+
+        The first column holds the forces at zero multipliers; each further column is the factor of one multiplier.
+        """
         rows, n = len(self.blueprint.multipliers), self.count
         found = np.zeros((n, 1 + rows))
         here = np.concatenate([state.q, state.v, [state.t], np.zeros(rows)])
@@ -240,7 +244,10 @@ class Dynamics:
         return found
 
     def _kept(self, state: State) -> tuple[Reals, Reals]:
-        """The gradients A of the conditions, and their second time derivatives b at zero acceleration."""
+        """The gradients A of the conditions, and their time derivatives b at zero acceleration.
+
+        For a condition on coordinates b is the second time derivative, for a condition on rates the first.
+        """
         conditions, n = self.blueprint.of.conditions, self.count
         gradients, left = np.zeros((len(conditions), n)), np.zeros(len(conditions))
         if not conditions:
@@ -252,7 +259,10 @@ class Dynamics:
         return gradients, left
 
     def _slopes_of_conditions(self, state: State) -> tuple[Reals, Reals, Reals]:
-        """Derivatives by coordinates, by rates, and along the motion with constant rates: the first and the second."""
+        """The derivatives of the conditions with respect to coordinates, with respect to rates, and along the motion.
+
+        The last array holds the first and the second derivative along the motion at constant rates.
+        """
         n = self.count
         here = np.concatenate([state.q, state.v, [state.t]])
         along = np.concatenate([state.v, np.zeros(n), [1.0]])
@@ -266,7 +276,11 @@ class Dynamics:
         return slopes[:, :n], slopes[:, n : 2 * n], np.stack([slopes[:, 2 * n], second], axis=1)
 
     def violation(self, state: State) -> tuple[Reals, Reals]:
-        """The residuals of the conditions on places (zero for those in rates), and the rates of violation of all."""
+        """The residuals of the conditions, and the residuals that the rates should make zero.
+
+        The first array is zero for conditions on rates. The second array holds the residuals of these conditions, and
+        the time derivatives of the other conditions.
+        """
         here = np.concatenate([state.q, state.v, [state.t]]).astype(complex)[:, None]
         residuals = np.real(self._conditions(here))[:, 0]
         in_rates = self.blueprint.in_rates
@@ -274,7 +288,7 @@ class Dynamics:
         return np.where(in_rates, 0.0, residuals), np.where(in_rates, residuals, along[:, 0])
 
     def gradients(self, state: State) -> tuple[Reals, Reals]:
-        """The gradients of the conditions on places, by coordinates, and of all conditions, by rates."""
+        """The gradients of the two arrays of `violation`: with respect to coordinates, and with respect to rates."""
         by_places, by_rates, _ = self._slopes_of_conditions(state)
         in_rates = self.blueprint.in_rates
         on_places = by_places.copy()
@@ -294,7 +308,7 @@ class Dynamics:
         return found
 
     def kinetic_energy(self, state: State) -> float:
-        """Half the sum of W v . v."""
+        """Half the sum of W v . v, over all masses and second moments W."""
         pairs = self._pairs_of_matter(self.placed(state))
         return sum(float(weight * one.velocity @ other.velocity) for weight, one, other in pairs) / 2
 
@@ -308,7 +322,7 @@ class Dynamics:
         return np.asarray(np.imag(function(points)[0]) / STEP, dtype=np.float64)
 
     def _of_lagrangian(self, state: State, function: Compiled) -> tuple[Reals, Reals]:
-        """The second derivatives of L by the rates, and dL/dq minus d(dL/dv)/dt at zero acceleration."""
+        """The second derivatives of L with respect to the rates, and dL/dq - d(dL/dv)/dt at zero acceleration."""
         n = self.count
         reach = NEAR / (1 + float(np.max(np.abs(state.v), initial=0.0)))
         matrix = np.zeros((n, n))
@@ -325,7 +339,7 @@ class Dynamics:
 
 
 def jacobian_of(body: int | None, place: Place, at: Placed) -> Reals:
-    """The Jacobian of the place itself, or of the particle of a body at that place."""
+    """The Jacobian of the position itself, or of the particle of a body at this position."""
     return place.jacobian if body is None else at.bodies[body].jacobian_at(place.at)
 
 
@@ -334,7 +348,7 @@ def _square(values: Iterator[float], size: int) -> Reals:
 
 
 def _across(velocity: Reals, field: Reals) -> Reals:
-    """v x B; in a plane B has one component, towards the reader."""
+    """The product v x B; in a plane B has one component, towards the reader."""
     if len(velocity) == 2:
         return np.array([velocity[1] * field[0], -velocity[0] * field[0]])
     return np.cross(velocity, field)

@@ -13,7 +13,10 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class Rest(Fact):
-    """An equilibrium: the values of the coordinates, and when it exists; an omitted coordinate may have any value."""
+    """An equilibrium: the values of the coordinates, and the condition under which it exists.
+
+    A coordinate without a value may have any value.
+    """
 
     missing = "is not an equilibrium"
     values: Mapping[Symbol, Expr]
@@ -22,12 +25,13 @@ class Rest(Fact):
 
 @dataclass(frozen=True)
 class Around(Fact):
-    """A fact of an equation to first order about a place: the values of the coordinates there.
+    """The equilibrium about which an equation holds to first order: the values of the coordinates there.
 
+    exists      the condition under which the equilibrium exists
     displaced   symbol of a displacement -> the displaced coordinate
     """
 
-    missing = "is not an equation to first order about a place"
+    missing = "is not an equation to first order about an equilibrium"
     values: Mapping[Symbol, Expr]
     exists: Relation | None = None
     displaced: Mapping[Symbol, Symbol] = field(default_factory=dict)

@@ -1,7 +1,7 @@
-"""The places of all parts of a description in a state, with their derivatives.
+"""The positions of all parts of a description in a state, with their derivatives.
 
-Complex steps give the first derivatives, by each coordinate and along the motion. The second derivative along the
-motion, at constant rates, is computed from first derivatives at six points ahead and behind.
+Complex steps give the first derivatives with respect to each coordinate and along the motion. The second derivative
+along the motion, at constant rates, is computed from first derivatives at six points ahead and behind.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from derive.witness.tape import Compiled, Numbers
 
 Reals: TypeAlias = NDArray[np.float64]
 
-STEP = 1e-30  # of the imaginary part: it is never added to the real part, so nothing cancels
+STEP = 1e-30  # size of a complex step; it is never added to the real part, so no digits are lost
 PATH = 0.004  # spacing of the points along the motion, for second derivatives
 AROUND = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60  # weights of a first derivative, to sixth order
@@ -41,7 +41,12 @@ class State:
 
 @dataclass(frozen=True)
 class Place:
-    """A vector and its derivatives: by coordinates, by the time, and twice by the time at constant rates."""
+    """A vector and its derivatives.
+
+    jacobian   with respect to the coordinates
+    velocity   with respect to time
+    turning    the second derivative with respect to time, at constant rates
+    """
 
     at: Reals
     jacobian: Reals
@@ -57,14 +62,14 @@ class PlacedBody:
     axes: dict[int, Place]
 
     def jacobian_at(self, place: Reals) -> Reals:
-        """The Jacobian of the particle of the body at a place."""
+        """The Jacobian of the particle of the body at a position."""
         found = self.centre.jacobian.copy()
         for axis in self.axes.values():
             found += axis.jacobian * float(axis.at @ (place - self.centre.at))
         return found
 
     def velocity_at(self, place: Reals) -> Reals:
-        """The velocity of the particle of the body at a place."""
+        """The velocity of the particle of the body at a position."""
         found = self.centre.velocity.copy()
         for axis in self.axes.values():
             found += axis.velocity * float(axis.at @ (place - self.centre.at))
@@ -73,7 +78,7 @@ class PlacedBody:
 
 @dataclass(frozen=True)
 class Placed:
-    """The places of all parts of a description in a state, in its order."""
+    """The positions of all parts of a description in a state, in the order of the description."""
 
     particles: list[Place]
     bodies: list[PlacedBody]
@@ -84,7 +89,7 @@ class Placed:
 
 
 def formulas_of(description: Description) -> list[Expr]:
-    """All components of places, and the angles of rotations, in the order in which `placed` reads them."""
+    """All components of positions, and the angles of rotations, in the order in which `placed` reads them."""
     found: list[Expr] = [c for particle in description.particles for c in particle.place]
     for body in description.bodies:
         found += [*body.place, *(angle for _, angle in body.turns)]
@@ -96,13 +101,13 @@ def formulas_of(description: Description) -> list[Expr]:
 
 
 def _acting_places(description: Description) -> list[Vector]:
-    """The places of forces, drag and charges."""
+    """The positions of forces, drag and charges."""
     places = [force.place for force in description.forces] + [drag.place for drag in description.drags]
     return places + [charge.place for charge in description.charges]
 
 
 def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], state: State) -> Placed:
-    """The places of all parts in a state. `arms` go from the known points of bodies to their centres of mass."""
+    """The positions of all parts in a state; `arms` are the vectors from the known point to the centre of each body."""
     points, count = _points(state), len(state.q)
     found = formulas(points)
     rows = iter(found)
@@ -149,7 +154,7 @@ def _body(body: Body, arm: Reals, rows: Iterator[Numbers], points: int, count: i
 
 
 def _axes(body: Body, angles: Sequence[Numbers], points: int) -> list[Numbers]:
-    """The axes of a body in space, or the two in the plane, as vectors at each point."""
+    """The axes of a body, three in space or two in a plane, as vectors at each sample point."""
     if len(body.axes) == 2:
         c, s = np.cos(angles[0]), np.sin(angles[0])
         return [np.array([c, s]), np.array([-s, c])]

@@ -27,7 +27,7 @@ from derive.witness.trial import Contradiction, Given, Trial
 
 @lru_cache(maxsize=8)
 def _blueprint(of: Impact) -> Blueprint:
-    """The system with a zero force at the place of each impulse."""
+    """The system with one force at the position of each impulse, so that these positions are computed."""
     acting = [*of.impulses, *(end for meeting in of.meetings for end in _ends(meeting.start, meeting.end))]
     return Blueprint(replace(of.system, forces=tuple(acting), drags=(), charges=()))
 
@@ -45,7 +45,7 @@ class After:
 
 
 def after(of: Impact, trial: Trial) -> After | None:
-    """The result of the momentum balance; None if it is not determined."""
+    """The rates and impulses after an impact; None if the momentum balance does not determine them."""
     blueprint = trial.blueprint
     q = blueprint.coordinates
     given = [Given(symbol, value) for symbol, value in of.at]
@@ -82,7 +82,11 @@ def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
 
 
 def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Reals, Reals, list[Symbol]]:
-    """The mass matrix; for each unknown impulse, its effect on the momenta and the required speed afterwards."""
+    """The mass matrix, and for each unknown impulse its effect on the momenta, a required speed, and its symbol.
+
+    The effect on the momenta is returned twice: as a column of the momentum balance, and as a row of the conditions
+    that give the speed after the impact.
+    """
     matrix, _ = trial.dynamics.inertia(state)
     at = trial.dynamics.placed(state)
     places = iter(at.forces[len(of.impulses) :])
@@ -105,7 +109,7 @@ def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Re
 
 
 def _normals(trial: Trial, normal: Vector, at: tuple[tuple[Symbol, Expr], ...], size: int) -> list[Reals]:
-    """The direction of the impulse, of length 1; all directions if the two bodies stay together."""
+    """The unit vector of the impulse; the unit vectors of all axes if the colliding objects stay together."""
     if not normal:
         return list(np.eye(size))
     components = np.array([trial.value(c.subs(dict(at))) for c in normal])

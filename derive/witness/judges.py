@@ -46,7 +46,7 @@ JUDGES: Mapping[str, Judge] = {
 }
 
 
-@lru_cache(maxsize=8)  # each step of a problem needs its system
+@lru_cache(maxsize=8)  # all steps of a problem need the same system
 def blueprint(description: Description) -> Blueprint:
     return Blueprint(description)
 

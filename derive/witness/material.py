@@ -1,4 +1,4 @@
-"""Whether a particle of the description moves in the same way as a given place.
+"""Whether a particle of the description moves in the same way as a given position.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9 (velocities in a rigid body).
 """
@@ -21,8 +21,11 @@ SAME = 1e-8
 
 
 def moving_alone(of: Description, places: Sequence[Vector]) -> list[int]:
-    """The numbers of the places that do not move like any particle of a body, of a massless rod to a particle, or of
-    the ground; all states count, not only those that constraints allow."""
+    """The indices of the positions that do not move like any part of the system.
+
+    Parts are particles, the points of bodies and of massless rods to particles, and the ground. All states are tested,
+    including states that the constraints do not allow.
+    """
     zero = tuple(0 * c for c in places[0]) if places else ()
     asked = replace(of, forces=tuple(Force(zero, place) for place in places), drags=(), charges=(), conditions=())
     fitting: list[set[str] | None] = [None] * len(places)
@@ -42,7 +45,7 @@ def moving_alone(of: Description, places: Sequence[Vector]) -> list[int]:
 
 
 def _moves_like(at: Placed, place: Reals, jacobian: Reals) -> set[str]:
-    """The names of all parts that move like the place in this state."""
+    """The names of all parts that move like the position in this state."""
     found = {"ground"} if np.max(np.abs(jacobian), initial=0.0) < SAME else set()
     for i, particle in enumerate(at.particles):
         apart = jacobian - particle.jacobian

@@ -22,11 +22,11 @@ from derive.witness.geometry import Reals, State
 from derive.witness.trial import Contradiction, Given, Trial
 
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
-CALLS = 6000  # most evaluations of the accelerations in one motion
+CALLS = 6000  # largest number of evaluations of the accelerations in one motion
 MOMENTS, WATCHED = 12, 80  # least number of steps, without and with an event that may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
-MANY = 6  # motions from one start: whether they reach a place may depend on the values of the symbols
+MANY = 6  # motions from one start; the values of the symbols may decide whether a motion reaches a position
 NUDGE = 2e-3  # fraction of the distance by which a motion is displaced from an equilibrium at its start
 Event = Callable[[State], float]
 
@@ -36,7 +36,7 @@ class TooLong(Exception):
 
 
 class Run:
-    """One motion of the described system: its states, and its state at the event that ended it, if any."""
+    """One motion of the described system: its states, and the state at the event that ended the motion, or None."""
 
     def __init__(self, trial: Trial, start: State, length: float, event: Event | None, step: float):
         from scipy.integrate import solve_ivp
@@ -80,7 +80,7 @@ def followed(trial: Trial, start: State, length: float = LONG, event: Event | No
 
 
 def speed(claim: Claim) -> Verdict | None:
-    """Test the square of the rate at each place that the motion from this start reaches."""
+    """Test the square of the rate in each state that the motion from the given start reaches."""
     inputs = claim.judged.inputs
     q = inputs.get("coordinate")
     if not isinstance(q, Symbol) or q not in claim.blueprint.coordinates:
@@ -111,11 +111,11 @@ def _without_repeats(given: Sequence[Given]) -> list[Given]:
 
 
 def leaves(claim: Claim) -> Verdict | None:
-    """Test whether the motion reaches the place from the start, and whether the force vanishes there."""
+    """Test whether the motion from the start reaches the stated position, and whether the force vanishes there."""
     inputs = claim.judged.inputs
     if "unknown" not in inputs or "start" not in inputs or not isinstance(claim.value, Relation):
         return None
-    if claim.outcome == TURNS_THERE:  # the simulated motion only comes close to the place
+    if claim.outcome == TURNS_THERE:  # the simulated motion only comes close to this position
         return None
     conditions = [each for each in inputs.values() if isinstance(each, Relation) and each.operator not in ("=", "!=")]
     place = inputs["place"].right if claim.outcome == TURNS_BACK else claim.value.right
@@ -134,7 +134,7 @@ TURNS_BACK, TURNS_THERE = "turns_back", "turns_there"
 
 
 def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Expr) -> Verdict | int:
-    """The refutation of the claim by one motion; else the number of motions (0 or 1) that confirm it."""
+    """The refutation of the claim by one motion; otherwise the number of motions (0 or 1) that confirm the claim."""
     unknown, begin = explicit(inputs["unknown"]), explicit(inputs["start"])
     force = claim.judged.quantities.get("force")
     watched = trial.formulas([unknown, explicit(force.symbol) if force is not None else Integer(0)])
@@ -185,7 +185,7 @@ def _can_go_on(claim: Claim, trial: Trial, unknown: Expr, begin: Expr, place: Ex
 
 
 def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
-    """The state with all rates reversed, if the motion would start away from the place."""
+    """The state; if the motion would start away from the stated position, all rates are reversed."""
     from dataclasses import replace
 
     response = trial.dynamics.response(state)
@@ -194,10 +194,10 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 
 def solution(claim: Claim) -> Verdict | None:
-    """Test a coordinate as this function of time; the other coordinates follow the described system."""
+    """Test whether the coordinate is the stated function of time in the simulated motion of the described system."""
     (q,) = (claim.symbol,) if isinstance(claim.symbol, Symbol) else (None,)
     if any(each.fact(Around) is not None for each in claim.quantity.ancestors()):
-        return small.motion(claim)  # to first order it is a different motion
+        return small.motion(claim)  # a linear equation describes the linearised motion
     if q is None or q not in claim.blueprint.coordinates:
         return None
     motion = claim.value
@@ -223,7 +223,10 @@ def solution(claim: Claim) -> Verdict | None:
 
 
 def period(claim: Claim) -> Verdict | None:
-    """Test the period of a swing released at the amplitude; the error of a series must shrink with the amplitude."""
+    """Test the period of an oscillation that is released from rest at the amplitude.
+
+    If the period is a series, its error must shrink with the amplitude.
+    """
     inputs = claim.judged.inputs
     if claim.outcome == INTEGRATED:
         integral, letters, numbers = (inputs[role] for role in ("integral", "letters", "numbers"))
@@ -259,13 +262,16 @@ TIMED = 1e-7  # accuracy of the period of a simulated motion
 
 
 def _shrinks(series: Expr, amplitude: Symbol) -> float:
-    """The largest allowed ratio of the errors at half and at full amplitude, below that of the highest power kept."""
+    """The largest allowed ratio of the error at half amplitude to the error at full amplitude.
+
+    This ratio is smaller than (1/2)^n, where n is the highest power of the series.
+    """
     highest = series.as_poly(amplitude).degree()
     return float(0.5 ** (highest + 0.5))
 
 
 def _swing(claim: Claim, trial: Trial, q: Symbol, amplitude: Symbol, length: float) -> float | None:
-    """Twice the time from the release to the other turning point."""
+    """Twice the time from the release to the other turning point; None if the motion does not reach this point."""
     i = claim.blueprint.coordinates.index(q)
     try:
         start = trial.state(_without_repeats([*claim.states_given, Given(q, amplitude), Given(rate(q), Integer(0))]))

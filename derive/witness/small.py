@@ -1,7 +1,8 @@
 """Tests of equilibria and of small motions about them: stability, frequencies and decay.
 
 The described system is linearised numerically on the manifold of its constraints, at constant momenta of its cyclic
-coordinates. The eigenvalues s of the motion decide: for Re s > 0 it leaves, for s = i omega it oscillates.
+coordinates. The eigenvalues s of the linear motion decide: a displacement grows if Re s > 0, and oscillates if
+s = i omega.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.1 and 6.2; Meirovitch, *Methods of Analytical
 Dynamics*, section 6.
@@ -25,14 +26,14 @@ from derive.witness.geometry import Reals, State
 from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
-SMALL = 1e-3  # a displacement, for derivatives to fourth order
+SMALL = 1e-3  # size of a displacement; differences give derivatives accurate to fourth order
 SURE = 1e-3  # an eigenvalue below this fraction of the largest counts as zero
 FREQUENCY = 1e-5  # accuracy to which squares of frequencies agree
 STAYS = 1e-7  # an acceleration below this counts as zero, with numbers of order one
 DOUBLE = 1e-4  # accuracy to which exponents agree: nearly equal exponents are less accurate
 SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which it is tested
 ZERO = Integer(0)
-DRAWS = 8  # sets of numbers that are tried for both sides of a condition
+DRAWS = 8  # sets of numbers that are tried on each side of a condition
 DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
 WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
 
@@ -41,8 +42,8 @@ WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
 class Neighbourhood:
     """States near an equilibrium, described by as many coordinates as there are degrees of freedom.
 
-    free     the coordinates that may be displaced: all except the cyclic ones whose momenta are known
-    momenta  the momenta of these cyclic coordinates
+    free     the indices of the coordinates that may be displaced: all except cyclic coordinates with known momenta
+    momenta  index of such a cyclic coordinate -> its momentum
     """
 
     trial: Trial
@@ -51,7 +52,7 @@ class Neighbourhood:
     momenta: Mapping[int, float]
 
     def basis(self) -> Reals:
-        """Directions that the constraints allow, as columns over the free coordinates."""
+        """Directions that the constraints allow, as columns whose rows are the free coordinates."""
         _, by_rates = self.trial.dynamics.gradients(self.state)
         if not len(by_rates):
             return np.eye(len(self.free))
@@ -60,7 +61,7 @@ class Neighbourhood:
         return np.array(rows[rank:].T)
 
     def at(self, basis: Reals, u: Reals, w: Reals) -> State:
-        """The state with these displacements u along the basis, and their rates w."""
+        """The state with the displacements u along the basis and their rates w, at the constraints or given momenta."""
         q, v = self.state.q.copy(), self.state.v.copy()
         q[list(self.free)] += basis @ u
         v[list(self.free)] = self.state.v[list(self.free)] + basis @ w
@@ -90,7 +91,10 @@ class Neighbourhood:
 
 
 def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
-    """The neighbourhood of an equilibrium; None if the motion of the other coordinates is unknown."""
+    """The neighbourhood of an equilibrium.
+
+    The result is None if a system with constraints has cyclic coordinates, or if `place` has an unknown coordinate.
+    """
     q = claim.blueprint.coordinates
     cyclic = {q.index(of): value for of, value in claim.constants.items() if of not in place}
     if cyclic and claim.blueprint.of.conditions:
@@ -141,7 +145,7 @@ def rest(claim: Claim) -> Verdict | None:
 
 
 def _is_balanced(near: Neighbourhood) -> bool:
-    """Whether no generalized force acts at rest, for a system without conditions."""
+    """Whether no generalized force acts at rest; false for a system with conditions."""
     if near.trial.blueprint.of.conditions:
         return False
     _, forces = near.trial.dynamics.inertia(near.state)
@@ -153,7 +157,7 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 
 def stability(claim: Claim) -> Verdict | None:
-    """Test whether a small displacement stays small or grows; if a condition decides this, test both of its sides."""
+    """Test whether a small displacement stays small or grows; if a condition decides this, test both sides of it."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None
@@ -190,7 +194,7 @@ def _neighbourhoods_with(
 
 
 def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdict | int:
-    """The refutation of the statement; else the number of states (0 or 1) that confirm it."""
+    """The refutation of the statement; otherwise the number of states (0 or 1) that confirm the statement."""
     try:
         growth = near.eigenvalues()
     except (Singular, Contradiction, np.linalg.LinAlgError):
@@ -272,7 +276,7 @@ PAIR, DECAYS, GROWS, OVERDAMPED = "oscillator", "decay", "growth", "overdamped"
 
 
 def motion(claim: Claim) -> Verdict | None:
-    """Test a displacement as this function of time, for the stated initial displacements and rates."""
+    """Test whether a displacement is the stated function of time, for the stated initial displacements and rates."""
     from scipy.linalg import expm
 
     around, starts = _around(claim), _starts_of(claim)
@@ -303,7 +307,7 @@ def motion(claim: Claim) -> Verdict | None:
 
 
 def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
-    """The initial displacements and rates that the sentence states; all others are zero."""
+    """The initial displacements and rates that the sentence states; all other initial values are zero."""
     told = [each for role, each in claim.judged.inputs.items() if role.startswith("start")]
     if not all(isinstance(each, Relation) for each in told):
         return None
@@ -311,13 +315,13 @@ def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
 
 
 def _stays(near: Neighbourhood) -> bool:
-    """Whether the system is not driven: it stays at the equilibrium at any time."""
+    """Whether the system is not driven, so that it stays at the equilibrium at any time."""
     at_times = [near.trial.dynamics.response(replace(near.state, t=t)) for t in (0.0, 0.3)]
     return all(np.max(np.abs(each.a[list(near.free)]), initial=0.0) < STAYS * 10 for each in at_times)
 
 
 def _eigenvalues_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
-    """The eigenvalues, cached for all frequencies of one equilibrium."""
+    """The eigenvalues, which are cached for all frequencies of one equilibrium; None if they cannot be computed."""
     known, letters = near.trial.blueprint.known, sorted(near.trial.blueprint.letters, key=str)
     here = near.state.q.tobytes(), near.state.v.tobytes(), tuple(near.momenta.items())
     key = (tuple(near.trial.numbers[letter] for letter in letters), near.free, *here)

@@ -1,7 +1,7 @@
 """Formulas as a list of numerical operations, so that they can be differentiated by complex steps.
 
-Equal parts of formulas are computed once. Operations on constants only are evaluated when numbers are bound to the
-symbols; all others are evaluated for a whole array of points at a time.
+Equal parts of formulas are computed once. Operations whose arguments are all constant are evaluated when numbers are
+bound to the symbols; all other operations are evaluated for a whole array of points at a time.
 
 Source: Squire, Trapp, *SIAM Review* 40 (1998), 110 (derivatives by complex steps).
 """
@@ -42,11 +42,11 @@ from derive.algebra.ordered_roots import OrderedRoot
 Numbers: TypeAlias = NDArray[np.complex128]
 Operation: TypeAlias = tuple[Callable[..., Any], tuple[int, ...]]
 
-LARGEST = 20_000  # most operations in the formulas of one description
+LARGEST = 20_000  # largest number of operations in the formulas of one description
 
 
 class NotComputable(Exception):
-    """A formula has a function that the witness cannot evaluate, or a symbol without a number."""
+    """Reports a formula with a function that the witness cannot evaluate, or with a symbol without a number."""
 
 
 def _absolute(x: Any) -> Any:
@@ -79,16 +79,16 @@ FUNCTIONS: Mapping[Any, Callable[..., Any]] = {
 
 
 def _root_in_order(number: int, *coefficients: Any) -> Any:
-    """The root at this place of a polynomial whose roots are all real, at each point."""
+    """The root with this number, in ascending order, of a polynomial whose roots are all real; at each point."""
     rows = np.stack(np.broadcast_arrays(*map(np.asarray, coefficients)), axis=-1)
     found = [np.sort(np.roots(np.real(row)).real)[number - 1] for row in rows.reshape(-1, rows.shape[-1])]
     return np.asarray(found, dtype=complex).reshape(rows.shape[:-1])
 
 
 class Tape:
-    """Formulas as operations, each on the results of earlier operations.
+    """Formulas as operations; each operation uses the results of earlier operations.
 
-    inputs   the symbols whose values vary from point to point; all others are constants
+    inputs   the symbols whose values vary from point to point; all other symbols are constants
     """
 
     def __init__(self, formulas: Sequence[Any], inputs: Sequence[Symbol]):
@@ -190,7 +190,10 @@ class Compiled:
         self._inputs, self._outputs = inputs, outputs
 
     def __call__(self, points: Numbers) -> Numbers:
-        """The value of each formula at each point. Columns are points; rows are inputs, and formulas in the result."""
+        """The value of each formula at each point.
+
+        Columns are points; the rows of `points` are inputs, and the rows of the result are formulas.
+        """
         values: list[Any] = list(self._values)
         for i, row in zip(self._inputs, points, strict=True):
             values[i] = row

@@ -1,7 +1,7 @@
 """A description with random numbers for its symbols, and states that satisfy the conditions and the given values.
 
-The seed is the name of the symbol and the number of the trial, so all claims about one system are tested with the same
-numbers in each run. The numbers lie in the ranges of their symbols and satisfy the assumptions of the page.
+The seed of a number is the name of its symbol and the number of the trial. So every run tests all claims about one
+system with the same numbers. The numbers are in the ranges of their symbols and satisfy the assumptions of the page.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from derive.witness.geometry import STEP, Reals, State
 from derive.witness.tape import NotComputable, Tape
 
 SALTS = 60  # sets of numbers that are tried until one satisfies the assumptions
-ROUNDS = 25  # most iterations of Newton's method
+ROUNDS = 25  # largest number of iterations of Newton's method
 EXACT = 1e-10
 ATTEMPTS = 5  # states that are drawn before the search fails
 
@@ -39,7 +39,7 @@ HOLDS = {
 
 
 class Contradiction(Exception):
-    """The given values are impossible in the described system; `of_rates` if the contradiction is between rates."""
+    """Reports given values that are impossible in the described system; `of_rates` if their rates are impossible."""
 
     def __init__(self, of_rates: bool):
         super().__init__()
@@ -55,7 +55,7 @@ class Given:
 
 
 class Drawn(Mapping[Symbol, float]):
-    """A number for each symbol, determined by its name, unless it is given in `fixed`."""
+    """A number for each symbol: the number in `fixed`, or else a random number that the symbol's name determines."""
 
     def __init__(self, trial: int, salt: int = 0, fixed: Mapping[Symbol, float] | None = None):
         self.trial, self.salt, self.fixed = trial, salt, dict(fixed or {})
@@ -74,7 +74,7 @@ class Drawn(Mapping[Symbol, float]):
 
 
 def drawn(letter: Symbol, trial: int, salt: int = 0, wide: float = 1.0) -> float:
-    """A number of ordinary size that is allowed for the symbol."""
+    """A random number of order one that is allowed for the symbol."""
     source = Random(crc32(f"{letter.name} {trial} {salt}".encode()))
     known = range_of(letter)
     if known is not None:
@@ -97,7 +97,7 @@ def _fraction(number: float) -> Any:
 class Trial:
     """A description with one set of numbers.
 
-    letters   given values of symbols, `m = 2 M`; coordinates and rates are given for states
+    letters   given values of symbols, such as `m = 2 M`; values of coordinates and rates are given for a state instead
     """
 
     def __init__(
@@ -134,11 +134,11 @@ class Trial:
 
     @property
     def used(self) -> set[Symbol]:
-        """The symbols that have numbers here."""
+        """The symbols whose numbers the description uses."""
         return self.blueprint.letters
 
     def value(self, formula: Expr, numbers: Mapping[Symbol, float] | None = None) -> float:
-        """The value of a formula of constants."""
+        """The value of a formula that contains only constants."""
         found = Tape([formula], []).bound(self.numbers if numbers is None else numbers)(np.empty((0, 1), dtype=complex))
         return _real(found[0, 0])
 
@@ -162,7 +162,7 @@ class Trial:
         raise last
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
-        """A random state; with a small `wide` it is close to zero, except values that are positive or have a range."""
+        """A random state; if `wide` is small, its values are close to zero unless they are positive or have a range."""
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:
             place = drawn(symbol, self.number, 7 + which)
@@ -174,7 +174,7 @@ class Trial:
         return State(np.array(q), np.array(v), abs(time))
 
     def _projected(self, state: State, given: Sequence[Given]) -> State:
-        """Project a state onto the conditions and given values by least changes: first the places, then the rates."""
+        """Project a state onto the conditions and given values by least changes: of coordinates, then of rates."""
         inputs = [*self.blueprint.coordinates, *self.blueprint.rates, TIME]
         kept = [(self.momenta[g.target], self.value(g.value)) for g in given if g.target in self.momenta]
         given = [g for g in given if g.target not in self.momenta]
@@ -184,7 +184,7 @@ class Trial:
         fast = np.array(of_rates, dtype=bool)
 
         def at(q: Reals, v: Reals, t: float) -> tuple[Reals, Reals]:
-            """The residuals of the given values, and their derivatives by places, rates and time."""
+            """The residuals of the given values, and their derivatives with respect to coordinates, rates and time."""
             n = len(q)
             here = np.concatenate([q, v, [t]]).astype(complex)
             points = np.tile(here[:, None], (1, 2 * n + 2))
@@ -259,13 +259,13 @@ class Trial:
         return any(TIME in explicit(c.residual).free_symbols for c in self.blueprint.of.conditions if not c.in_rates)
 
     def _by_time(self, state: State) -> Reals:
-        """The partial derivatives by time of the conditions on places."""
+        """The partial derivatives, with respect to time, of the conditions on coordinates."""
         at_rest = replace(state, v=np.zeros_like(state.v))
         _, violation = self.dynamics.violation(at_rest)
         return np.where(self.blueprint.in_rates, 0.0, violation)
 
     def _as_assumed(self, state: State) -> bool:
-        """Whether the assumptions of the page about places and rates hold in this state."""
+        """Whether the assumptions of the page about coordinates and rates hold in this state."""
         point = np.concatenate([state.q, state.v, [state.t]])[self._sorted].astype(complex)[:, None]
         found = np.real(self._staying(point)[:, 0])
         return all(HOLDS[each.operator](x) for each, x in zip(self._stays, found, strict=True))
@@ -287,7 +287,7 @@ class Trial:
 
 
 class Formulas:
-    """Formulas of places, rates, accelerations, multipliers and momenta, to be evaluated at states."""
+    """Formulas of coordinates, rates, accelerations, multipliers and momenta, to be evaluated at states."""
 
     def __init__(self, trial: Trial, formulas: Sequence[Any]):
         self.trial = trial
@@ -317,7 +317,7 @@ class Formulas:
         return self._bound(point[:, None])[:, 0]
 
     def rate_at(self, state: State, response: Response) -> Reals:
-        """The time derivatives of the values along the motion; the values may depend on places, rates and time."""
+        """The time derivatives of the values along the motion; the values may depend on coordinates, rates and time."""
         rows = len(self.trial.blueprint.multipliers)
         n = len(state.q)
         here = np.concatenate([state.q, state.v, np.zeros(n + rows + self._count), [state.t]]).astype(complex)

@@ -263,7 +263,7 @@ def wrong(case: str) -> Any:
         ("no energy", "needs an energy"),
         ("stranger", "does not depend on x"),
         ("time", "contains the time explicitly"),
-        ("not level", "is not stationary at theta = pi/2: its derivative by theta is g\\*l\\*m"),
+        ("not level", "is not stationary at theta = pi/2: its derivative with respect to theta is g\\*l\\*m"),
         ("of another", "is not an equilibrium of"),
         ("missing", "the value of theta at equilibrium is unknown"),
     ],

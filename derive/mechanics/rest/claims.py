@@ -1,4 +1,4 @@
-"""Predicates of the outcomes of equilibria and their stability, and of the things that their sentences name."""
+"""Predicates that check the outcomes of equilibria and stability, and the expressions that their sentences name."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _is_there(facts: Judged, point: Point) -> bool:
-    """Whether the equilibrium exists at a point: it is real, distances are positive, and no force remains."""
+    """Whether the equilibrium exists for trial numbers: it is real, distances are positive, and no force remains."""
     entries, distances = _entries(facts.result), {int(i) for i in facts.inputs["distances"]}
     signs = [sign_at(entry, point) for entry in entries]
     if None in signs or not all(signs[i] == 1 for i in distances):
@@ -84,7 +84,7 @@ def _is_there(facts: Judged, point: Point) -> bool:
 
 
 def _sided_forces(facts: Judged) -> list[Expr]:
-    """Return the forces with different formulas on the two sides of a place, as that of a spring along a line."""
+    """Return the forces that contain a distance |u|, such as the force of a spring along a line."""
     sought = facts.inputs.get("sought", ())
     if len(sought) != len(_entries(facts.result)):
         return []
@@ -96,7 +96,7 @@ def _force(facts: Judged, i: int) -> Expr:
 
 
 def anywhere(facts: Judged) -> bool:
-    """Whether it exists for all numbers, and no condition is stated."""
+    """Whether the equilibrium exists for all trial numbers, and no condition is stated."""
     points = trial_points(_letters(facts))
     return "exists" not in facts.inputs and everywhere(points, lambda point: _is_there(facts, point))
 
@@ -106,7 +106,7 @@ def several(facts: Judged) -> bool:
 
 
 def under_its_condition(facts: Judged) -> bool:
-    """Whether it exists exactly where the condition holds, which some numbers fulfil and some do not."""
+    """Whether the equilibrium exists exactly where the condition holds, which must be true for only some numbers."""
     if "exists" not in facts.inputs:
         return False
     exists, letters = facts.inputs["exists"], _letters(facts)
@@ -115,13 +115,13 @@ def under_its_condition(facts: Judged) -> bool:
 
 
 def _can_be_counted(sought: Sequence[Symbol]) -> bool:
-    """Whether each equilibrium is a change of sign of one force, for a coordinate that reaches no end of its range."""
+    """Whether equilibria can be counted: there is one coordinate, and it never reaches an end of its range."""
     known = range_of(sought[0])
     return len(sought) == 1 and not (known is not None and any(known.closed))
 
 
 def all_are_told(facts: Judged) -> bool:
-    """Whether no equilibrium is missing, for several coordinates; for one coordinate, a route counts them."""
+    """Whether no equilibrium is missing; for one coordinate, a check of the step counts the equilibria instead."""
     sought = facts.inputs["sought"]
     if _can_be_counted(sought):
         return True
@@ -150,7 +150,7 @@ def numbers_here(facts: Judged) -> list[Point]:
 
 
 def _signs_by_numbers(facts: Judged, beside: Sequence[Relation] = ()) -> list[tuple[Point, int]]:
-    """Return trial numbers, also some beside the borders of conditions, with the sign of the energy to second order."""
+    """Return trial numbers, each with the sign of the energy to second order; some are next to the given boundaries."""
     letters, points = _letters_here(facts), numbers_here(facts)
     points += [point for each in beside for point in beside_border(each, points, *_exists(facts))]
     numbers = tuple(tuple(point[s] for s in letters) for point in points)
@@ -177,9 +177,12 @@ def signs(facts: Judged) -> set[int]:
 
 
 def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
-    """Return 1 if the energy rises in all directions, -1 if it falls in one, 0 if it is constant in some, else rising.
-    Nothing is differentiated: differences of the energy at nearby points give the matrix of second order, scaled to a
-    suitable size for each coordinate, and the sign is that of its least eigenvalue.
+    """Return the sign of the energy to second order.
+
+    The sign is 1 if the energy rises in all directions, and -1 if it falls in at least one direction. Otherwise the
+    energy is constant in at least one direction, and the sign is 0. No formula is differentiated: differences of the
+    energy at nearby points give the matrix of second order. Each coordinate is scaled to a suitable size, and the sign
+    is the sign of the least eigenvalue.
     """
     step, here, size = mp.mpf(10) ** -30, energy(*place), len(place)
 
@@ -188,7 +191,7 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
         return (energy(*moved) - here) / step**2
 
     def twice(i: int, j: int) -> Any:
-        """Return the second order along the sum of two directions."""
+        """Return the second difference of the energy along the sum of two directions."""
         way = [int(k == i) + int(k == j and j != i) for k in range(size)]
         return gained(*way) + gained(*(-w for w in way))
 
@@ -214,14 +217,17 @@ def always(sign: int) -> Predicate:
 
 
 def runs_away(facts: Judged) -> bool:
-    """Whether the motion grows where the energy falls to some side: gyroscopic forces could stabilise it."""
+    """Whether a displacement grows for all numbers for which the energy falls in some direction.
+
+    This must be checked because gyroscopic forces could stabilise the equilibrium.
+    """
     matter = matter_of(facts.quantities["potential"])
     falling = [numbers for numbers, sign in _signs_by_numbers(facts) if sign == -1]
     return matter is None or grows_always(matter, _at_rest(facts), falling)
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy is positive: only then is a minimum of U stable; meaningless numbers do not count."""
+    """Whether the kinetic energy is positive; only then is a minimum of U stable. Meaningless numbers are left out."""
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
     return matter is None or inertia_is_positive(matter, _at_rest(facts), there)
@@ -247,7 +253,7 @@ def _at_rest(facts: Judged) -> dict[Any, Expr]:
 
 
 def higher(kind: str) -> Predicate:
-    """Judge by the first nonzero derivative, if the second derivative vanishes."""
+    """Judge by the first nonzero derivative of the energy; the second derivative must vanish."""
 
     def is_so(facts: Judged) -> bool:
         if not all(is_zero(entry) for entry in _entries(facts.result)):
@@ -258,7 +264,7 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """Whether no order decides; the sentence states the derivative of unknown sign, if there is one."""
+    """Whether no order decides: all derivatives vanish, or the sign of the first nonzero, stated one is unknown."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 
@@ -275,7 +281,10 @@ def kind_of_order(value: Expr, facts: Judged) -> str:
 
 
 def depends(border: str | None) -> Predicate:
-    """Whether the sign depends on the numbers, and the stated condition holds exactly where it is positive."""
+    """Judge whether the sign depends on the numbers, and the stated condition holds exactly where the sign is positive.
+
+    border   the verdict of the higher order that decides on the boundary; None if no such order is stated
+    """
 
     def is_so(facts: Judged) -> bool:
         condition, where = facts.inputs["condition"], facts.inputs.get("at_border")
@@ -291,7 +300,10 @@ def depends(border: str | None) -> Predicate:
 
 
 def bordered(border: str | None) -> Predicate:
-    """Whether the boundary belongs to the condition, by the order that decides there."""
+    """Judge whether the condition includes its boundary exactly if the equilibrium is stable on the boundary.
+
+    border   the verdict of the higher order that decides on the boundary; None if no order decides
+    """
 
     def is_so(facts: Judged) -> bool:
         where = facts.inputs.get("at_border")
@@ -309,19 +321,22 @@ def is_at_rest(facts: Judged) -> bool:
 
 
 def is_what_the_lagrangian_has(facts: Judged) -> bool:
-    """Whether V comes from the Lagrangian only: V + L contains only terms with rates, and vanishes with them."""
+    """Whether V comes from the Lagrangian only: V + L vanishes if all rates and accelerations are zero."""
     moving = [rate(q, n) for q in facts.inputs["coordinates"] for n in (1, 2)]
     whole = explicit(facts.result + facts.inputs["lagrangian"])
     return is_zero(whole.subs(dict.fromkeys(moving, 0)))
 
 
 def higher_lasts(facts: Judged) -> bool:
-    """Whether the derivative that should not vanish does not."""
+    """Whether the stated higher derivative, if there is one, does not vanish."""
     return "higher" not in facts.inputs or not is_zero(facts.inputs["higher"])
 
 
 def sides_as_told(facts: Judged) -> bool:
-    """Whether the sentence mentions a side exactly if one is assumed, and springs if a step assumes it in words."""
+    """Whether the sentence mentions a side exactly if a side is assumed.
+
+    If a step states all these assumptions in words, the sentence says that springs are stretched.
+    """
     sides = [
         each for each in assumed() if each.operator == ">" and explicit(each.residual).has(*facts.inputs["sought"])
     ]
@@ -330,8 +345,10 @@ def sides_as_told(facts: Judged) -> bool:
 
 
 def level_as_told(facts: Judged) -> bool:
-    """Whether the sentence excludes exactly the letters for which the force vanishes at all values of the coordinate.
-    They make a common factor of all coefficients of the force vanish, as a polynomial in functions of the coordinate.
+    """Whether the sentence excludes exactly the case in which the force vanishes at all values of the coordinate.
+
+    The force is a polynomial in functions of the coordinate. It vanishes at all values if a common factor of its
+    coefficients is zero.
     """
     told, sought = facts.inputs.get("excluded"), facts.inputs["sought"]
     if len(sought) > 1:
@@ -346,7 +363,7 @@ def level_as_told(facts: Judged) -> bool:
     return told is not None and told.operator == "!=" and same_equation(told.residual, open_)
 
 
-DIGITS_LEFT = 10**40  # values have 60 digits
+DIGITS_LEFT = 10**40  # largest ratio of an energy to its difference; values have 60 digits
 
 
 def is_its_derivative(facts: Judged, outcome: str) -> bool:
@@ -365,7 +382,7 @@ def _nearby(point: Point) -> Expr:
 
 
 def _is_slope_in_numbers(energy: Expr, q: Symbol, order: int, found: Expr) -> bool:
-    """Check the derivative of an energy with distances |x - d|, by central differences at random places."""
+    """Check the derivative of an energy with distances |x - d|, by central differences at random values of x."""
 
     def is_so(point: Point) -> bool:
         near, steps = _nearby(point), range(order + 1)
@@ -382,7 +399,7 @@ def curvature(facts: Judged, fact: Extreme) -> bool:
 
 
 def shape(facts: Judged, fact: Shape) -> bool:
-    """Whether the curvature at the place is the result, and vanishes on the boundary."""
+    """Whether the result is the curvature at the equilibrium, and vanishes on the boundary."""
     q, result, energy = fact.coordinate, explicit(facts.result), explicit(fact.potential.value)
     on_border = fact.border is None or is_zero(result.subs(fact.border.left, fact.border.right))
     if energy.has(Abs):
@@ -429,7 +446,7 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge by the first nonzero derivative, by differentiation; the verb expands in a series."""
+    """Judge a shape by the first nonzero derivative, found by differentiation; the verb itself expands in a series."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]
@@ -452,7 +469,7 @@ def _shape_by(order: int, derivative: Expr) -> str:
 
 
 def bent(sign: int | None) -> Predicate:
-    """Judge by the sign of the second derivative at the place, by differentiation of the energy."""
+    """Judge by the sign of the second derivative of the energy at the given value of the coordinate."""
 
     def curvature(facts: Judged) -> Expr:
         q, at = facts.inputs["coordinate"], facts.inputs["at"]
@@ -468,7 +485,7 @@ def only_coordinate(facts: Judged, q: Any) -> bool:
 
 
 def level_there(role: str) -> Naming:
-    """Check that the slope of the energy vanishes at the named place."""
+    """Check that the slope of the energy vanishes at the named value of the coordinate."""
 
     def is_so(facts: Judged, place: Any) -> bool:
         slope = diff(value_of_role(facts, role), place.left).subs(place.left, explicit(place.right))
@@ -478,7 +495,7 @@ def level_there(role: str) -> Naming:
 
 
 def _vanishes_as_assumed(slope: Expr) -> bool:
-    """Whether the slope vanishes numerically; the side of the spring's end on which the place is may be assumed."""
+    """Whether the slope vanishes numerically under the assumptions of the page, such as the side of a spring's end."""
     letters = letters_of(slope)
     return signs_of(slope, *assumptions_about(letters)) == {0}
 
@@ -489,7 +506,7 @@ def extreme_there(facts: Judged, place: Any) -> bool:
 
 
 def flat_in_that_case(facts: Judged, case: Any) -> bool:
-    """Whether the curvature vanishes on the boundary too, and the left side shows that boundary."""
+    """Whether the curvature vanishes in the named case, and the symbol of the result shows this case."""
     q, place = facts.inputs["coordinate"], facts.inputs["place"]
     curvature = explicit(At(value_of_role(facts, "potential"), case.left, case.right)).diff(q, 2).subs(q, place)
     return case.operator == "=" and is_zero(curvature) and facts.symbol.args[1:] == (case.left, case.right)
@@ -500,8 +517,10 @@ def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
 
 
 def on_the_constraints(facts: Judged, named: Any) -> bool:
-    """Whether the named thing is the coordinates, their equilibrium values, which fulfil every constraint, or one of
-    the constraints."""
+    """Whether the named expression is the coordinates, an equation with their equilibrium values, or a constraint.
+
+    In each case the equilibrium values must satisfy every constraint.
+    """
     there = _there_on_constraints(facts)
     kept = all(is_zero(explicit(residual).xreplace(there)) for residual in facts.inputs["constraints"])
     if not isinstance(named, Relation):
@@ -512,7 +531,7 @@ def on_the_constraints(facts: Judged, named: Any) -> bool:
 
 
 def along_the_constraints(facts: Judged, way: Any) -> bool:
-    """Whether a displacement in this direction keeps every constraint to first order."""
+    """Whether a displacement in this direction satisfies every constraint to first order."""
     there = _there_on_constraints(facts)
     slopes = [
         sum(diff(explicit(residual), q) * dq for q, dq in zip(there, explicit(way), strict=True)).xreplace(there)
@@ -522,7 +541,7 @@ def along_the_constraints(facts: Judged, way: Any) -> bool:
 
 
 def falls_along(facts: Judged, _: Any) -> bool:
-    """Whether the second derivative of the energy along that direction is the stated one."""
+    """Whether the second derivative of the energy along the stated direction has the stated value."""
     s = Symbol("s_along", real=True)
     names, way = explicit(facts.inputs["moving"]), explicit(facts.inputs["direction"])
     line = {q: p + s * u for q, p, u in zip(names, facts.inputs["place"], way, strict=True)}
@@ -543,7 +562,10 @@ def at_its_place(facts: Judged, state: Any) -> bool:
 
 
 def steady_as_its_potential(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls the motion steady if momenta are conserved: the other coordinates still move then."""
+    """Whether the sentence calls the motion steady only if coordinates were eliminated with conserved momenta.
+
+    The eliminated coordinates still move, so the state is a steady motion and not an equilibrium at rest.
+    """
     of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
     reduced = [
         e for e in of.ancestors() if (e.step.rule, e.step.outcome) == ("hamilton.effective_potential", "reduced")

@@ -1,6 +1,6 @@
-"""Stability of an equilibrium with constraints between the coordinates, which forces keep.
+"""Stability of an equilibrium with constraints f_a = 0 between the coordinates, which constraint forces maintain.
 
-Only the displacements z with grad f . z = 0 are allowed. With grad U = sum of lambda_a grad f_a at equilibrium, the
+Only displacements z with grad f_a . z = 0 are allowed. At equilibrium grad U = sum of lambda_a grad f_a. So the
 potential energy along the constraints is, to second order, (1/2) z . (U'' - sum of lambda_a f_a'') z.
 """
 
@@ -31,11 +31,11 @@ from derive.steps.step import Quantity, is_zero
 
 __all__: list[str] = []
 
-MOST = 3  # directions that a sentence can list
+MOST = 3  # largest number of directions that a sentence can list
 
 
 def constraints_of(of: Quantity) -> tuple[Constraint, ...]:
-    """Return the constraints that forces keep in the system of an energy or an equation of motion."""
+    """Return the constraints that constraint forces maintain in the system of an energy or an equation of motion."""
     kept, body = of.fact(Constrained), of.subject.body
     return kept.constraints if kept is not None else body.constraints if isinstance(body, System) else ()
 
@@ -57,7 +57,7 @@ class Allowed:
 
     @cached_property
     def gradients(self) -> MatrixBase:
-        """Return the gradients, one row for each constraint."""
+        """Return the gradients of the constraints at equilibrium, one row for each constraint."""
         rows = [[self.there(derivative(c.residual, q)) for q in self.coordinates] for c in self.constraints]
         return ImmutableDenseMatrix(rows)
 
@@ -69,7 +69,7 @@ class Allowed:
 
     @cached_property
     def multipliers(self) -> list[Expr] | None:
-        """Return lambda of grad U = sum of lambda grad f; None if a force remains along the constraints."""
+        """Return the multipliers in grad U = sum of lambda grad f; None if a force remains along the constraints."""
         slopes = ImmutableDenseMatrix([self.there(derivative(self.energy, q)) for q in self.coordinates])
         if any(not is_zero((way.T * slopes)[0]) for way in self.ways):
             return None
@@ -79,7 +79,7 @@ class Allowed:
 
     @cached_property
     def matrix(self) -> MatrixBase:
-        """Return z . (U'' - sum of lambda f'') z for each pair of displacements."""
+        """Return a . (U'' - sum of lambda f'') b for each pair a, b of basis displacements."""
         assert self.multipliers is not None
         terms = (m * c.residual for m, c in zip(self.multipliers, self.constraints, strict=True))
         whole = self.energy - Add(*terms)
@@ -104,7 +104,7 @@ class Allowed:
         return ImmutableDenseMatrix(entries)
 
     def _along(self, way: MatrixBase) -> Expr:
-        """Return the second order of the energy for a displacement s z + s^2 w, whose w keeps the constraints."""
+        """Return the second order of the energy for a displacement s z + s^2 w that satisfies the constraints."""
         moved = dict(zip(self.coordinates, way, strict=True))
         bent = ImmutableDenseMatrix([coefficient_along(c.residual, self.place, moved, 2) for c in self.constraints])
         normal = self.gradients
@@ -136,7 +136,7 @@ class OnConstraints:
     """An equilibrium on constraints.
 
     potential     the potential energy, J
-    constraints   between the coordinates, with their forces
+    constraints   the constraints between the coordinates, with their forces
     place         the equilibrium values of the coordinates
     """
 
@@ -145,11 +145,12 @@ class OnConstraints:
     place: Mapping[Symbol, Expr]
 
     def stability(self, key: str) -> Quantity:
-        """Stability of an equilibrium on constraints, by the second order of U along the allowed displacements.
+        """Stability of an equilibrium on constraints, from the second order of U along the allowed displacements.
 
         Second route: the energy along curves that stay on the constraints, to second order.
         Outcomes: stable, unstable, level, depends.
-        Errors: a constraint is on the rates or changes in time; the place does not fulfil it; a force remains there.
+        Errors: a constraint depends on the rates or on the time; the values do not satisfy a constraint; a force
+        remains at these values.
         Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear
         Programming*, section 11.5.
         """
@@ -204,12 +205,12 @@ def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapp
     missing = sorted(q.name for q in needed - set(place))
     if missing:
         message = f"`stability`: the value of {missing[0]} at equilibrium is unknown"
-        raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0]}: 0`"))
+        raise Rejected(Complaint("wrong-argument", message, help=f"add this value to `at`: `{missing[0]}: 0`"))
     allowed = Allowed(energy, tuple(constraints), place)
     where = ", ".join(f"{q} = {value}" for q, value in allowed.place.items())
     for each in constraints:
         if not is_zero(allowed.there(each.residual)):
-            message = f"`stability`: {where} does not fulfil the constraint {each.left} = {each.right}"
+            message = f"`stability`: {where} does not satisfy the constraint {each.left} = {each.right}"
             raise Rejected(Complaint("no-equilibrium", message))
     if len(allowed.ways) != len(allowed.coordinates) - len(constraints):
         message = f"`stability`: at {where} the gradients of the constraints are not independent"
@@ -222,5 +223,5 @@ def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapp
         raise Rejected(Complaint("too-large", message))
     if allowed.multipliers is None:
         message = f"`stability`: at {where} a force remains along the constraints"
-        raise Rejected(Complaint("no-equilibrium", message, help="give a state in which the forces balance"))
+        raise Rejected(Complaint("no-equilibrium", message, help="give values at which the forces balance"))
     return allowed

@@ -1,4 +1,4 @@
-"""Whether a force changes its sign as often as equilibria were found: its zeros are counted numerically."""
+"""Count the zeros of a force numerically: a force must have as many zeros as equilibria were found."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
-STEPS, TRIALS = 1500, 3  # parts of a range; sets of numbers for the letters
-HALVINGS, SHRUNK = 40, 1e-6  # of an interval; ratio to which a force decreases at a zero
+STEPS, TRIALS = 1500, 3  # parts of a range; sets of numbers for the symbols
+HALVINGS, SHRUNK = 40, 1e-6  # halvings of an interval; ratio to which a force decreases at a zero
 LITTLE = 1e-9
 
 
 def is_countable(sought: Sequence[Symbol]) -> bool:
-    """Whether the changes of sign can be counted: the force of one coordinate, without equilibria at a range's end."""
+    """Whether the changes of sign can be counted: there is one coordinate, and the ends of its range are excluded."""
     known = range_of(sought[0])
     return len(sought) == 1 and (known is None or True not in known.closed)
 
@@ -30,9 +30,10 @@ def is_countable(sought: Sequence[Symbol]) -> bool:
 def signs_counted(
     potential: Quantity, q: Symbol, states: Sequence[tuple[Expr, Relation | None]], found: Expr
 ) -> Verdict:
-    """Whether the force changes its sign as often as there are equilibria, for some numbers in place of the letters.
+    """Check, for a few sets of numbers, that the force vanishes with a change of sign once for each equilibrium.
 
-    states   each value with the condition under which the equilibrium exists
+    states   the value of each equilibrium with the condition under which the equilibrium exists
+    found    the value of the equilibrium that is checked; it must be among the states
     """
     force = derivative(explicit(potential.value), q)
     letters = {s for s in force.free_symbols if s != q}
@@ -62,13 +63,15 @@ def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:
 
 
 def _is_place(value: Expr, q: Symbol) -> bool:
-    """Whether the value is real, and positive for a distance: otherwise it is not a place at these numbers."""
+    """Whether the value is real, and positive for a distance; otherwise no equilibrium exists for these numbers."""
     return bool(value.is_real and (value > 0 or not q.is_positive))
 
 
 def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
-    """Return the grid: one full turn, starting at an unlikely zero; else the whole range, finest near expected zeros.
-    The force of a twisted wire is not the same after one turn.
+    """Return the values of the coordinate at which the force is evaluated.
+
+    For a force with the period of a full turn, the grid is one turn that starts at an unlikely zero. Any other grid is
+    the whole axis, finest at the scale of the expected zeros: the force of a twisted wire, for example, has no period.
     """
     if once_round:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
@@ -84,7 +87,8 @@ def _grid_within(known: Range) -> list[float]:
 
 def _vanishes_between(curve: Any, low: float, high: float) -> bool:
     """Whether the force vanishes where it changes its sign.
-    Otherwise it diverges, as between two charges, or jumps, as that of a spring whose length is zero there.
+
+    Otherwise the force diverges, as between two charges, or jumps, as for a spring whose length is zero there.
     """
     sign, before = _sign(curve, low), max(abs(curve(low)), abs(curve(high)))
     for _ in range(HALVINGS):

@@ -1,5 +1,6 @@
-"""Equilibria: all places at which the forces vanish, with the conditions under which they exist.
-The forces are those of a potential energy, or of a Lagrangian with the rates set to zero: then V = -L is an effective
+"""Equilibria: all values of the coordinates at which the forces vanish, with the conditions under which these exist.
+
+The forces come from a potential energy, or from a Lagrangian with the rates set to zero: then V = -L is an effective
 potential energy. Two or more coordinates are solved for one after the other, or together if the forces are linear.
 """
 
@@ -66,7 +67,7 @@ from derive.witness.facts import Rest
 __all__ = ["equilibria", "potential_at_rest"]
 
 ZERO = Integer(0)
-MOST = 32  # equilibria
+MOST = 32  # largest number of equilibria
 
 
 POTENTIAL_AT_REST = Rule(
@@ -82,10 +83,10 @@ POTENTIAL_AT_REST = Rule(
 
 def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_rest") -> Quantity:
     """Effective potential energy of a system at rest, V = -L without the rates: U minus the part of T from a given
-    motion, minus F . r for each given constant force F at a place r.
+    motion, minus F . r for each given constant force F that acts at the position r.
 
     of   the Lagrangian, J; an energy without rates is returned unchanged
-    Second route: the work of the forces and of the inertia of the mass points at rest, -dV for any displacement.
+    Second route: the work of the forces and of the inertia of the mass points at rest is -dV for any displacement.
     Outcomes: generic, pushed (constant forces are given).
     Errors: the Lagrangian contains the time explicitly; a given force is not constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
@@ -124,7 +125,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
 
 
 def _given_pushes(of: Quantity) -> list[Expr]:
-    """Return F . r of the given constant forces; reject other forces, whose potential energy is unknown."""
+    """Return F . r of the given constant forces; reject forces that are not constant."""
     acted = of.fact(ActedOn)
     found = []
     for push in acted.forces if acted is not None else ():
@@ -144,16 +145,16 @@ def _force_at_rest(matter: Matter, q: Symbol, still: Mapping[Symbol, Expr]) -> E
 def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     """All equilibria, dU/dq = 0 for every coordinate, with the conditions under which they exist.
 
-    of            a potential energy or an effective one, or a Lagrangian, J
-    coordinates   the unknowns; by default all coordinates that it depends on
+    of            a potential energy, an effective potential energy or a Lagrangian, J
+    coordinates   the unknowns; by default all coordinates that the energy depends on
     Angles are between -pi and pi; distances are positive. A coordinate that no force depends on may have any value.
     Keys: condition_ and the name of the coordinate; rest_1, rest_2, ... for the equilibria.
-    Second route: the virtual work of forces and inertia at that place; for one coordinate also all zeros of the force
-    are counted numerically, for some values of the letters.
-    Outcomes: always, where (it exists under a condition), only (there is no other); of the condition: generic, zero (no
-    force along that coordinate).
-    Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; forces keep
-    a constraint on the coordinates.
+    Second route: the virtual work of forces and inertia at the equilibrium; for one coordinate also all zeros of the
+    force are counted numerically, for some values of the symbols.
+    Outcomes: always, where (it exists under a condition), only (there is no other equilibrium); of the condition:
+    generic, zero (no force acts along this coordinate).
+    Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; a constraint
+    between the coordinates is maintained by a force.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
     """
     require_kind("equilibria", "of", of, "energy")
@@ -180,10 +181,10 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
 
 
 def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
-    """Reject coordinates with a constraint between them: a constraint force balances the others at equilibrium."""
+    """Reject coordinates with a constraint between them, because a constraint force would balance the other forces."""
     tied = next((c for c in constraints_of(of) if any(c.along(q) != 0 for q in sought)), None)
     if tied is not None:
-        message = f"`equilibria`: a force keeps the constraint {tied.left} = {tied.right} between the coordinates"
+        message = f"`equilibria`: a force maintains the constraint {tied.left} = {tied.right} between the coordinates"
         help_line = "use free coordinates: write the places with fewer coordinates, without this constraint"
         raise Rejected(Complaint("constrained", message, help=help_line))
 
@@ -223,9 +224,9 @@ def _in_range(of: Quantity, state: State) -> bool:
     open_ = next((q for q, known in inside.items() if known is None), None)
     if open_ is not None:
         message = (
-            f"`{of.key}`: whether {open_} = {state.values[open_]} is in the range of {open_} depends on the letters"
+            f"`{of.key}`: whether {open_} = {state.values[open_]} is in the range of {open_} depends on the symbols"
         )
-        raise Rejected(Complaint("range", message, help=f"give {open_} a wider range, or none"))
+        raise Rejected(Complaint("range", message, help=f"give {open_} a wider range, or no range"))
     return all(inside.values())
 
 
@@ -238,7 +239,7 @@ def _on_all_sides(forces: Mapping[Symbol, Expr]) -> list[State]:
 
 
 def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list[State]:
-    """Return the equilibria that all forces allow, one force after another; none if they contradict each other."""
+    """Return the values at which all forces vanish, solving one force after another; empty if there are none."""
     left = [force for force in (tidied(f) for f in forces) if not is_zero(force)]
     if any(not force.has(*unknown) for force in left):
         return []
@@ -260,7 +261,7 @@ def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list
 
 
 def factors_of_any(force: Expr, unknown: Sequence[Symbol]) -> list[Expr]:
-    """Return the factors of a force that contain some of the coordinates."""
+    """Return the factors of a force that contain at least one of the coordinates."""
     held = [q for q in unknown if force.has(q)]
     if len(held) == 1:
         return list(factors_of(force, held[0]))
@@ -279,7 +280,7 @@ def _with_zero(
 
 
 def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> State | None:
-    """Return the unique solution of linear equations; None if they are not linear, or it may not be unique."""
+    """Return the unique solution of linear forces; None if a force is not linear, or the solution may not be unique."""
     held = [q for q in unknown if any(force.has(q) for force in forces)]
     if len(held) < 2 or len(held) != len(forces):
         return None
@@ -305,7 +306,7 @@ CONDITION = Rule(
 
 
 def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
-    """Equilibrium condition, dU/dq = 0, in factors.
+    """Equilibrium condition, dU/dq = 0, factored.
 
     Outcomes: generic, zero.
     Source: that of `equilibria`.
@@ -335,7 +336,7 @@ def _term_by_term(force: Expr, q: Symbol) -> Expr:
 
 
 def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
-    """Return the coordinate that stays constant while others move steadily with constant momenta: a steady motion."""
+    """Return the coordinate that is constant in a steady motion; empty if no momenta are constant."""
     seen = potential.fact(SeenWith)
     if seen is None or not seen.constants or len(sought) != 1:
         return {}
@@ -343,7 +344,7 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol
 
 
 def all_matter(potential: Quantity) -> Matter | None:
-    """Return the matter of a potential energy, with the kinetic energy and the magnetic fields, absent from U."""
+    """Return the matter behind a potential energy, including kinetic energy and magnetic fields, which are not in U."""
     body = potential.subject.body
     seen = potential.fact(SeenWith)
     return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
@@ -355,7 +356,7 @@ def named_by(potential: Quantity, routes: Mapping[str, Route]) -> dict[str, Rout
 
 
 def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
-    """Return dU/dq by the virtual work of the forces behind U, or as the first order of U in a small displacement."""
+    """Return dU/dq from the virtual work of the forces behind U, or from the first order of U in a displacement."""
     matter = matter_behind(potential)
     if matter is not None:
         still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
@@ -364,7 +365,10 @@ def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
 
 
 def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Symbol, list[Symbol]]:
-    """Return the names: theta_0, or theta_1, theta_2, ... for several; theta_eq if these letters are given."""
+    """Return the symbols of the equilibria: theta_0, or theta_1, theta_2, ... for several.
+
+    If a given quantity has such a symbol, the symbols are theta_eq, or theta_eq_1, theta_eq_2, ...
+    """
     taken = {s.name for s in explicit(potential.value).free_symbols} | given_letters()
 
     def letters(q: Symbol) -> list[Symbol]:
@@ -377,7 +381,7 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor without the coordinate vanishes: else every value is an equilibrium."""
+    """Return the condition that no factor without the coordinate is zero: otherwise every value is an equilibrium."""
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
     if left is None or not left.left.is_Add:
@@ -474,7 +478,7 @@ def _rest(
 
 
 def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:
-    """Return the values of an equilibrium, or those that a script writes, by the coordinates' letters."""
+    """Return the equilibrium value of each coordinate, from a result of `equilibria` or from a mapping of a script."""
     if isinstance(at, Quantity):
         return dict(at.needed(Rest).values)
     return {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in at.items()}

@@ -33,14 +33,14 @@ class RestOf(Fact):
 
 
 def matter_behind(potential: Quantity) -> Matter | None:
-    """Return the mass points and forces behind a potential energy; for an effective one, with constant momenta."""
+    """Return the mass points and forces behind a potential energy; the momenta are constant if it is effective."""
     seen, own = potential.fact(SeenWith), potential.fact(Matter)
     return seen.matter if seen is not None else own if own is not None and own.is_known else None
 
 
 @dataclass(frozen=True)
 class Shape(Fact):
-    """The potential energy behind a curvature, the place, and a letter with its value on the boundary."""
+    """The potential energy behind a curvature, the equilibrium value `place`, and a symbol's value on the boundary."""
 
     missing = "is not the curvature at an equilibrium"
     potential: Quantity
@@ -51,8 +51,12 @@ class Shape(Fact):
 
 @dataclass(frozen=True)
 class StableWhere(Fact):
-    """The condition for stability in one coordinate: the potential energy, the place, the condition, and the letter at
-    its boundary, with the verdict of the higher order that decides there."""
+    """The condition for stability in one coordinate.
+
+    place          the equilibrium value of the coordinate
+    border         a symbol and its value on the boundary of the condition
+    stable_there   the verdict of the higher order that decides on the boundary; None if no order decides
+    """
 
     missing = "does not depend on a condition, as `stability` may"
     energy: Expr
@@ -63,7 +67,7 @@ class StableWhere(Fact):
     stable_there: bool | None
 
     def lifted(self, values: Mapping[Any, Any]) -> Expr:
-        """Return the rise of the energy a little away from the place, on the side where the rise is smaller."""
+        """Return the rise of the energy close to the equilibrium, on the side where the rise is smaller."""
         q, energy = self.coordinate, self.energy.xreplace(values)
         place = self.place.xreplace(values)
         at = {s: value_at(energy, {q: place + s * NEAR}) for s in (1, -1)}

@@ -1,6 +1,7 @@
-"""Whether a motion grows about an equilibrium: the characteristic exponents of the linearised motion, numerically.
-The virtual work of m a - F of the mass points along each coordinate is linear in small displacements, rates and
-accelerations; differences give M, C and K, and exp(s t) is a solution if det(M s^2 + C s + K) = 0.
+"""Decide numerically whether a motion grows about an equilibrium, from the exponents of the linearised motion.
+
+For small motions the virtual work of m a - F of the mass points along each coordinate is linear in displacements, rates
+and accelerations. Differences give the matrices M, C and K; exp(s t) is a solution if det(M s^2 + C s + K) = 0.
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1 (extended by forces that depend on the rates).
 """
 
@@ -23,10 +24,10 @@ from derive.mechanics.rest.facts import matter_behind
 from derive.steps.step import Quantity
 
 DIGITS = 75
-SMALL = 10  # digits by which a growth, or a gyroscopic force, is above rounding
-FEW = 3  # sets of numbers, if there are no gyroscopic forces
+SMALL = 10  # a growth rate or a gyroscopic force below 10^-SMALL of the largest value counts as zero
+FEW = 3  # sets of numbers that are tried if there are no gyroscopic forces
 ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain
-SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # of letters that the energy does not contain
+SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # values of symbols that the energy does not contain
 
 Numbers = Mapping[Symbol, Expr]
 Leftover = Callable[..., Sequence[Any]]
@@ -40,9 +41,10 @@ def matter_of(potential: Quantity) -> Matter | None:
 
 
 def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether some small displacement grows for all values of the letters.
+    """Whether some small displacement grows for all values of the symbols.
+
     place    the equilibrium values of the coordinates
-    points   numbers for the letters of the energy, where it falls
+    points   numbers for the symbols of the energy, for which the energy falls in some direction
     """
     tried = 0
     for point in points:
@@ -52,7 +54,7 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
                 return True
             if not _grows(*motion):
                 return False
-            if not _is_turned(*motion):  # then it grows for any size of the other letters
+            if not _is_turned(*motion):  # then it grows for any value of the other symbols
                 tried += 1
                 break
         if tried >= FEW:
@@ -61,7 +63,7 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
 
 def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether no motion through the place has negative kinetic energy, by the eigenvalues of M."""
+    """Whether no eigenvalue of M is negative at equilibrium, so that the kinetic energy of no motion is negative."""
     for point, falling in product(points[:FEW], (False, True)):
         motion = _motion(matter, place, point, SIZES[0], falling)
         if motion is None:
@@ -74,14 +76,14 @@ def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Se
 
 
 def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether some forces linear in the rates do no work, as in a rotating frame or in a magnetic field."""
+    """Whether gyroscopic forces act, as in a rotating frame or in a magnetic field: C is not symmetric."""
     motions = (_motion(matter, place, point, SIZES[0]) for point in points[:FEW])
     return any(motion is not None and _is_turned(*motion) for motion in motions)
 
 
 @lru_cache(maxsize=16)  # the same for each equilibrium of a system
 def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
-    """Return m a - F along each coordinate, as a function of coordinates, rates, accelerations and letters."""
+    """Return m a - F along each coordinate as a function of coordinates, rates, accelerations and other symbols."""
     moving = matter.coordinates
     idle = {other.force: Integer(0) for other in matter.others if isinstance(other, Reaction)}
     left = [explicit(matter.inertia_along(q) - matter.force_along(q)).xreplace(idle) for q in moving]
@@ -93,10 +95,11 @@ def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
 def _motion(
     matter: Matter, place: Numbers, point: Numbers, size: Expr, falling: bool = False
 ) -> tuple[Any, Any, Any] | None:
-    """Return M, C and K, the derivatives of m a - F by accelerations, rates and coordinates, at rest.
-    falling   whether each letter that the energy does not contain is smaller than the one before it
-    None if the coordinates are singular, as the angles of an upright top, or if the numbers have no meaning: then
-    nothing is judged.
+    """Return M, C and K, the derivatives of m a - F with respect to accelerations, rates and coordinates, at rest.
+
+    falling   whether the values of the symbols that the energy does not contain decrease from one symbol to the next
+    The result is None, and nothing is judged, if the coordinates are singular, like the angles of an upright top, or if
+    the numbers have no meaning.
     """
     letters, left = _left_over(matter)
     count = len(matter.coordinates)
@@ -116,7 +119,7 @@ def _motion(
 
 
 def _slopes(left: Leftover, still: Sequence[Any], first: int, count: int) -> Any:
-    """Return the derivatives by the coordinates, the rates or the accelerations, by differences."""
+    """Return the derivatives with respect to the coordinates, the rates or the accelerations, from differences."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     found = mp.matrix(count, count)
     for k in range(count):
@@ -136,7 +139,7 @@ def _grows(inertia: Any, damping: Any, stiffness: Any) -> bool:
     with mp.workdps(DIGITS):
         try:
             inverse = inertia**-1
-        except ZeroDivisionError:  # a coordinate without inertia, as an angle at r = 0, has no definite motion
+        except ZeroDivisionError:  # a coordinate without inertia, like an angle at r = 0, has no definite motion
             return True
         motion = mp.zeros(2 * count)
         of_place, of_rate = inverse * stiffness, inverse * damping

@@ -1,7 +1,7 @@
-"""The mass matrix of a system at a place: whether it has an inverse there, and whether it is positive definite.
+"""The mass matrix of a system at given coordinates: whether it has an inverse, and whether it is positive definite.
 
-M_ij is the factor of the rate of q_j in the momentum p_i. If M has no inverse at a place but has one elsewhere, the
-coordinates are singular there: they do not determine how the system leaves that place.
+M_ij is the factor of the rate of q_j in the momentum p_i. If M has no inverse at some values of the coordinates but has
+one at others, the coordinates are singular there: they do not determine how the system moves away.
 """
 
 from __future__ import annotations
@@ -25,19 +25,20 @@ from derive.steps.signs import taken_positive
 from derive.steps.step import is_zero
 
 DIGITS = 40
-SMALL = 25  # digits by which a determinant is above rounding
+SMALL = 25  # a determinant below 10^-SMALL of the product of the largest row entries counts as zero
 
 
 def mass_matrix(matter: Matter, coordinates: Sequence[Symbol]) -> MatrixBase:
-    """Return dp_i/dq_dot_j at rest."""
+    """Return the mass matrix dp_i/dq_dot_j at rest."""
     still = {rate(q): Integer(0) for q in matter.coordinates}
     momenta = [explicit(matter.momentum_along(q)) for q in coordinates]
     return ImmutableDenseMatrix([[derivative(p, rate(q)).xreplace(still) for q in coordinates] for p in momenta])
 
 
 def check_regular(verb: str, matter: Matter | None, place: Mapping[Symbol, Expr]) -> None:
-    """Reject a place at which the coordinates are singular.
-    A coordinate that is not in the place may have any value and need not be regular.
+    """Reject values of the coordinates at which the coordinates are singular.
+
+    A coordinate without a value in `place` may have any value and is not checked.
     """
     held = [q for q in place if matter is not None and q in matter.coordinates]
     if matter is None or not held:
@@ -51,12 +52,12 @@ def check_regular(verb: str, matter: Matter | None, place: Mapping[Symbol, Expr]
             return
     where = ", ".join(f"{q} = {value}" for q, value in place.items())
     message = f"`{verb}`: the coordinates are singular at {where}: the mass matrix has no inverse there"
-    help_line = "use coordinates that are regular at this place, such as the Cartesian ones"
+    help_line = "use coordinates that are regular there, such as Cartesian coordinates"
     raise Rejected(Complaint("singular-coordinates", message, help=help_line))
 
 
 def _may_be_singular(matrix: MatrixBase) -> bool:
-    """Whether the determinant vanishes at some numbers, in many digits."""
+    """Whether the determinant vanishes to many digits for one set of numbers."""
     letters = sorted(matrix.free_symbols, key=str)
     numbers = {s: rational_in_range(s, Rational(11 + 7 * i, 13 + 3 * i)) for i, s in enumerate(letters)}
     with mp.workdps(DIGITS):
@@ -68,9 +69,10 @@ def _may_be_singular(matrix: MatrixBase) -> bool:
 
 
 def has_positive_inertia(matter: Matter, place: Mapping[Symbol, Expr]) -> bool:
-    """Whether the kinetic energy is positive for every motion through the place.
-    It always is for a `System`, whose masses are positive. For a given Lagrangian the letters may leave the sign open:
-    then it is taken to be positive, and the page states the condition.
+    """Whether the kinetic energy is positive for every motion through the given values of the coordinates.
+
+    The kinetic energy of a `System` is always positive, because its masses are positive. For a given Lagrangian the
+    sign may depend on the symbols: then the sign is taken to be positive, and the page states the condition.
     """
     if not isinstance(matter, Varied):
         return True

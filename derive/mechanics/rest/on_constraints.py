@@ -1,5 +1,6 @@
-"""The change of the potential energy on the constraints, numerically, without analytical derivatives.
-A point near the equilibrium is moved back to the constraints by Newton's method, and the energies are compared.
+"""The change of the potential energy along the constraints, computed numerically without analytical derivatives.
+
+Newton's method moves a point near the equilibrium back to the constraints; then the energies are compared.
 """
 
 from __future__ import annotations
@@ -14,13 +15,16 @@ from derive.algebra.ranges import has_meaning
 from derive.steps.rule import Judged
 
 DIGITS = 60
-STEP = 14  # digits of a small displacement
-TURNS = 12  # of Newton's method; each doubles the digits
+STEP = 14  # a small displacement is 10^-STEP
+TURNS = 12  # steps of Newton's method; each step doubles the number of correct digits
 
 
 def signs_on_constraints(facts: Judged, points: Sequence[Mapping[Any, Expr]]) -> set[int]:
-    """Return the signs at all the given numbers: 1 if the energy rises along all allowed displacements, -1 if it falls
-    along one, 0 if it is constant along some to second order."""
+    """Return the signs of the energy for all the given numbers.
+
+    The sign is 1 if the energy rises along all allowed displacements, -1 if it falls along at least one, and 0 if it is
+    constant to second order along some and falls along none.
+    """
     moving = list(facts.inputs["coordinates"])
     functions = [facts.inputs["potential_here"], *facts.inputs["constraints"]]
     letters = sorted(set().union(*(each.free_symbols for each in functions)) - set(moving), key=str)
@@ -43,7 +47,7 @@ def _sign(energy: Callable[..., Any], conditions: Sequence[Callable[..., Any]], 
     here, small = energy(*place), mp.mpf(10) ** -STEP
 
     def gained(*shares: Any) -> Any:
-        """Return the sum of the energy changes for a displacement to both sides, divided by the square of its size."""
+        """Return the sum of the energy changes for a displacement and its opposite, over the square of its size."""
         total = mp.mpf(0)
         for side in (1, -1):
             moved = [
@@ -66,7 +70,7 @@ def _sign(energy: Callable[..., Any], conditions: Sequence[Callable[..., Any]], 
 
 
 def _slopes(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> Any:
-    """Return the gradients of the constraints, by differences."""
+    """Return the gradients of the constraints, from differences."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     found = mp.matrix(len(conditions), len(place))
     for i, condition in enumerate(conditions):
@@ -85,7 +89,7 @@ def _allowed(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> 
 
 
 def _returned(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> list[Any]:
-    """Move a place close to the constraints onto them, along their gradients."""
+    """Move a point close to the constraints onto the constraints, along their gradients."""
     at = list(place)
     for _ in range(TURNS):
         left = mp.matrix([condition(*at) for condition in conditions])

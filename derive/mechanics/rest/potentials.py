@@ -1,4 +1,4 @@
-"""The shape of a potential energy: its slope and curvature, and the kind of equilibrium where it is stationary."""
+"""The shape of a potential energy: its slope, its curvature, and its kind of extremum where its slope vanishes."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ SLOPE = Rule(
 
 
 def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbol | None = None) -> Quantity:
-    """Derivative of a potential energy by its coordinate, U' = dU/dq or U'' = d^2U/dq^2.
+    """Derivative of a potential energy with respect to its coordinate, U' = dU/dq or U'' = d^2U/dq^2.
 
     potential   a function of one coordinate, J
-    order       1, 2, ...
-    by          the coordinate, if it depends on several
-    Check: U expanded about an arbitrary point q + u; n! times the coefficient of u^n.
+    order       the order n of the derivative: 1, 2, ...
+    by          the coordinate, if the potential energy depends on several
+    Check: U(q + u) is expanded about an arbitrary point q; the derivative is n! times the coefficient of u^n.
     Outcomes: slope, curvature, higher.
     Errors: the potential depends on several coordinates, or on none.
     Source: Taylor, *Classical Mechanics*, section 4.6.
@@ -71,7 +71,7 @@ def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
 
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
-    """Return the coefficient of u^n in the expansion about q = place."""
+    """Return the coefficient of u^n in the expansion about q = `place`, where n is the order."""
     return coefficient_along(explicit(value), {q: place}, {q: Integer(1)}, order)
 
 
@@ -105,14 +105,14 @@ EXTREME_VALUE = Rule(
 def extreme_value(
     potential: Quantity, by: Coordinate | Symbol | None = None, at: Expr | None = None, key: str = "extreme_value"
 ) -> Quantity:
-    """Value of a potential energy where its slope vanishes, U(q_0), which is a minimum or a maximum by U''(q_0).
+    """Value U(q_0) of a potential energy where its slope vanishes; U''(q_0) decides between minimum and maximum.
 
     potential   a function of one coordinate, J
-    by          the coordinate, if it depends on several
+    by          the coordinate, if the potential energy depends on several
     at          q_0; 0 by default
-    Check: the term of order zero of its expansion about that place.
-    Outcomes: minimum, maximum, level (the second derivative vanishes too), conditional (its sign is unknown).
-    Errors: U' does not vanish there.
+    Check: the term of order zero in the expansion of U about q_0.
+    Outcomes: minimum, maximum, level (U'' vanishes too), conditional (the sign of U'' is unknown).
+    Errors: U' does not vanish at q_0.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
     q = by.symbol if isinstance(by, Coordinate) else by or only_coordinate(potential)
@@ -164,14 +164,14 @@ def leading_order(
 ) -> Quantity:
     """Potential energy near an equilibrium to the lowest order that decides, U = U(q_0) + c_n (q - q_0)^n.
 
-    of          a potential energy of one coordinate, J; or its curvature at equilibrium, as `stability` yields it, with
-               place and boundary
-    where      a letter and the value for which the curvature of this potential vanishes, as a relation
+    of         a potential energy of one coordinate, J; or the curvature at an equilibrium, as `stability` yields it,
+               which determines q_0 and the boundary
+    where      a relation of a symbol and the value for which the curvature of this potential energy vanishes
     at         q_0; 0 by default
-    Check: the derivatives of U up to the n-th, at that point: only the n-th does not vanish.
-    Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a letter
+    Check: of the derivatives of U at q_0 up to the n-th, only the n-th does not vanish.
+    Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a symbol
     at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
-    Errors: U' does not vanish there; the boundary belongs to another potential.
+    Errors: U' does not vanish at q_0; the boundary belongs to another potential energy.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """
     shape = of.fact(Shape)
@@ -192,7 +192,7 @@ def leading_order(
     truncated = Terms(constant, leading * Pow(q - place, order))
 
     def by_derivatives(found: Expr) -> tuple[Expr, Expr]:
-        """Add the derivatives, each with its own factor, so that no two can cancel."""
+        """Add the derivatives, each with its own factor, so that they cannot cancel each other."""
         orders = range(1, (order or HIGHEST) + 1)
         marks = {n: stand_in(f"u_{n}") for n in orders}
         expected = leading * factorial(order) * marks[order] if order else Integer(0)
@@ -230,12 +230,12 @@ def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, wher
     """Check that the curvature of this potential vanishes on the boundary."""
     if where is not None and not is_zero(derivative(value, q, 2).xreplace({q: place})):
         message = f"the curvature of `{potential.key}` does not vanish at {where}, so this is not its boundary"
-        help_line = "leave `where` out, or give the letter at its bound"
+        help_line = "omit `where`, or give the symbol with its value on the boundary"
         raise Rejected(Complaint("wrong-border", message, help=help_line))
 
 
 def _first_that_decides(value: Expr, q: Symbol, place: Expr) -> tuple[int, Expr]:
-    """Return the lowest order whose coefficient is not zero, and that coefficient; (0, 0) if there is none."""
+    """Return the lowest order from 2 to 8 whose coefficient is not zero, with this coefficient; (0, 0) if none is."""
     for n in range(2, HIGHEST + 1):
         coefficient = tidied(_coefficient(value, q, place, n))
         if coefficient != 0:

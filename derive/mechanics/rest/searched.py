@@ -1,7 +1,9 @@
-"""Whether an equilibrium is missing: a numerical search by Newton's method from many starting points.
-A starting point is random, or an equilibrium that was found, reflected or displaced. A new equilibrium counts if it
-is confirmed in many digits by quadratic convergence; a place where the forces only become small, or are stationary,
-is not confirmed.
+"""Search for missing equilibria numerically, with Newton's method from many starting points.
+
+A starting point is random, or a known equilibrium with one coordinate reflected or displaced. A new equilibrium counts
+if quadratic convergence confirms it to many digits; a point where the forces only become small, or are stationary, is
+not confirmed.
+
 Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 9.6.
 """
 
@@ -20,7 +22,7 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 
-TRIALS, DRAWN, STARTS, TURNS = 2, 24, 90, 25  # sets of numbers; random starts, all starts; steps of one search
+TRIALS, DRAWN, STARTS, TURNS = 2, 24, 90, 25  # sets of numbers; random starts; all starts; steps of one search
 CLOSE, DIGITS = 1e-6, 50
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, TypeError)
 
@@ -33,8 +35,8 @@ def none_is_missing(forces: Forces, sought: tuple[Symbol, ...], angles: tuple[Sy
     """Whether all equilibria that the search finds are among the states.
 
     forces   dU/dq for each coordinate
-    angles   coordinates that are the same after a full turn
-    states   coordinate and value; a coordinate that is not listed may have any value
+    angles   coordinates whose period is a full turn
+    states   the coordinates of each equilibrium with their values; a coordinate that is not listed may have any value
     """
     letters = sorted({s for force in forces for s in force.free_symbols}, key=str)
     return _searched(forces, sought, angles, states, tuple((s, range_of(s)) for s in letters))
@@ -78,7 +80,7 @@ def _with(function: Motion, numbers: Sequence[Any]) -> Motion:
 
 
 def _place(state: Any, sought: Sequence[Symbol], point: Any) -> list[float | None] | None:
-    """Return an equilibrium numerically; None if it does not exist for these numbers."""
+    """Return the numerical values of an equilibrium; None if the equilibrium does not exist for these numbers."""
     values = dict(state)
     found: list[float | None] = []
     for q in sought:
@@ -92,7 +94,7 @@ def _place(state: Any, sought: Sequence[Symbol], point: Any) -> list[float | Non
 def _starts(
     sought: Sequence[Symbol], turning: Sequence[bool], there: Sequence[list[float | None]]
 ) -> Iterator[list[float]]:
-    """Yield random starts from the ranges; and each known equilibrium with one coordinate reflected or displaced."""
+    """Yield random starts in the ranges, then each known equilibrium with one coordinate reflected or displaced."""
     source = Random(len(sought))
     size = max([abs(x) for place in there for x, turns in zip(place, turning, strict=True) if x and not turns] or [1.0])
 
@@ -117,7 +119,7 @@ def _starts(
 
 
 def _followed(motion: Motion, start: Sequence[float]) -> list[float] | None:
-    """Follow Newton's steps, limited in size."""
+    """Follow Newton's method with steps of limited size; None if it does not converge."""
     at = list(start)
     for _ in range(TURNS):
         step = _step(motion, at)
@@ -168,7 +170,7 @@ def _is_at(at: Sequence[float], place: Sequence[float | None], turning: Sequence
 
 
 def _is_rest(motion: Motion, start: Sequence[float]) -> bool:
-    """Whether four more steps converge to all digits."""
+    """Whether four more steps of Newton's method converge to many digits."""
     with mp.workdps(DIGITS):
         at, far = [mp.mpf(x) for x in start], [mp.inf]
         for _ in range(4):

@@ -1,4 +1,4 @@
-"""Both sides of a place on a line: a distance |u| is u where u > 0 and -u where u < 0, each solved separately."""
+"""Distances along a line: |u| is u if u > 0 and -u if u < 0; both cases are solved separately."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from derive.solving.zeros import Unsolved
 from derive.steps.record import assumed, assumed_in_words
 from derive.steps.signs import sign_for_all, sign_where
 
-MOST = 4  # the most distances for which both sides are tried
+MOST = 4  # largest number of distances for which both sides are tried
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class State:
 
 
 class SidesOpen(Unsolved):
-    """An equilibrium that exists only under two conditions on the letters."""
+    """Reports an equilibrium that exists only under two conditions on the symbols."""
 
     def __init__(self, state: State, other: Relation):
         super().__init__(other.residual)
@@ -44,7 +44,7 @@ def sides_of(forces: Mapping[Symbol, Expr]) -> Iterator[Mapping[Expr, Expr]]:
 
 
 def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
-    """Return the state with the condition that all these lengths are positive there; None if one never is."""
+    """Return the state with the condition that all these lengths are positive; None if one length is never positive."""
     for each in lengths:
         there = tidied(each.xreplace(dict(state.values)))
         sign = sign_for_all(there)
@@ -59,7 +59,7 @@ def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
 
 
 def keeps_sides(state: State) -> bool:
-    """Whether no distance that the page assumes to be positive is negative or zero there."""
+    """Whether no distance that the page assumes to be positive is negative or zero at this equilibrium."""
     lengths = [each.residual for each in _sides_taken(tuple(state.values))]
     return all(sign_for_all(tidied(u.xreplace(dict(state.values)))) not in (-1, 0) for u in lengths)
 
@@ -77,7 +77,7 @@ def _sides_taken(coordinates: Sequence[Symbol]) -> list[Relation]:
 
 
 def on_known_sides(value: Expr, exists: Relation | None) -> Expr:
-    """Replace |u| by u or -u wherever the condition of existence decides the sign."""
+    """Replace |u| by u or -u wherever the condition of existence determines the sign of u."""
     if exists is None:
         return value
     sides = {size: sign * size.args[0] for size in value.atoms(Abs) if (sign := sign_where(size.args[0], exists))}

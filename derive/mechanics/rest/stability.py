@@ -1,6 +1,7 @@
-"""Stability of an equilibrium: whether the potential energy has a minimum there, and for which values of the letters.
-For one coordinate the curvature decides, on the boundary the next order that does not vanish; for several coordinates
-the leading minors of the second derivatives (Sylvester).
+"""Stability of an equilibrium: whether the potential energy has a minimum there, and for which values of the symbols.
+
+For one coordinate the curvature decides; on the boundary of stability the next nonzero order decides. For several
+coordinates the leading minors of the second derivatives decide (Sylvester's criterion).
 """
 
 from __future__ import annotations
@@ -40,21 +41,21 @@ from derive.witness.facts import Rest
 __all__ = ["stability"]
 
 HIGHEST = 8  # the highest order that is tried on a boundary
-FEW = 5  # coordinates for which every direction of zeros and ones is tried
-SHORT = 80  # operations of a curvature that is shown before the place is substituted
+FEW = 5  # number of coordinates up to which every direction with entries 0, 1 and -1 is tried
+SHORT = 80  # number of operations up to which a curvature is shown before the equilibrium is substituted
 ZERO = Integer(0)
 BY_FIRST_ORDER = Spelled(
     "to first order the equations of motion decide, `linear_stability(linearised(motion))`", "ask for `linearised`"
 )
 STEADY = Spelled(
-    "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`",
+    "`steady_motion` finds a steady motion there, and `frequency_squared_about` determines its stability",
     "such a motion is steady: under `results`, `steady` gives its condition and `frequency` its stability",
 )
 
 
 @dataclass(frozen=True)
 class Place:
-    """The place whose stability is judged: a potential energy, the coordinates that it depends on, their values."""
+    """An equilibrium whose stability is judged: a potential energy, and its coordinates with their values."""
 
     potential: Quantity
     coordinates: tuple[Symbol, ...]
@@ -73,18 +74,21 @@ class Place:
 def stability(
     of: Quantity, at: Quantity | Mapping[Any, Expr], letter: Expr | None = None, key: str | None = None
 ) -> Quantity:
-    """Stability of an equilibrium, by U''(q_0) > 0, or by the leading minors of the second derivatives of U.
-    of       the potential energy, an effective one, or the Lagrangian, J
+    """Stability of an equilibrium, from U''(q_0) > 0, or from the leading minors of the second derivatives of U.
+
+    of       the potential energy, an effective potential energy, or the Lagrangian, J
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
-    letter   the letter that a condition is solved for; by default one that occurs only as a square, if any
-    Second route: the restoring force for a small displacement, by virtual work if mass points and forces are known; for
-    several coordinates the energy of a small displacement in an arbitrary direction.
-    Outcomes: stable, unstable, depends (on the sign of the stated condition), depends_stable_on_border,
+    letter   the symbol that a condition is solved for; by default the only symbol that occurs as a square, if there is
+    exactly one
+    Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known;
+    for several coordinates the energy of a small displacement in an arbitrary direction.
+    Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,
     depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides),
-    for several coordinates also unstable_along (the energy falls in a stated direction) and level (to second order
-    it does not change in one direction, and falls in none).
-    Errors: a force remains there; coordinates are missing; for several coordinates the energy has no minimum, but
-    forces linear in the rates, as in a rotating frame or a magnetic field, may still stabilise the equilibrium.
+    for several coordinates also unstable_along (the energy falls in a stated direction) and level (to second order the
+    energy is constant in some direction, and falls in none).
+    Errors: a force remains at the equilibrium; coordinates are missing; for several coordinates the energy has no
+    minimum, but forces linear in the rates, as in a rotating frame or a magnetic field, may still stabilise the
+    equilibrium.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
     """
     require_kind("stability", "of", of, "energy")
@@ -102,7 +106,7 @@ def stability(
 
 
 def _state(place: Place) -> Relation:
-    """Return the place as the sentence states it: by the symbol of the equilibrium, if it is one result."""
+    """Return the equation that states the equilibrium; for one coordinate it contains the equilibrium's own symbol."""
     if len(place.coordinates) == 1:
         (q,) = place.coordinates
         named = place.values[q] if place.rest is None else place.rest.symbol
@@ -120,7 +124,7 @@ def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
     missing = [q for q in held if q not in known and not all(is_zero(slope) for slope in slopes.values())]
     if missing:
         message = f"`stability`: the value of {missing[0].name} at equilibrium is unknown"
-        raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0].name}: 0`"))
+        raise Rejected(Complaint("wrong-argument", message, help=f"add this value to `at`: `{missing[0].name}: 0`"))
     values = {q: value for q, value in known.items() if q in held}
     place = Place(potential, tuple(values), values, rest.needed(Rest).exists if rest else None, rest)
     check_regular("stability", all_matter(potential), values)
@@ -143,7 +147,9 @@ def _check_level(place: Place) -> None:
         force = tidied(on_known_sides(derivative(place.energy, q).xreplace(dict(place.values)), place.exists))
         if not is_zero(force):
             where = ", ".join(f"{s} = {v}" for s, v in place.values.items())
-            message = f"`{place.potential.key}` is not stationary at {where}: its derivative by {q} is {force}"
+            message = (
+                f"`{place.potential.key}` is not stationary at {where}: its derivative with respect to {q} is {force}"
+            )
             steady = place.potential.fact(SeenWith)
             help_line = STEADY if steady is not None and steady.constants else "`equilibria` finds the equilibria"
             raise Rejected(Complaint("no-equilibrium", message, help=help_line))
@@ -240,7 +246,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
 def _decided_where(
     place: Place, q: Symbol, condition: Relation | None, border: Relation | None, outcome: str
 ) -> list[Fact]:
-    """Return the fact from which `stable_where` derives a condition."""
+    """Return the fact from which `stable_where` derives a condition; empty if the stability has no condition."""
     if condition is None:
         return []
     there = {"depends_stable_on_border": True, "depends_unstable_on_border": False}.get(outcome)
@@ -248,7 +254,7 @@ def _decided_where(
 
 
 def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relation | None, Relation | None]:
-    """Return the outcome, the condition and the boundary: a letter with its value there."""
+    """Return the outcome, the condition for stability, and the value of a symbol on the boundary of this condition."""
     if is_zero(value):
         return _by_higher_order(place, place.energy), None, None
     sign = sign_where(value, place.exists)
@@ -267,7 +273,7 @@ def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relati
 
 
 def _order(energy: Expr, place: Place) -> int:
-    """Return the lowest order from the second on that does not vanish there; 0 if there is none."""
+    """Return the lowest order, from the second on, that does not vanish at the equilibrium; 0 if there is none."""
     (q,) = place.coordinates
     terms = series_along(energy, {q: place.values[q]}, {q: Integer(1)}, HIGHEST)
     return next((n for n in range(2, HIGHEST + 1) if not is_zero(terms[n])), 0)
@@ -291,7 +297,7 @@ def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
 
 
 def _small_force(place: Place, q: Symbol) -> Expr:
-    """Return the restoring force per unit of displacement."""
+    """Return the restoring force for a small displacement, per unit of displacement."""
     if matter_behind(place.potential) is not None:
         force = slope_otherwise(place.potential, q)
         return coefficient_along(force, place.values, {s: Integer(s == q) for s in place.values}, 1)
@@ -318,7 +324,8 @@ STABILITY_OF_SEVERAL = Rule(
 
 
 def _of_several(place: Place, key: str) -> Quantity:
-    """Leading minors of the second derivatives, all positive at a minimum.
+    """Leading minors of the second derivatives, which are all positive at a minimum.
+
     Outcomes: stable, unstable, unstable_along (a stated direction), level, depends.
     Source: that of `stability`.
     """
@@ -342,7 +349,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.operator, -place.exists.left))
 
     def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Compare with the minors of the second order of the energy for a displacement in an arbitrary direction."""
+        """Compare with the minors from the energy, to second order, of a displacement in an arbitrary direction."""
         marks = {q: stand_in(f"u_{q.name}") for q in moving}
         energy = coefficient_along(place.energy, place.values, marks, 2).expand()
         second = ImmutableDenseMatrix([[derivative(energy, marks[p], marks[q]) for q in moving] for p in moving])
@@ -387,9 +394,10 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
 
 
 def _way_down(matrix: MatrixBase) -> MatrixBase | None:
-    """Return a direction in which the energy falls for all values of the letters, if the minors do not decide.
-    A spring often leaves a direction free, in which it is not stretched: a null vector of the part of the matrix that
-    is proportional to one letter.
+    """Return a direction in which the energy falls for all values of the symbols, if the minors do not decide.
+
+    The direction is a null vector of the part of the matrix that is proportional to one symbol. For example, a spring
+    is not stretched by a displacement in such a direction.
     """
     for letter in sorted(matrix.free_symbols, key=str):
         share = matrix.applyfunc(lambda entry, s=letter: tidied(derivative(entry, s)))
@@ -403,8 +411,9 @@ def _way_down(matrix: MatrixBase) -> MatrixBase | None:
 
 
 def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | None:
-    """Return a direction of zeros and ones in which the energy falls, if no leading minor is negative.
-    kinds   the kinds of the coordinates; only coordinates of the same kind are moved together
+    """Return a direction with entries 0, 1 and -1 in which the energy falls, if no leading minor is negative.
+
+    kinds   the kinds of the coordinates; only coordinates of the same kind are displaced together
     """
     size = matrix.shape[0]
     ways = product((0, 1, -1), repeat=size) if size <= FEW else ()
@@ -417,7 +426,7 @@ def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | No
 
 
 def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tuple[Any, Any]]:
-    """Return the second derivative of the energy along the direction, by the matrix and by the energy."""
+    """Return the second derivative of the energy along the direction, from the matrix and from the energy."""
     along = coefficient_along(place.energy, place.values, dict(zip(place.coordinates, way, strict=True)), 2)
     return {
         "falling": (tidied((way.T * matrix * way)[0]), 2 * along),
@@ -425,7 +434,11 @@ def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tup
 
 
 def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
-    """Reject an equilibrium that gyroscopic forces may stabilise without a minimum of U, as for a spinning top."""
+    """Reject an equilibrium whose stability the potential energy alone does not decide.
+
+    The kinetic energy may be negative, or gyroscopic forces may stabilise an equilibrium at which U has no minimum, as
+    for a spinning top.
+    """
     matter = all_matter(place.potential)
     if matter is not None and not has_positive_inertia(matter, place.values):
         message = f"`stability`: a minimum of `{place.potential.key}` is stable only if the kinetic energy is"
@@ -438,6 +451,6 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         turned = derivative(matter.momentum_along(p), q) - derivative(matter.momentum_along(q), p)
         turned += derivative(matter.other_force_along(p), rate(q)) - derivative(matter.other_force_along(q), rate(p))
         if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
-            message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
-            message += f" depend on the rates of {q.name} and {p.name} may still stabilise the equilibrium"
+            message = f"`stability`: `{place.potential.key}` has no minimum there for some values of the symbols,"
+            message += f" but forces linear in the rates of {q.name} and {p.name} may still stabilise the equilibrium"
             raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))

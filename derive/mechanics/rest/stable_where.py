@@ -1,4 +1,4 @@
-"""For which values of a letter an equilibrium is stable, with or without the boundary, which a higher order decides."""
+"""Find the values of a symbol for which an equilibrium is stable; on the boundary a higher order decides."""
 
 from __future__ import annotations
 
@@ -40,11 +40,12 @@ STABLE_WHERE = Rule(
 
 def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
     """Condition under which an equilibrium is stable, S >= S_0; S > S_0 if it is not stable at the boundary.
-    of   the stability, as `stability` yields it if it depends on the letters
-    Check: the sign of the second derivative a little above and below the boundary; numerically, whether the energy near
-    the place is greater than there: above the boundary, at it, and not below it.
-    Outcomes: with_border, without_border, open (the boundary is not decided by one letter).
-    Errors: the stability depends on no condition, or on a condition for several coordinates.
+
+    of   the stability, as `stability` yields it if it depends on the symbols
+    Check: the sign of the second derivative a little above and below the boundary; numerically, the energy has a
+    minimum at the equilibrium exactly where the condition holds, a little above and below the boundary.
+    Outcomes: with_border, without_border, open (no order decides at the boundary).
+    Errors: the stability does not depend on a condition, or depends on a condition for several coordinates.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
     known = of.fact(StableWhere)
@@ -57,7 +58,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
     border = known.border if known.border is not None and result.left == known.border.left else None
 
     def beside(found: Relation) -> tuple[Any, Any]:
-        """Compare the relation above and below its boundary with the sign of the second derivative there."""
+        """Compare the relation, above and below its boundary, with the sign of the second derivative."""
         u = Dummy("u", positive=True)
         says, is_so = [Integer(1)], [Integer(1)]
         for side in (1, -1) if border is not None else ():
@@ -90,7 +91,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
 
 
 def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -> Verdict:
-    """Check numerically that the energy is least at the place exactly where the relation holds."""
+    """Check numerically that the energy has a minimum at the equilibrium exactly where the relation holds."""
     letters = (letters_of(known.energy) | letters_of(found.residual)) - {known.coordinate}
     seen = 0
     for point in islice(points(letters, seed_of(known.energy)), 60):
@@ -103,7 +104,7 @@ def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -
                 is_true = holds(value_at(found.residual, case), found.operator)
                 if is_true != bool(known.lifted(case) > 0):
                     where = tuple((str(s), str(x)) for s, x in case.items())
-                    return Verdict(Grade.REFUTED, "the energy near the place contradicts it", where)
+                    return Verdict(Grade.REFUTED, "the energy near the equilibrium contradicts the condition", where)
         except (Undefined, NoNumber, TypeError):
             continue
         seen += 1

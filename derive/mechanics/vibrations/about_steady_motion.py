@@ -43,11 +43,12 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class About:
-    """A potential energy of one coordinate, its matter, a place, and further conditions there.
-    rates     of the cyclic coordinates there
-    momenta   letters of their momenta with the values there, if these are not given
-    letter    a letter that the condition of the steady motion determines, and its value
-    instead   a rate expressed by the letter of a momentum, for a shorter result
+    """A potential energy of one coordinate `q`, its matter, and the value `place` of `q` at rest or in steady motion.
+
+    rates     the rates of the cyclic coordinates in the steady motion
+    momenta   the symbols of the cyclic momenta and their values in the steady motion
+    letter    a symbol that the condition of the steady motion determines, and the value of this symbol
+    instead   a rate expressed by the symbol of a momentum, for a shorter result
     """
 
     potential: Quantity
@@ -60,16 +61,16 @@ class About:
     instead: Mapping[Symbol, Expr] = field(default_factory=dict)
 
     def there(self, value: Expr) -> Expr:
-        """Return the value at that place, where only the cyclic coordinates move."""
+        """Return the value at q = `place`, where only the cyclic coordinates move."""
         still = {rate(s, n): ZERO for s in self.matter.coordinates for n in (1, 2)}
         return bound(explicit(value), still).subs(self.q, self.place)
 
     def known(self, value: Expr) -> Expr:
-        """Substitute the momenta for these rates, and eliminate one letter by the condition."""
+        """Substitute the values of the momenta, and eliminate one symbol with the condition."""
         return bound(bound(bound(value, self.momenta), self.letter), self.instead)
 
     def by_momenta(self) -> Iterator[About]:
-        """Yield versions with a rate given by a momentum: s = w - Omega cos(alpha) from w = s + Omega cos(alpha)."""
+        """Yield versions in which a momentum gives a rate: s = w - Omega cos(alpha) from w = s + Omega cos(alpha)."""
         for momentum, value in self.momenta.items():
             for turning in self.rates.values():
                 found = solved_for_letter(momentum - value, turning) if isinstance(turning, Symbol) else None
@@ -102,15 +103,15 @@ def frequency_squared_about(
     """Square of the frequency of small oscillations, omega_0^2 = U''(q_0)/mu(q_0), of one coordinate with the kinetic
     energy (1/2) mu(q) q_dot^2: about an equilibrium, or about a steady motion with the effective potential energy U.
 
-    of        a potential energy, an effective one, or a Lagrangian, J
-    at        its equilibrium, as `equilibria` yields it; or, for an effective potential energy, the condition of a
-    steady motion of the same Lagrangian, as `steady_motion` yields it
-    without   the letter that the condition of the steady motion eliminates; by default the one with the shortest result
-    The momenta of the cyclic coordinates keep their values in the steady motion.
-    Second route: d'Alembert's principle for all coordinates, also the cyclic ones, to first order in the displacements:
-    its determinant vanishes for oscillations of this frequency.
-    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
-    Errors: several coordinates remain; the condition belongs to another Lagrangian, or does not eliminate the letter.
+    of        a potential energy, an effective potential energy, or a Lagrangian, J
+    at        an equilibrium of `of`, as `equilibria` yields it; or, for an effective potential energy, the condition of
+    a steady motion of the same Lagrangian, as `steady_motion` yields it
+    without   the symbol that the condition of the steady motion eliminates; by default the result is the shortest
+    During the oscillation, the momenta of the cyclic coordinates have the values of the steady motion.
+    Second route: d'Alembert's principle for all coordinates, including the cyclic ones, to first order in the
+    displacements: the determinant of its equations vanishes for oscillations of this frequency.
+    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).
+    Errors: several coordinates remain; the condition belongs to another Lagrangian, or does not eliminate the symbol.
     Source: Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
     """
     about = _about_steady(of, at, without) if at.fact(Steady) is not None else _about_rest(of, at)
@@ -207,12 +208,12 @@ def _only(potential: Quantity) -> Symbol:
     if len(left) != 1:
         names = ", ".join(q.name for q in left)
         message = f"`frequency_squared_about` needs one remaining coordinate, but `{potential.key}` has {names}"
-        raise Rejected(Complaint("wrong-argument", message, help="`normal_modes` has the frequencies of several"))
+        raise Rejected(Complaint("wrong-argument", message, help="`normal_modes` is for several coordinates"))
     return left[0]
 
 
 def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity) -> dict[Symbol, Expr]:
-    """Return the letter whose elimination gives the shortest result; none if the condition always holds."""
+    """Return the symbol whose elimination gives the shortest result, and its value; empty if the condition is 0 = 0."""
     if is_zero(condition):
         return {}
     letters = [without] if without is not None else sorted(condition.free_symbols, key=str)
@@ -220,11 +221,11 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
         {s: found} for s in letters if isinstance(s, Symbol) and (found := solved_for_letter(condition, s)) is not None
     ]
     if not ways:
-        message = f"`frequency_squared_about`: `{at.key}` cannot be solved for {without or 'any letter'}"
+        message = f"`frequency_squared_about`: `{at.key}` cannot be solved for {without or 'any symbol'}"
         others = [
             s.name for s in sorted(condition.free_symbols, key=str) if solved_for_letter(condition, s) is not None
         ]
-        help_line = f"it can be for {' or '.join(others)}" if others else None
+        help_line = f"it can be solved for {' or '.join(others)}" if others else None
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if len(ways) == 1:
         return ways[0]
@@ -233,19 +234,21 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
 
 
 def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity) -> dict[Symbol, Expr]:
-    """Return the letter of a given momentum: w = s + Omega cos(alpha) from C w = C (s + Omega cos(alpha))."""
+    """Return a symbol of a given momentum, with its value: w = s + Omega cos(a) from C w = C (s + Omega cos(a))."""
     known = explicit(lagrangian.value).free_symbols | value.free_symbols
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := solved_for_letter(given - value, letter)) is not None:
             return {letter: presented(found)}
     message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, but in the steady motion it is {value}"
-    help_line = "give the momentum by a separate letter, or leave it out"
+    help_line = "give the momentum by a separate symbol, or omit it"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def _determinant_about(about: About, found: Expr) -> Expr:
     """Return the determinant of d'Alembert's principle to first order, with displacements e^(s t), s^2 = -omega^2.
-    The cyclic coordinates have the factor s in each entry, which is taken out of their rows and columns.
+
+    The unknown of a cyclic coordinate is its rate, so its column has one factor s less. Common powers of s are divided
+    out.
     """
     matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
     moving = [about.q, *about.rates]
@@ -257,7 +260,7 @@ def _determinant_about(about: About, found: Expr) -> Expr:
         other = moving[int(j)]
         slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
         at_place = [_without_angles(each.xreplace({**still, about.q: about.place}), about.rates) for each in slopes]
-        if j:  # a cyclic coordinate occurs only by its rates: its rate is the unknown
+        if j:  # of a cyclic coordinate only rates occur: its rate is the unknown
             return at_place[1] + s * at_place[2]
         return at_place[0] + s * at_place[1] + s**2 * at_place[2]
 
@@ -269,7 +272,7 @@ def _determinant_about(about: About, found: Expr) -> Expr:
 
 
 def _without_angles(value: Expr, cyclic: Iterable[Symbol]) -> Expr:
-    """Set the cyclic coordinates to zero in the value, if it does not depend on them: most terms vanish."""
+    """Set the cyclic coordinates to zero if the value does not depend on them, so that most terms vanish."""
     at_zero = value.xreplace(dict.fromkeys(cyclic, ZERO))
     return at_zero if is_zero(value - at_zero) else value
 
@@ -279,7 +282,7 @@ def _without_angles(value: Expr, cyclic: Iterable[Symbol]) -> Expr:
     "small oscillations about a steady motion, from the effective potential",
     of="frequency: an effective potential energy",
     at="results: that motion",
-    without="for: the letter that its condition eliminates",
+    without="for: the symbol that its condition eliminates",
     symbol="symbol",
 )
 def _in_results(of: Quantity, at: Quantity, key: str, without: Letter = None, symbol: str = "omega_0") -> Quantity:

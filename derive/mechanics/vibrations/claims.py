@@ -1,4 +1,4 @@
-"""Predicates of the outcomes of oscillations, and of the things that their sentences name."""
+"""Predicates that check the outcomes of oscillations and the expressions that their sentences name."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ from derive.steps.trial_numbers import (
 
 
 def free_motion(wanted: str) -> Predicate:
-    """Judge by the roots of the characteristic equation, as far as the letters decide."""
+    """Judge a free motion by the roots of the characteristic equation, or, if a sign is unknown, by the condition."""
 
     def is_so(facts: Judged) -> bool:
         a, b, c = facts.inputs["linear"]
@@ -89,8 +89,10 @@ def free_motion(wanted: str) -> Predicate:
 
 
 def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
-    """Whether the boundary of the condition is where the discriminant vanishes, and, numerically, the condition holds
-    on the side where the discriminant has this sign."""
+    """Whether the condition is equivalent to the wanted sign of the discriminant.
+
+    At the boundary of the condition the discriminant must vanish; the side of the boundary is checked numerically.
+    """
     condition = explicit(facts.inputs["condition"])
     if not same_equation(condition.residual, discriminant) or (condition.operator == "=") != (wanted == 0):
         return False
@@ -109,7 +111,7 @@ def loses(wanted: bool) -> Predicate:
 
 
 def dies_away(manner: str) -> Predicate:
-    """Judge how a free displacement decays, by the exponents s of a s^2 + b s + c = 0."""
+    """Judge how a free displacement decays, from the sign of the discriminant of a s^2 + b s + c."""
     signs = {"oscillating": -1, "critical": 0, "creeping": 1, "unknown": None}
 
     def is_so(facts: Judged) -> bool:
@@ -120,7 +122,7 @@ def dies_away(manner: str) -> Predicate:
 
 
 def in_step(*signs: int | None) -> Predicate:
-    """Judge, without damping, by the sign of c - a omega^2 whether the motion is in phase with the force."""
+    """Judge the phase of a motion without damping: c - a omega^2 must have one of these signs."""
     return lambda facts: is_zero(facts.inputs["loss"]) and sign_known(facts.inputs["stiff"]) in signs
 
 
@@ -129,7 +131,7 @@ def square(facts: Judged, fact: SquareOf) -> bool:
 
 
 def mode(facts: Judged, fact: Mode) -> bool:
-    """Whether the squared frequency is the root, up to the sign of a growing mode, and each column is in the kernel."""
+    """Whether the squared frequency is the root, or minus the root for a growing mode, and the columns are shapes."""
     root = fact.root
     squared = explicit(facts.result) ** 2
     if not is_zero(squared - root.value) and not (root.sign == -1 and is_zero(squared + root.value)):
@@ -139,7 +141,7 @@ def mode(facts: Judged, fact: Mode) -> bool:
 
 
 def linear(facts: Judged, fact: Linear) -> bool:
-    """Whether the coefficients of the equation are some row of the matrices, up to a common factor."""
+    """Whether the coefficients of the equation are, up to a common factor, a row of the matrices."""
     residual = explicit(facts.result).residual
     orders = ((fact.mass, 2), (fact.turning, 1), (fact.stiffness, 0))
     names = [s.symbol for s in fact.displacements]
@@ -159,14 +161,14 @@ S = Dummy("s")
 
 
 def _of_equations(facts: Judged) -> tuple[Any, ...]:
-    """Return the letters of the equations of motion, and the condition for the equilibrium if there is one."""
+    """Return the symbols of the equations of motion, and the condition for the equilibrium if there is one."""
     exists = facts.inputs.get("exists")
     letters = set().union(*(facts.inputs[role].free_symbols for role in MATRICES if role in facts.inputs))
     return letters, *([] if exists is None else [exists])
 
 
 def _points(facts: Judged, tried: int = TRIED) -> list[Point]:
-    """Return points for which the equilibrium exists."""
+    """Return trial points at which the equilibrium exists."""
     return trial_points(*_of_equations(facts), tried=tried)
 
 
@@ -174,7 +176,7 @@ MATRICES = ("stiffness", "turning", "mass")
 
 
 def _roots(facts: Judged, point: Point) -> list[complex]:
-    """Return all different exponents s at a point."""
+    """Return all distinct exponents s at a trial point."""
     return _roots_of(*(ImmutableDenseMatrix(facts.inputs[role].xreplace(dict(point))) for role in MATRICES))
 
 
@@ -208,7 +210,7 @@ def free(facts: Judged) -> bool:
 
 
 def _steady(facts: Judged, point: Point) -> bool:
-    """Whether all exponents are imaginary."""
+    """Whether all exponents at a trial point are imaginary or zero."""
     roots = _roots(facts, point)
     size = max(abs(root) for root in roots)
     return all(abs(root.real) <= LITTLE * size for root in roots)
@@ -219,13 +221,16 @@ def always(steady: bool) -> Predicate:
 
 
 def depends(facts: Judged) -> bool:
-    """Whether all conditions together hold exactly where nothing grows; their boundaries are not judged."""
+    """Whether the conditions together hold exactly where no motion grows, except on their boundaries.
+
+    The result must be one of the conditions.
+    """
     told = just_where(facts.inputs["conditions"], lambda point: _steady(facts, point), *_of_equations(facts))
     return told and facts.result in facts.inputs["conditions"]
 
 
 def is_among_conditions(facts: Judged, place: int) -> bool:
-    """Whether the result has this place among several conditions."""
+    """Whether there are several conditions, and the result is the condition with the index `place`."""
     conditions = facts.inputs["conditions"]
     return len(conditions) > 1 and bool(facts.result == conditions[place])
 
@@ -235,7 +240,7 @@ def moving(facts: Judged) -> list[Expr]:
 
 
 def _turning_at(facts: Judged, point: Point) -> int:
-    """Return the sense in which the two moving coordinates turn from the start to a little later, 1 or -1."""
+    """Return the sense of rotation just after the start, 1 or -1, in the plane of the two moving coordinates."""
     entries = [explicit(entry) for entry in moving(facts)]
     start, later = ([re(value_at(each.subs(TIME, t), point)) for each in entries] for t in (0, Rational(1, 10**6)))
     return 1 if start[0] * later[1] - start[1] * later[0] > 0 else -1
@@ -254,14 +259,14 @@ def sense(wanted: int | None, circle: bool) -> Predicate:
 
 
 def departing(facts: Judged) -> bool:
-    """Whether all moving coordinates grow at one rate, which is real and positive."""
+    """Whether all moving coordinates grow exponentially with the same positive rate."""
     rates = {tidied(entry.diff(TIME) / entry) for entry in map(explicit, moving(facts))}
     (rate, *others) = rates
     return not others and not rate.has(TIME) and signs(rate, _points(facts)) == {1}
 
 
 def straight(facts: Judged) -> bool:
-    """Whether all moving coordinates vanish together."""
+    """Whether the ratios of the moving coordinates are constant, so that the motion is along a straight line."""
     first, *others = moving(facts)
     return all(is_zero((other / first).diff(TIME)) for other in others)
 
@@ -276,7 +281,10 @@ def sign_of_product(wanted: int) -> Predicate:
 
 
 def damped(sign: int | None) -> Predicate:
-    """Judge whether -beta +- i omega are roots: with omega real, or imaginary."""
+    """Judge whether -beta +- i omega are roots, or, for the sign -1, whether -beta +- omega are roots.
+
+    The stated conditions must hold exactly where the result is real.
+    """
 
     def is_so(facts: Judged) -> bool:
         def is_real(point: Point) -> bool:
@@ -295,7 +303,7 @@ def damped(sign: int | None) -> Predicate:
 
 
 def gyroscopic_rate(kind: str) -> Predicate:
-    """Judge whether minus the result is half the sum of two roots, or a root."""
+    """Judge whether minus the result is a root, or, for an oscillator, half the sum of two roots."""
 
     def is_so(facts: Judged) -> bool:
         def is_so_at(point: Point) -> bool:
@@ -318,12 +326,12 @@ FEW = 5  # points at which a determinant is evaluated
 
 
 def _polynomial(facts: Judged, point: Point) -> Poly:
-    """Return det(K - lambda M) at a point."""
+    """Return det(K - lambda M) at a trial point."""
     there = (facts.inputs[role].xreplace(dict(point)) for role in ("stiffness", "mass"))
     return _determinant(*map(ImmutableDenseMatrix, there))
 
 
-@lru_cache(maxsize=64)  # the same few for each frequency and each shape of a system
+@lru_cache(maxsize=64)  # each frequency and each shape of a system needs the same few determinants
 def _determinant(stiffness: ImmutableDenseMatrix, mass: ImmutableDenseMatrix) -> Poly:
     unknown = Dummy("lambda")
     return Poly(determinant_of(stiffness - unknown * mass), unknown)
@@ -336,7 +344,7 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
-    """Whether det(K - lambda M) vanishes there; for a repeated root its derivative vanishes too."""
+    """Whether det(K - lambda M) vanishes at lambda = `square`; for a repeated root its derivative must vanish too."""
 
     def is_so(point: Point) -> bool:
         polynomial, place = _polynomial(facts, point), value_at(explicit(square), point)
@@ -356,8 +364,11 @@ def modes_frequency(sign: int | None, repeated: bool) -> Predicate:
 
 
 def is_in_order(whole: bool) -> Predicate:
-    """Judge whether the square is a root of the determinant, and the number of its letter is its place, by Sturm's
-    theorem, among all roots, or among those of a factor of lower degree."""
+    """Judge whether the square of the result is a root of the determinant, numbered correctly in ascending order.
+
+    Sturm's theorem counts the smaller roots. The number refers to all roots if `whole`; otherwise it refers to the
+    roots of a factor of lower degree.
+    """
 
     def is_so(facts: Judged) -> bool:
         square = facts.result**2
@@ -379,7 +390,7 @@ def is_in_order(whole: bool) -> Predicate:
 
 
 def _is_not_negative(facts: Judged) -> bool:
-    """Whether the frequency is the square root that is not negative, wherever it is real."""
+    """Whether the frequency is never negative; where it is imaginary, its imaginary part must not be negative."""
     points = _points(facts)
     return -1 not in signs(facts.result, points) | signs(facts.result / I, points)
 
@@ -412,21 +423,23 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge the equation by its terms: displaced or not, with a drag or without, driven or not."""
+    """Judge the equation by its terms: whether it is displaced, whether it has drag, and whether it is driven."""
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
         letters = facts.inputs["displacements"]
         if len(letters) == 1 and explicit(facts.result).left.has(rate(*letters)) != found[1]:
-            return False  # for one coordinate the equation shows the drag
+            return False  # for one coordinate the equation itself shows drag
         return found[0] == displaced and found[2] == driven and lossy in (None, found[1])
 
     return is_so
 
 
 def drifts_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether a uniform motion numerically fulfils the equations, if the sentence says that no force acts to any
-    order."""
+    """Whether a uniform motion numerically satisfies the equations of motion.
+
+    This is checked only if the sentence says that no force acts to any order.
+    """
     if "drift" not in facts.inputs:
         return True
     points = trial_points(set().union(*map(letters_of, facts.inputs["left"])))
@@ -434,7 +447,7 @@ def drifts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
-    """Judge the sign numerically where the equilibrium exists; zero or an unknown sign, by the letters."""
+    """Judge a positive or negative sign numerically where the equilibrium exists; judge zero or None symbolically."""
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
 
@@ -464,19 +477,19 @@ def small_function(of: Callable[[Any], Any]) -> Naming:
 
 
 def nothing_is_left(facts: Judged, drift: Any) -> bool:
-    """Whether a uniform motion along the zero mode fulfils the full equations of motion."""
+    """Whether a uniform motion along the zero mode satisfies the full equations of motion."""
     left = facts.inputs["left"]
     return drift == 0 and bool(left) and all(is_zero(explicit(each)) for each in left)
 
 
 def root_under_the_sign(facts: Judged, name: Any) -> bool:
-    """Whether the square of the result is a root of that letter, and the sentence names the smallest, number 1."""
+    """Whether the square of the result is a numbered root, and the sentence names the root number 1, the smallest."""
     square = facts.result**2
     return isinstance(square, OrderedRoot) and str(name) == f"{str(square.name).rpartition('_')[0]}_1"
 
 
 def momentum_there(facts: Judged, relation: Any) -> bool:
-    """Whether the relation gives the momentum of its letter in the steady motion, or a letter of its value."""
+    """Whether the relation gives a momentum in the steady motion, or a symbol in the value of a momentum."""
     steady = next((f for f in facts.quantities["where"].facts if hasattr(f, "conditions")), None)
     behind = list(facts.quantities["potential"].ancestors())
     if steady is None or relation.operator != "=":
@@ -502,7 +515,7 @@ def there_where_it_exists(facts: Judged, exists: Any) -> bool:
 
 
 def taken_out(facts: Judged, relation: Any) -> bool:
-    """Whether the letter is in the condition, and no longer in the result."""
+    """Whether the symbol that the relation gives occurs in the condition but not in the result."""
     if relation.operator != "=":
         return False
     held = explicit(facts.quantities["where"].value).free_symbols
@@ -510,7 +523,7 @@ def taken_out(facts: Judged, relation: Any) -> bool:
 
 
 def trial(unit: Any, role: str) -> Naming:
-    """Check that the trial function starts from 1, and its rate is the exponent times the function."""
+    """Check that the trial function starts at 1, and that its rate is the function times `unit` and the exponent."""
 
     def is_so(facts: Judged, value: Any) -> bool:
         return value.subs(TIME, 0) == 1 and is_zero(diff(value, TIME) - unit * facts.inputs[role] * value)
@@ -519,7 +532,7 @@ def trial(unit: Any, role: str) -> Naming:
 
 
 def oscillator(facts: Judged, equation: Any) -> bool:
-    """Whether the equation, times the inertia and with the result for omega_0^2, is the linear equation."""
+    """Whether the equation, multiplied by the inertia, is the linear equation if the result replaces omega_0^2."""
     linear = explicit(facts.quantities["linear"].value).residual
     inertia = explicit(facts.inputs.get("inertia", Integer(1)))
     there = equation.left.doit().subs(facts.symbol, explicit(facts.result))
@@ -584,7 +597,7 @@ def starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
 
 
 def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
-    """Whether the condition holds with the stated value of the eliminated letter."""
+    """Whether the condition holds with the stated value of the eliminated symbol."""
     told, where = facts.inputs.get("taken_out"), facts.quantities["where"].value
     if told is None or not isinstance(where, Relation):
         return True
@@ -592,7 +605,7 @@ def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
 
 
 def _of_an_equation(facts: Judged, outcome: str) -> bool:
-    """Whether the coordinate is a letter, and its law an equation, or a solution for its rate or acceleration."""
+    """Whether the coordinate is a symbol, and its law is an equation or is solved for its rate or acceleration."""
     q, found = facts.inputs["q"], facts.quantities.get("equation")
     solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
     return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)
@@ -603,17 +616,17 @@ def swings_of_its_equation(facts: Judged, outcome: str) -> bool:
 
 
 def positive_where_real(facts: Judged, outcome: str) -> bool:
-    """Whether the frequency is numerically not negative, wherever it is real."""
+    """Whether the frequency is numerically nowhere negative where it is real."""
     return nowhere_negative_where_real(facts)
 
 
 def somewhere_positive(facts: Judged, outcome: str) -> bool:
-    """Whether the second frequency is the greater one for some values of the letters."""
+    """Whether the second frequency is never smaller than the first, and greater for some values of the symbols."""
     return not_negative(facts, outcome) and 1 in signs_of(explicit(facts.result))
 
 
 def lag_as_written(facts: Judged, outcome: str) -> bool:
-    """Whether the symbol is the tangent of the lag with damping, and the angle without."""
+    """Whether the result is the tangent of the lag with damping, and the lag itself without damping."""
     return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
 
 

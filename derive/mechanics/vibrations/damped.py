@@ -1,6 +1,7 @@
-"""Small motions with drag: the exponents s of eta = a e^(s t), if det(M s^2 + C s + K) = 0 factors.
+"""Small motions with drag: the exponents s of eta = a e^(s t), if the determinant det(M s^2 + C s + K) factors.
+
 A factor a s^2 + b s + c belongs to one damped oscillator, with the decay rate b/2a and the frequency
-sqrt(c/a - b^2/4a^2); a factor a s + b to a displacement that decays at the rate b/a.
+sqrt(c/a - b^2/4a^2). A factor a s + b belongs to a displacement that decays at the rate b/a.
 """
 
 from __future__ import annotations
@@ -135,7 +136,7 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
     a, _, *rest = root.factor.coefficients
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
-        """Substitute the exponent of the motion in the determinant: s = -beta +- sqrt(beta^2 - c/a)."""
+        """Substitute the exponent of the motion, s = -beta +- sqrt(beta^2 - c/a), into the determinant."""
         square = found**2 - rest[0] / a if rest else Integer(0)
         return _remainder_at(characteristic, equations.letter, -found, square), 0
 
@@ -155,7 +156,10 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
 
 
 def _remainder_at(characteristic: Quantity, letter: Symbol, middle: Expr, square: Expr) -> Expr:
-    """Return the determinant at s = middle +- sqrt(square), without the root: its even and its odd powers."""
+    """Return an expression without roots that vanishes if the determinant vanishes at s = middle +- sqrt(square).
+
+    The even and odd powers of the root are separate terms; a mark multiplies the odd powers.
+    """
     mark, weight = Symbol("r_mark"), Symbol("w_mark", real=True)
     value = Poly(_left(characteristic).xreplace({letter: middle + mark}).expand(), mark)
     even, odd = (Add(*(c * square ** (n // 2) for (n,), c in value.terms() if n % 2 == rest)) for rest in (0, 1))
@@ -182,7 +186,7 @@ def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, 
     name = free_letter(f"{'gamma' if turned < 0 else 'omega'}{number}")
 
     def motion(found: Expr) -> tuple[Expr, Expr]:
-        """Substitute e^(-beta t) cos(omega t), or a hyperbolic cosine, in a eta_ddot + b eta_dot + c eta."""
+        """Substitute e^(-beta t) cos(omega t), or a hyperbolic cosine, into a eta_ddot + b eta_dot + c eta."""
         w = stand_in("w", positive=True)
         course = exp(-own.value * T) * (cos(w * T) if turned > 0 else (exp(w * T) + exp(-w * T)) / 2)
         left = (a * diff(course, T, 2) + b * diff(course, T) + c * course) / exp(-own.value * T)
@@ -231,7 +235,7 @@ def _shape(
     linear = equations.linear
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Check that the residual of the equations is a multiple of the factor, and so vanishes with it."""
+        """Check that the residuals of the equations are multiples of the factor, so they vanish at its roots."""
         letter = Symbol("s_trial")
         course = exp(letter * T)
         left = [(value / course).expand() for value in with_motion(linear, [a * course for a in found])]

@@ -56,13 +56,13 @@ def steady_amplitude(
     equation: Quantity, q: Coordinate, symbol: str = "A", key: str = "steady_amplitude"
 ) -> tuple[Quantity, Quantity]:
     """Amplitude of the forced oscillation A cos(omega t - delta), A = F/sqrt((c - a omega^2)^2 + (b omega)^2), and the
-    tangent of its lag, tan(delta) = b omega/(c - a omega^2).
+    tangent of the lag, tan(delta) = b omega/(c - a omega^2).
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate
-    Check: the forced oscillation with this amplitude and this lag substituted back into the equation.
-    Outcomes: damped, undamped (the oscillation is in phase, or opposite).
-    Errors: the equation is not linear with constant coefficients, or not driven by one oscillation.
+    Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
+    Outcomes: damped, undamped (the oscillation is in phase with the force, or opposite to it).
+    Errors: the equation is not linear with constant coefficients, or is not driven by a single oscillation.
     Source: Taylor, *Classical Mechanics*, section 5.5.
     """
     linear = linear_equation(equation, q)
@@ -79,20 +79,20 @@ def steady_amplitude(
     lag = scalar("delta")
 
     def forced(amplitude: Expr) -> tuple[Any, Any]:
-        """Substitute the motion with cos(delta) and sin(delta) as the legs over the hypotenuse F/A."""
+        """Substitute the motion, with cos(delta) = (c - a omega^2) A/F and sin(delta) = b omega A/F."""
         over = force / amplitude
         motion = amplitude * (cos(angle) * stiff + sin(angle) * loss) / over
         return put_back(equation, q, motion), Integer(0)
 
     def lagging(tangent: Expr) -> tuple[Any, Any]:
-        """Check that the residual in sin(omega t) vanishes, with sin(delta) = tan(delta) cos(delta)."""
+        """Check that the terms of the residual with sin(omega t) vanish, where sin(delta) = tan(delta) cos(delta)."""
         motion = cos(angle) + (tangent if damped == "damped" else tan(tangent)) * sin(angle)
         return put_back(equation, q, motion).coeff(sin(angle)), Integer(0)
 
     in_phase = None if excluded is None else positive(stiff)
 
     def in_step(lag: Expr) -> tuple[Any, Any]:
-        """Check that the oscillation with positive amplitude has the sign of the force if c > a omega^2."""
+        """Check that cos(delta) has the sign of c - a omega^2; if this sign is unknown, c > a omega^2 is assumed."""
         size = stand_in("s", positive=True)
         there = with_numbers(stiff) if sign is not None else size
         return cos(lag) * there, Abs(there)
@@ -148,10 +148,10 @@ def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
 
 
 def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:
-    """Return the amplitude and the phase of the driving force, F cos(omega t)."""
+    """Return the amplitude F and the phase omega t of the driving force F cos(omega t)."""
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
     if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
-        message = f"`steady_amplitude`: `{equation.key}` is not driven by one F cos(omega t)"
+        message = f"`steady_amplitude`: `{equation.key}` is not driven by one force F cos(omega t)"
         raise Rejected(Complaint("unknown-driving", message))
     return outside, inside.args[0]
 
@@ -181,11 +181,11 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
     equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
     q          the coordinate
-    Second route: driven at omega_0 = sqrt(c/a) by F cos(omega_0 t), q = Q (F/c) sin(omega_0 t) satisfies the equation;
-    and for that oscillation, 2 pi times its energy over the work of the damping in one period is Q.
+    Second route: with the driving force F cos(omega_0 t), omega_0 = sqrt(c/a), the motion q = Q (F/c) sin(omega_0 t)
+    satisfies the equation; and Q is 2 pi times the energy of this oscillation over the work of the damping in a period.
     Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (on
-    letters).
-    Errors: the equation is not linear with constant coefficients; no damping, or no restoring force.
+    symbols).
+    Errors: the equation is not linear with constant coefficients, or has no damping or no restoring force.
     Source: Taylor, *Classical Mechanics*, section 5.6; French, *Vibrations and Waves*, chapter 3.
     """
     linear = linear_equation(equation, q)
@@ -223,6 +223,6 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
 
 def _sense(equation: Quantity, linear: LinearCoefficients, q: Coordinate) -> int:
-    """Return 1 if the equation was found with the signs of these coefficients, -1 if all signs are reversed."""
+    """Return 1 if the equation has these coefficients, -1 if all its coefficients have the opposite sign."""
     unit = put_back(equation, q, Integer(1)) - put_back(equation, q, Integer(0))
     return 1 if tidied(unit - linear.c) == 0 else -1

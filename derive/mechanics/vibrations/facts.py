@@ -25,8 +25,11 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class Linear(LinearSystem, Fact):
-    """Linear equations M eta_ddot + (G + C) eta_dot + K eta = f(t) together: the matrices, the condition for the
-    equilibrium, the displacements, the driving forces, and the value of each coordinate at equilibrium."""
+    """All linear equations of a system, M eta_ddot + (G + C) eta_dot + K eta = f(t), as matrices.
+
+    The fact also contains the condition for the equilibrium, the displacements eta, the driving forces f, and the value
+    of each coordinate at equilibrium.
+    """
 
     missing = "is not an equation of motion to first order"
     displacements: tuple[Coordinate, ...] = ()
@@ -34,13 +37,15 @@ class Linear(LinearSystem, Fact):
     place: tuple[tuple[Coordinate, Expr], ...] = ()
 
     def rows_of(self, matrix: MatrixBase) -> MatrixBase:
-        """Return a matrix of the amplitudes, each row without the common factor of its equation."""
+        """Divide each row of a matrix of the amplitudes by the common factor of its equation."""
         size = range(matrix.shape[0])
         return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
 
     def common(self, i: int) -> Expr:
-        """Return the positive common factor of all terms of one equation, m l of m l^2 theta_ddot + m g l theta.
-        If every term has a denominator, all are cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
+        """Return the positive common factor of all terms of one equation: m l for m l^2 theta_ddot + m g l theta.
+
+        If every term has a denominator, division by the factor clears all denominators: the factor is 1/k^2 for
+        A theta_ddot/k^2 + g theta/k.
         """
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
         parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]
@@ -54,7 +59,7 @@ class Linear(LinearSystem, Fact):
 
 @dataclass(frozen=True)
 class Mode(Fact):
-    """The frequency, or the rate of growth, of a mode: its root lambda = omega^2 with its sign, and its columns."""
+    """The root lambda = omega^2 behind the frequency or growth rate of a mode, with its sign and its columns."""
 
     missing = "is not the frequency of a normal mode"
     root: CharacteristicRoot
@@ -62,7 +67,7 @@ class Mode(Fact):
 
 @dataclass(frozen=True)
 class SquareOf(Fact):
-    """The letter of a frequency, for its square, and the condition under which the equilibrium exists."""
+    """The symbol of a frequency whose square is the result, and the condition under which the equilibrium exists."""
 
     missing = "is not the square of a frequency"
     letter: str

@@ -1,7 +1,10 @@
-"""Small motions with gyroscopic forces, linear in the rates and without work: rotating frames, tops, charges.
-Equations M eta_ddot + G eta_dot + K eta = 0 with G antisymmetric have solutions eta = Re(a e^(i omega t)) where
-det(K + i omega G - omega^2 M) = 0, a polynomial in omega^2. An equilibrium is stable if all omega^2 are real, positive
-and different: gyroscopic forces may stabilise an equilibrium that is not a minimum of the potential energy.
+"""Small motions with gyroscopic forces, which are linear in the rates and do no work.
+
+Such forces act in rotating frames, on tops and on charges in a magnetic field. The equations
+M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have the solutions eta = Re(a e^(i omega t)) if omega satisfies
+det(K + i omega G - omega^2 M) = 0; this determinant is a polynomial in omega^2. An equilibrium is stable if all omega^2
+are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential energy has no
+minimum.
 """
 
 from __future__ import annotations
@@ -52,15 +55,15 @@ from derive.witness.facts import Rest
 __all__ = ["linear_stability"]
 
 ZERO = Integer(0)
-LARGEST = 200  # operations of a condition that is factored
+LARGEST = 200  # number of operations up to which a condition is factored
 
 
 @dataclass(frozen=True)
 class TurningModes(Equations[Gyroscopic]):
-    """The results of `normal_modes` with forces linear in the rates that do no work."""
+    """The results of `normal_modes` with gyroscopic forces, which are linear in the rates and do no work."""
 
     def found(self) -> tuple[Quantity, ...]:
-        """Return the frequencies, and the motions of those that have one shape."""
+        """Return the frequencies, and the motions of the frequencies that have exactly one shape."""
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
         motions: list[Quantity] = []
@@ -105,7 +108,7 @@ def _characteristic(equations: TurningModes) -> Quantity:
 
 
 def _in_quadrature(found: Relation, equations: TurningModes) -> tuple[Relation, Relation]:
-    """Substitute cosines and sines with real amplitudes: the determinant of twice as many equations is the square."""
+    """Compare with cosines and sines: the determinant of their real amplitudes is the square of the result."""
     return Relation(explicit(found).residual ** 2, found.operator, 0), Relation(
         _of_cosines_and_sines(equations), "=", 0
     )
@@ -117,7 +120,10 @@ def _tidy_entry(entry: Expr) -> Expr:
 
 
 def _of_cosines_and_sines(equations: TurningModes) -> Expr:
-    """Return the determinant of the equations for eta = u cos(omega t) + v sin(omega t), sorted by cos and sin."""
+    """Return the determinant of the equations for the amplitudes u and v of eta = u cos(omega t) + v sin(omega t).
+
+    Each linear equation gives two equations: the factors of the cosine and of the sine vanish.
+    """
     u, v = ([Symbol(f"{name}_{n}", real=True) for n in range(len(equations.linear))] for name in ("u", "v"))
     c, s = cos(equations.letter * T), sin(equations.letter * T)
     rows = []
@@ -182,12 +188,15 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
 
 
 def _by_square(value: Expr, letter: Symbol, square: Expr) -> Expr:
-    """Return a polynomial in omega^2 with this value or letter for omega^2."""
+    """Return a polynomial in omega^2 with `square` in place of omega^2."""
     return Add(*(c * square ** (n // 2) for (n,), c in Poly(value, letter).terms()))
 
 
 def _sum_of_squares(system: LinearSystem) -> Expr:
-    """Return the sum of all omega^2: tr(M^-1 K) - tr((M^-1 G)^2)/2, by the square of the first-order matrix."""
+    """Return the sum of all omega^2: tr(M^-1 K) - tr((M^-1 G)^2)/2.
+
+    This is the trace of -A^2/2, where A is the matrix of the equivalent first-order system.
+    """
     inverse = system.mass.inv()
     turning = inverse * system.turning
     return tidied((inverse * system.stiffness).trace() - (turning * turning).trace() / 2)
@@ -231,7 +240,7 @@ def _motion(
         return [_of_time(entry, w, root.turn) for entry in column]
 
     def in_equations(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Substitute the motion in the linear equations, at any time."""
+        """Substitute the motion into the linear equations, at any time."""
         left = with_motion(linear, list(explicit(found)))
         return ImmutableDenseMatrix(left), ImmutableDenseMatrix([ZERO] * len(left))
 
@@ -264,14 +273,17 @@ def _motion(
 
 
 def _of_time(entry: Expr, w: Expr, turn: int) -> Expr:
-    """Return the real part of r e^(i omega t), where omega is w or -w, and r is real or imaginary."""
+    """Return the real part of r e^(i omega t), where omega is `turn` times w, and r is real or imaginary."""
     if entry.has(I):
         return -turn * (entry / I).xreplace({OMEGA: turn * w}) * sin(w * T)
     return entry.xreplace({OMEGA: turn * w}) * cos(w * T)
 
 
 def _outcome(column: Sequence[Expr], root: CharacteristicRoot) -> str:
-    """Return the shape of the path if two coordinates move, and its sense, from the first to the second."""
+    """Return the outcome of a mode: if two coordinates move, the shape of the path and the sense of rotation.
+
+    The path turns forwards if it turns from the first coordinate to the second.
+    """
     if root.sign == -1:
         return "departing"
     entries = [entry for entry in column if not is_zero(entry)]
@@ -291,15 +303,16 @@ def _outcome(column: Sequence[Expr], root: CharacteristicRoot) -> str:
 def linear_stability(
     linear: Sequence[Quantity], letter: Expr | None = None, key: str = "stability"
 ) -> Quantity | tuple[Quantity, ...]:
-    """Stability of an equilibrium with gyroscopic forces, linear in the rates: all omega^2 real, positive, different.
+    """Stability of an equilibrium with gyroscopic forces: all omega^2 must be real, positive and distinct.
 
-    linear   the equations, as `linearised` yields them together
-    letter   the letter that a condition is solved for; by default one that occurs only as a square, if any
-    Gyroscopic forces may stabilise an equilibrium that is not a minimum of the potential energy; drag, however small,
-    makes it unstable again.
-    Second route: on the boundary of the condition two roots of the determinant coincide, or one vanishes; the
-    determinant is that of cosines and sines substituted in the equations.
-    Outcomes: stable, unstable, depends; with several conditions first, further, and last for the last one.
+    linear   all equations of the system, as `linearised` yields them
+    letter   the symbol that a condition is solved for; by default the only symbol that occurs as a square, if there is
+    exactly one
+    Gyroscopic forces are linear in the rates. They may stabilise an equilibrium that is not a minimum of the potential
+    energy; drag, however small, makes such an equilibrium unstable again.
+    Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this
+    determinant comes from cosines and sines that are substituted into the equations.
+    Outcomes: stable, unstable, depends; if there are several conditions first, further, last.
     Errors: there is drag; the determinant does not factor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
     """
@@ -327,7 +340,7 @@ def linear_stability(
 
 
 def _needed(system: Gyroscopic) -> list[Expr]:
-    """Return the expressions that must be positive."""
+    """Return the expressions that must be positive for stability; none if the equilibrium is a minimum."""
     if system.is_minimum:
         return []
     free = [part for part in system.factors if part.is_free or part.degree > 2 or part.times > 1]
@@ -340,7 +353,10 @@ def _needed(system: Gyroscopic) -> list[Expr]:
 
 
 def _open(need: Expr, system: Gyroscopic) -> Expr:
-    """Return the factors of unknown sign where the state exists: K - m w^2 of (K - m w^2)(k - m w^2), if k > m w^2."""
+    """Drop the factors that are positive where the equilibrium exists.
+
+    If the equilibrium exists for k > m w^2, (K - m w^2)(k - m w^2) becomes K - m w^2.
+    """
     if need.count_ops() > LARGEST:
         return need
     factors = Mul.make_args(factor(need))
@@ -348,7 +364,7 @@ def _open(need: Expr, system: Gyroscopic) -> Expr:
 
 
 def _may_drift(part: Factor, system: Gyroscopic) -> bool:
-    """Whether a root may be zero, so that the coordinates move uniformly, while some stiffness remains."""
+    """Whether a root may be zero, so that the coordinates may move uniformly although some stiffness remains."""
     if not part.mirrored or part.degree != 2 or system.sign(part.coefficients[2]) is not None:
         return any(system.sign(need) == 0 for need in part.needs)
     below = (cancel(entry / part.coefficients[2]).as_numer_denom()[1] for entry in system.stiffness)
@@ -371,7 +387,7 @@ GYROSCOPIC_STABILITY = Rule(
 
 
 def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, key: str) -> Quantity:
-    """Stability that is the same for all values of the letters.
+    """Stability that is the same for all values of the symbols.
 
     Outcomes: stable, unstable.
     Source: that of `linear_stability`.
@@ -408,14 +424,15 @@ def _condition(
     need: Expr,
     key: str,
 ) -> Quantity:
-    """Condition for stability, one of those required.
+    """One of the conditions that stability requires.
+
     Outcomes: depends, first, further, last.
     Source: that of `linear_stability`.
     """
     condition, square = conditions[i], Symbol("z")
 
     def at_border(found: Relation) -> tuple[Expr, Expr]:
-        """Check that, where the two sides are equal, two roots of the determinant coincide, or one is zero."""
+        """Check that two roots of the determinant coincide, or one root is zero, where both sides are equal."""
         by_square = _by_square(_of_cosines_and_sines(equations), equations.letter, square)
         border = border_of(explicit(found))
         meets = _without_squares(by_square, square)
@@ -440,20 +457,20 @@ def _condition(
 
 
 def _place_among(i: int, number: int) -> str:
-    """Return the outcome; the last condition's sentence states stability for all conditions together."""
+    """Return the outcome for condition number i; the sentence of the last condition states when all of them hold."""
     if i == number - 1:
         return "last" if i else "depends"
     return "further" if i else "first"
 
 
 def _without_squares(value: Expr, square: Symbol) -> Expr:
-    """Return the discriminant of the polynomial whose square this is: zero where two of its roots coincide."""
+    """Return the discriminant of the square-free part of a polynomial; it vanishes where two roots coincide."""
     found = Poly(value, square).sqf_part()
     return discriminant(found.as_expr(), square)
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """Return the remainder of the value where both sides of a condition are equal, by a letter or a sine in it."""
+    """Return the remainder of the value on division by left minus right side of a condition, in one of its symbols."""
     residual = Poly(condition.residual.as_numer_denom()[0].expand())
     letter = min(residual.gens, key=lambda each: (not each.is_Symbol, str(each)))
     return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual.as_expr(), letter)).as_expr()

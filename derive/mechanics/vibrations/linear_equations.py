@@ -1,4 +1,4 @@
-"""The linear equations of all coordinates, read as one linear system, and motions substituted in them."""
+"""The linear equations of all coordinates as one linear system, and motions that are substituted into them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}  # s
 
 @dataclass(frozen=True)
 class Equations(Generic[Kind]):
-    """Linear equations, the system that they are, the letter of its roots, and the beginning of the keys of results."""
+    """Linear equations with their linear system, the symbol of its roots, and the beginning of the keys of results."""
 
     linear: Sequence[Quantity]
     system: Kind
@@ -37,7 +37,7 @@ class Equations(Generic[Kind]):
         return self.linear[0].needed(Linear)
 
     def matrix(self, s: Expr) -> MatrixBase:
-        """Return the matrix of the amplitudes for a motion e^(s t), each row without its common factor."""
+        """Return the matrix of the amplitudes of a motion e^(s t), with each row divided by its common factor."""
         return self.together.rows_of(self.system.at(s))
 
     def judged_by(self, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
@@ -49,17 +49,20 @@ class Equations(Generic[Kind]):
 
 
 def letter_of_shapes(given: Iterable[Symbol]) -> str:
-    """Return a letter for the amplitudes that is not a given one."""
+    """Return a name for the amplitudes that no given symbol has."""
     taken = {s.name.partition("_")[0] for s in given}
     return next((letter for letter in ("a", "A", "b", "u") if letter not in taken), "v")
 
 
 def together_for(verb: str, linear: Sequence[Quantity]) -> Linear:
-    """Return the system of these equations: all of them, without a driving force, with a potential energy of the forces
-    that do not depend on the rates, and with constant matrices."""
+    """Return the linear system of the equations, or reject the equations.
+
+    All equations of the system must be given, and no driving force may act. The forces that do not depend on the rates
+    must have a potential energy, and the matrices must be constant.
+    """
     together = linear[0].needed(Linear)
     if len(linear) != len(together.displacements) or any(each.fact(Linear) != together for each in linear):
-        message = f"`{verb}` needs all the equations that `linearised` yields together"
+        message = f"`{verb}` needs all equations of one call of `linearised`"
         raise Rejected(Complaint("wrong-argument", message))
     if any(force != 0 for force in together.driven):
         message = f"`{verb}` needs equations without a driving force, but a force depends on the time"
@@ -74,7 +77,7 @@ def together_for(verb: str, linear: Sequence[Quantity]) -> Linear:
 
 
 def with_motion(linear: Sequence[Quantity], motion: Sequence[Expr]) -> list[Expr]:
-    """Return the left side of each linear equation with a motion eta(t) substituted."""
+    """Substitute a motion eta(t) into each linear equation, and return the residuals."""
     put_in: dict[Any, Expr] = {}
     for s, eta in zip(linear[0].needed(Linear).displacements, motion, strict=True):
         put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
@@ -82,14 +85,14 @@ def with_motion(linear: Sequence[Quantity], motion: Sequence[Expr]) -> list[Expr
 
 
 def factors_of_amplitudes(linear: Sequence[Quantity], course: Expr) -> MatrixBase:
-    """Return the factor of each amplitude in each equation, with eta = a course(t), divided by the course."""
+    """Return the factor of each amplitude in each equation: substitute eta = a course(t) and divide by the course."""
     amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
     left = [value / course for value in with_motion(linear, [a * course for a in amplitudes])]
     return ImmutableDenseMatrix([[derivative(value.expand(), a) for a in amplitudes] for value in left])
 
 
 def left_by_drift(linear: Sequence[Quantity], column: Sequence[Expr], time: Expr) -> list[Expr]:
-    """Return the residuals of the nonlinear equations for a uniform motion from equilibrium along a column."""
+    """Return the residuals of the full equations of motion for a uniform motion from equilibrium along a column."""
     equations = {e.needed(OfCoordinate).coordinate: e for each in linear for e in each.parents if e.fact(OfCoordinate)}
     place, moved = linear[0].needed(Linear).place, {}
     for (q, at), share in zip(place, column, strict=True):

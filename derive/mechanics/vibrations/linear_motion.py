@@ -1,8 +1,8 @@
-"""Linear equations of motion with constant coefficients, a q_ddot + b q_dot + c q = f(t), solved with their
-initial values.
-The roots of a s^2 + b s + c give the free motion; the driving force, a sum of powers of t, exponentials, sines and
-cosines, gives a particular motion. The solution is substituted back into the equation; with its initial values it is
-unique.
+"""Solve linear equations of motion with constant coefficients, a q_ddot + b q_dot + c q = f(t), for initial values.
+
+The roots of a s^2 + b s + c give the free motion. The driving force, a sum of powers of t, exponentials, sines and
+cosines, gives a particular motion. The solution is substituted back into the equation; the initial values make this
+solution unique.
 """
 
 from __future__ import annotations
@@ -114,21 +114,21 @@ def solution(
     case: str | None = None,
     key: str | None = None,
 ) -> Quantity:
-    """Motion q(t) by a linear equation with constant coefficients, from its initial values: with the roots s of
+    """Motion q(t) that satisfies a linear equation with constant coefficients and initial values: with the roots s of
     a s^2 + b s + c, q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
 
-    equation     a q_ddot + b q_dot + c q = f(t), with f a sum of powers of t, exponentials, sines and cosines; or of
-    first order, a = 0; or a solution for q_ddot or q_dot
+    equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines; the
+    equation may be of first order, a = 0, or solved for q_ddot or q_dot
     q            the coordinate
-    start        its value at t = 0
-    start_rate   its rate at t = 0, for an equation of second order; 0 by default
-    case         `underdamped`, `critically_damped` or `overdamped`, if the letters leave the case open
-    Check: substituted back into the equation; its value and its rate at t = 0.
+    start        the value of q at t = 0
+    start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
+    case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
+    Check: the motion is substituted back into the equation; it has the given value and rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (c/a is negative),
-    uniform (no force depends on position or rate), slows (no force depends on position: the rate decays), relaxes (of
-    first order), accumulates (of first order, without q).
-    Errors: the equation is not linear with constant coefficients; the case is open, or a different one; a driving force
-    of another kind.
+    uniform (no force depends on position or rate), slows (no force depends on position: the rate decays), relaxes
+    (first order), accumulates (first order, without q).
+    Errors: the equation is not linear with constant coefficients; the case is open, or is not the given case; the
+    driving force is of another kind.
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
     linear = linear_equation(equation, q)
@@ -138,7 +138,10 @@ def solution(
     first = explicit(value_behind(start))
     initial = None if linear.order == 1 else explicit(value_behind(ZERO if start_rate is None else start_rate))
     if linear.order == 1 and start_rate is not None:
-        message = f"`solution`: `{equation.key}` is of first order, so the rate of {q.symbol.name} at the start follows"
+        message = (
+            f"`solution`: `{equation.key}` is of first order, so the rate of {q.symbol.name} "
+            "at the start follows from the equation"
+        )
         raise Rejected(Complaint("wrong-argument", message))
     sort, condition = _sort(linear, case, equation)
     basis = _basis(linear, sort)
@@ -173,7 +176,7 @@ def solution(
 
 
 def _by_powers(motion: Expr) -> Expr:
-    """Sort a motion by powers of the time, each with one factor; or by terms if it is not a polynomial."""
+    """Sort a motion by powers of the time, each with one factor; if it is not a polynomial, write separate terms."""
     powers = motion.as_poly(TIME) if motion.is_polynomial(TIME) else None
     if powers is None:
         return by_terms(motion.expand())
@@ -182,7 +185,7 @@ def _by_powers(motion: Expr) -> Expr:
 
 
 def free_motion(linear: LinearCoefficients, first: Expr, initial: Expr, case: str | None) -> Expr:
-    """Return the free motion, from its initial value and rate; the page states the condition of the case."""
+    """Return the free motion with the given initial value and rate; the step assumes the condition of the case."""
     sort, condition = _sort(linear, case, None)
     if condition is not None:
         assume(condition)
@@ -191,7 +194,7 @@ def free_motion(linear: LinearCoefficients, first: Expr, initial: Expr, case: st
 
 
 def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relation]:
-    """Return the initial values of the motion."""
+    """Return the equations that state the initial values of the motion."""
     at_rest = {} if initial is None else {"start_rate": Relation(q.rate, "=", initial)}
     return {"start": Relation(q.symbol, "=", first), **at_rest}
 
@@ -223,14 +226,14 @@ def linear_equation(equation: Quantity, q: Coordinate) -> LinearCoefficients:
 
 
 def _left_of(equation: Quantity, q: Coordinate) -> Expr:
-    """Return the left side of the equation with zero on the right; for a solved rate, the rate minus its value."""
+    """Return the left side minus the right side of the equation; for a solved rate, the rate minus its value."""
     if equation.symbol in (q.acceleration, q.rate) and is_number(equation):
         return equation.symbol - explicit(equation.value)
     return residual_of("solution", equation)
 
 
 def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
-    """Reject other coordinates, rates and accelerations, which change with time as q does."""
+    """Reject an equation with other coordinates, rates or accelerations that change with time."""
     other = changes(left.xreplace({TIME: ONE}), [s for s in coordinates_of(equation) if s != q.symbol])
     if other is not None:
         message = f"`{equation.key}` is not an equation for only {q.symbol.name}: it has {other.name}, which moves too"
@@ -239,7 +242,7 @@ def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
 
 
 def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
-    """Return the kind of motion, and its condition if the letters leave the kind open."""
+    """Return the outcome, which names the kind of motion, and its condition if the symbols leave the kind open."""
     a, b, c = linear.a, linear.b, linear.c
     key = "the motion along a mode" if equation is None else f"`{equation.key}`"
     if case is not None and case not in CASES:
@@ -263,9 +266,9 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
     if known == "overdamped" and sign_known(c / a) == -1:
         return "runs_away", None
-    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # open, or zero by numbers
+    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero only for some numbers
         message = f"{key} is critically damped only if {linear.discriminant} = 0"
-        raise Rejected(Complaint("open-case", message, help="substitute that case first, with `put_in`"))
+        raise Rejected(Complaint("open-case", message, help="substitute this condition first, with `put_in`"))
     if known is not None:
         return known, None
     mark = "<" if case == "underdamped" else ">"
@@ -273,7 +276,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
 
 
 def _compared(left: Expr, mark: str, right: Expr) -> Relation:
-    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both are squares of positive letters."""
+    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions."""
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)
@@ -286,7 +289,7 @@ def _compared(left: Expr, mark: str, right: Expr) -> Relation:
 
 
 def _basis(linear: LinearCoefficients, sort: str) -> list[Expr]:
-    """Return the free motions: one for an equation of first order, else two."""
+    """Return the independent free motions: one for an equation of first order, otherwise two."""
     a, b, c, t = linear.a, linear.b, linear.c, TIME
     if linear.order == 1:
         return [exp(tidied(-c / b) * t)]
@@ -316,7 +319,7 @@ def _root_over(inside: Expr, below: Expr) -> Expr:
 
 
 def _particular(linear: LinearCoefficients, equation: Quantity) -> Expr:
-    """Return a particular motion under the driving force, a sum of those under each of its terms."""
+    """Return a particular motion under the driving force: the sum of the particular motions under its terms."""
     if linear.driven == 0:
         return ZERO
     terms = [_particular_of(linear, term, equation) for term in Add.make_args(_driving(linear.driven))]
@@ -354,7 +357,10 @@ def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
 
 
 def _of_power(linear: LinearCoefficients, power: Expr) -> Expr:
-    """Return a polynomial by undetermined coefficients, times t or t^2 if the free motion has constants or powers."""
+    """Return the motion under a polynomial force, a polynomial with undetermined coefficients.
+
+    This polynomial has the factor t if c = 0, or t^2 if b = 0 too.
+    """
     degree = power.as_poly(TIME).degree() if power.has(TIME) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2
     unknown = [stand_in(f"u_{n}") for n in range(degree + 1)]
@@ -369,7 +375,10 @@ def _of_power(linear: LinearCoefficients, power: Expr) -> Expr:
 
 
 def _under_exponential(linear: LinearCoefficients, k: Expr) -> Expr:
-    """Return 1/P(k), or t/P'(k) and t^2/P''(k) if k is a root of P = a s^2 + b s + c."""
+    """Return the response to e^(k t), divided by e^(k t): 1/P(k), where P(s) = a s^2 + b s + c.
+
+    If k is a single root of P, the response is t/P'(k); if k is a double root, the response is t^2/P''(k).
+    """
     for power, value in enumerate(
         (linear.a * k**2 + linear.b * k + linear.c, 2 * linear.a * k + linear.b, 2 * linear.a)
     ):
@@ -379,7 +388,7 @@ def _under_exponential(linear: LinearCoefficients, k: Expr) -> Expr:
 
 
 def _under_swing(linear: LinearCoefficients, swing: Expr) -> Expr:
-    """Return the forced oscillation; it grows at resonance, the frequency of an undamped free motion."""
+    """Return the forced oscillation; if the force has the frequency of an undamped free motion, it grows with time."""
     (angle,) = swing.args
     w = diff(angle, TIME)
     stiff, loss = tidied(linear.c - linear.a * w**2), tidied(linear.b * w)
@@ -409,7 +418,7 @@ def _excluded(linear: LinearCoefficients) -> Relation | None:
 
 
 def _accumulated(inside: Expr, equation: Quantity) -> Expr:
-    """Return an antiderivative by the time: of a power of a + b t, an exponential, a sine or a cosine."""
+    """Return the antiderivative with respect to time of a power of a + b t, an exponential, a sine or a cosine."""
     if inside == 1:
         return TIME
     base, power = inside.as_base_exp()
@@ -432,7 +441,7 @@ def _accumulated(inside: Expr, equation: Quantity) -> Expr:
 
 
 def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Expr | None) -> list[Expr]:
-    """Return the factors of the free motions for which value and rate have the initial values."""
+    """Return the factors of the free motions such that the motion has the initial value and rate."""
     rows = [[e.subs(TIME, 0) for e in basis]]
     right = [first - particular.subs(TIME, 0)]
     if initial is not None:
@@ -442,7 +451,7 @@ def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Ex
 
 
 def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: LinearCoefficients, sort: str) -> Expr:
-    """Write e^(-b t/2a) (C cos + D sin), with the common exponential as a factor."""
+    """Write the free motion as e^(-b t/2a) (C cos + D sin), with the common exponential as a factor."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
     inside = Add(*(presented(C) * (e / common) for C, e in zip(values, basis, strict=True)))
     inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=length)
@@ -450,7 +459,10 @@ def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: LinearCoefficie
 
 
 def _joined(free: Expr, particular: Expr) -> Expr:
-    """Write v_t (1 - e^(-t/T)) if the free motion is minus the particular motion at the start."""
+    """Add the free motion and the particular motion, in the shortest form.
+
+    If the two motions cancel at the start, the sum is written like v_t (1 - e^(-t/T)).
+    """
     if not particular.has(TIME) and particular != 0 and not free.is_Add:
         outside, inside = free.as_independent(TIME, as_Add=False)
         if is_zero(outside + particular):

@@ -1,7 +1,8 @@
 """Equations of motion to first order about an equilibrium, in any number of coordinates.
-M eta_ddot + G eta_dot + K eta = f(t), with the displacements eta and the driving forces f. The matrices are read off
-the equations of motion; the second route derives them from the kinetic energy of mass points and from the virtual work
-of all forces, including drag and given forces, to second order.
+
+The equations are M eta_ddot + G eta_dot + K eta = f(t), with the displacements eta and the driving forces f. The
+matrices are coefficients in the equations of motion. The second route derives the matrices from the kinetic energy of
+mass points and from the virtual work of all forces, including drag and given forces, to second order.
 """
 
 from __future__ import annotations
@@ -46,16 +47,16 @@ def linearised(
 ) -> Quantity | tuple[Quantity, ...]:
     """Equations of motion to first order in the displacements from equilibrium, M eta_ddot + G eta_dot + K eta = f(t).
 
-    motion   the equations, as `equations_of_motion` yields them; or one, for one coordinate
-    at       the equilibrium: as `equilibria` yields it, or `{theta: 0, phi: pi}`; by default all coordinates 0
-    key      the beginning of the keys: linearised_theta, one for each coordinate
-    Drag gives G; terms that depend only on the time, f, drive the motion. If a coordinate is not 0 at equilibrium, its
-    displacement is called eta; eta_1, eta_2, ... if there are several.
+    motion   the equations, as `equations_of_motion` yields them; or a single equation for one coordinate
+    at       the equilibrium: as `equilibria` yields it, or `{theta: 0, phi: pi}`; by default all coordinates are 0
+    key      the beginning of the keys, which are linearised_theta for the coordinate theta
+    Forces linear in the rates, such as drag, give G; terms f that depend only on the time drive the motion. If a
+    coordinate is not 0 at equilibrium, its displacement is called eta, or eta_1, eta_2, ... if there are several.
     Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
-    Outcomes: generic, displaced (some coordinate is not 0 at equilibrium), and with a drag or a driving force damped,
+    Outcomes: generic, displaced (some coordinate is not 0 at equilibrium), and with drag or a driving force damped,
     displaced_damped, driven, displaced_driven.
-    Errors: a force remains at that place; a value, or the equation of a coordinate, is missing; the coefficients change
-    in time.
+    Errors: a force remains at the given equilibrium; the value or the equation of a coordinate is missing; the
+    coefficients depend on the time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
     """
     if isinstance(motion, Quantity) and not isinstance(at, Mapping | Quantity):
@@ -84,7 +85,7 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
 
 
 def _if_linear(step: Step) -> str:
-    """Return the key of the equation that a step repeats, since linearising a linear equation leaves nothing out."""
+    """Return the key of the equation that a step repeats because this equation is already linear; otherwise empty."""
     roles = dict(step.roles)
     return str(roles["motion"].name) if "as_it_is" in roles else ""
 
@@ -182,8 +183,10 @@ def _one(
 
 
 def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common: Expr) -> Expr | None:
-    """Return the left side with sin(u) = u and cos(u) = 1 for angles that vanish at equilibrium; None if there are no
-    angles, or others."""
+    """Return the left side with sin(u) = u and cos(u) = 1 for angles u that vanish at equilibrium.
+
+    The result is None if there are no angles, or if an angle does not vanish at equilibrium.
+    """
     left = explicit(equation.value).residual / common
     angles = left.atoms(sin, cos)
     letters = {q.symbol for q in moving}
@@ -194,7 +197,7 @@ def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common:
 
 
 def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
-    """Return the line with small angles, before the higher orders are dropped."""
+    """Return the line of the equation with small angles, before the terms of higher order are dropped."""
     if small is None:
         return []
     letters = [letter for q in moving for letter in (q.symbol, q.rate, q.acceleration)]
@@ -208,7 +211,7 @@ def _functions_of(equation: Quantity, q: Coordinate, small: Expr | None) -> dict
 
 
 def _dropped(q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
-    """Return the terms of higher order than the first."""
+    """Return the terms of second and higher order if they are few enough for a sentence."""
     if small is None:
         return {}
     told: dict[str, tuple[Expr, Expr]] = {}
@@ -221,7 +224,7 @@ def _dropped(q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
 
 
 def _letters_of(rests: Sequence[Quantity]) -> dict[Symbol, Expr]:
-    """Return the symbols of the equilibrium values on the page, r_0."""
+    """Return the symbols that the page uses for the equilibrium values, such as r_0 for r."""
     found: dict[Symbol, Expr] = {}
     for rest in rests:
         names = [rest.symbol] if isinstance(rest.symbol, Symbol) else list(rest.symbol or ())
@@ -262,7 +265,7 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
 
 
 def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: Any) -> dict[Symbol, Expr]:
-    """Return a value for each coordinate; 0 for one that only occurs by its rates, which may have any value."""
+    """Return the equilibrium value of each coordinate; 0 for a coordinate of which only rates occur."""
     known = dict.fromkeys((q.symbol for q in moving), ZERO) if at is None else place_given(at)
     strange = [s for s in known if s not in {q.symbol for q in moving}]
     if strange:
@@ -272,7 +275,7 @@ def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: A
     for q in moving:
         if q.symbol not in known and any(value.has(q.symbol) for value in left):
             message = f"`linearised`: the value of {q.symbol.name} at equilibrium is unknown"
-            raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{q.symbol.name}: 0`"))
+            raise Rejected(Complaint("wrong-argument", message, help=f"add this value to `at`: `{q.symbol.name}: 0`"))
     return {q.symbol: known.get(q.symbol, ZERO) for q in moving}
 
 
@@ -287,13 +290,14 @@ def _check_exists(at: Any) -> None:
     sign = sign_known(exists.residual) if exists is not None else None
     if exists is not None and sign is not None and sign != (1 if exists.operator == ">" else -1):
         message = (
-            f"`{at.key}` exists only for {exists.left} {exists.operator} {exists.right}, which the values do not fulfil"
+            f"`{at.key}` exists only for {exists.left} {exists.operator} {exists.right}, "
+            "which the given values do not satisfy"
         )
         raise Rejected(Complaint("no-equilibrium", message, help="give other values, or another equilibrium"))
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
-    """Check that at rest only the driving forces remain in the equations at this place."""
+    """Check that at rest, at the given values, only driving forces remain in the equations."""
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:
         value = explicit(equation.value).residual
@@ -319,7 +323,7 @@ def lasting(value: Expr) -> Expr:
 def _coefficients(
     equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr], order: int
 ) -> MatrixBase:
-    """Return the coefficients of the accelerations, the rates, or the coordinates at equilibrium, for each equation."""
+    """Return the coefficients, at equilibrium, of the accelerations (order 2), the rates (1) or the coordinates (0)."""
 
     def entry(i: int, j: int) -> Expr:
         q = moving[int(j)].symbol
@@ -330,7 +334,10 @@ def _coefficients(
 
 
 def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> tuple[Coordinate, ...]:
-    """Return the coordinate if it is 0 at equilibrium, else eta; eta_1, eta_2, ... if there are several."""
+    """Return the displacement of each coordinate: the coordinate itself if it is 0 at equilibrium, otherwise eta.
+
+    Several such displacements are called eta_1, eta_2, ...
+    """
     away = [q for q in moving if place[q.symbol] != 0]
     names = {q: "eta" if len(away) == 1 else f"eta_{n + 1}" for n, q in enumerate(away)}
     return tuple(Coordinate(scalar(names[q]), q.kind) if q in names else q for q in moving)
@@ -344,7 +351,8 @@ def _of_second_order(
     eta: Sequence[Coordinate],
 ) -> Relation:
     """Return the same equation from mass points and forces: momentum and generalised force, differentiated at rest.
-    A kinetic energy does not suffice: with cyclic coordinates eliminated by their momenta, it does not give the forces.
+
+    The kinetic energy does not suffice, because it does not give the forces if cyclic coordinates are eliminated.
     """
     matter, q = equations[i].needed(Matter), moving[i]
     momentum = explicit(matter.momentum_along(q.symbol))

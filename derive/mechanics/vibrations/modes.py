@@ -1,7 +1,7 @@
 """Normal modes: motions in which all coordinates oscillate with one frequency; their frequencies and shapes.
 
-Linear equations M eta_ddot + K eta = 0 have solutions eta = a cos(omega t) where det(K - omega^2 M) = 0. A root that is
-zero belongs to a free motion, a negative root to a displacement that grows.
+Linear equations M eta_ddot + K eta = 0 have the solutions eta = a cos(omega t) if det(K - omega^2 M) = 0. A root
+omega^2 = 0 belongs to a free motion, and a negative root belongs to a displacement that grows.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ from derive.steps.step import Level, Quantity, is_zero, require_kind
 __all__ = ["beats", "normal_modes", "period"]
 
 ZERO = Integer(0)
-LETTERS = ("omega", "Omega")  # of a frequency: the second if the first is given
+LETTERS = ("omega", "Omega")  # symbols of a frequency: the second is used if the first is a given quantity
 LETTERS_OF_EXPONENT = ("s", "lambda", "sigma", "p")
 
 
@@ -56,19 +56,22 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
 
     linear   the equations, as `linearised` yields them
     key      the beginning of the keys, if the page has other modes; then give a `symbol` too
-    Keys: characteristic_equation; frequency_1, frequency_2, ... from the least; mode_1, mode_2, ... the shapes; only
-    their ratios have a meaning. For one coordinate there is only `frequency`, omega_0, by `frequency_squared`.
-    With forces linear in the rates that do no work, shapes are motions, cosines and sines; with drag there are decay
-    rates, decay_1, ..., and a frequency for each quadratic factor, if the determinant has such factors.
-    Second route: the motion substituted in the linear equations; the quotient of stiffness and mass in that shape
-    (Rayleigh); the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
-    Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
-    the letters); if two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
-    conditional_repeated; ordered, ordered_part (no formula: a root by its place); of shapes: in_phase, opposite,
-    alone (the other is at rest), generic, uniform (free motion), departing (growing), any_of_several (repeated); of the
+    Keys: characteristic_equation; frequency_1, frequency_2, ... in ascending order; mode_1, mode_2, ... for the shapes,
+    of which only the ratios of the entries have a meaning. For one coordinate the only key is `frequency`, and
+    `frequency_squared` determines omega_0.
+    With gyroscopic forces, which are linear in the rates and do no work, the modes are motions: cosines and sines. With
+    drag the keys are decay_1, decay_2, ... for the decay rates, and a frequency for each quadratic factor of the
+    determinant.
+    Second route: the motion satisfies the linear equations; omega^2 is Rayleigh's quotient of stiffness and mass for
+    the shape; the sum of all omega^2 is the trace of M^-1 K; the shapes are orthogonal with respect to M.
+    Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (the sign of omega^2
+    depends on the symbols); if two or more modes have this frequency: oscillating_repeated, growing_repeated,
+    free_repeated, conditional_repeated; ordered, ordered_part (a numbered root without a formula); of shapes: in_phase,
+    opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing (growing),
+    any_of_several (repeated); of the
     determinant: several, one (coordinate).
-    Errors: the roots have no closed form, and letters have no numbers; with drag the modes do not separate; too many
-    letters.
+    Errors: the roots have no closed form, and some symbols have no numbers; with drag the modes do not separate; too
+    many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     """
     together = together_for("normal_modes", linear)
@@ -81,7 +84,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     letter = scalar(symbol if symbol and len(linear) > 1 else free)
     if letter.name in given:
         message = f"`normal_modes` would call the frequency {letter}, but {letter} denotes a given quantity"
-        other = Spelled('give another letter, `symbol="Omega"`', "use another letter")
+        other = Spelled('give another symbol, `symbol="Omega"`', "use another symbol")
         raise Rejected(Complaint("letter-clash", message, help=other))
     if not together.is_conservative:
         return TurningModes(linear, together.of_kind(Gyroscopic), letter, start).found()
@@ -116,7 +119,7 @@ def _characteristic(equations: Equations[Conservative]) -> Quantity:
     factored = equations.system.written(letter).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
-        """Compare with the factors of the amplitudes after substituting eta = a cos(omega t) in the equations."""
+        """Compare with the factors of the amplitudes after substituting eta = a cos(omega t) into the equations."""
         return found, Relation(expanded_by_rows(factors_of_amplitudes(linear, cos(letter * T))), "=", 0)
 
     return establish(
@@ -133,8 +136,10 @@ def _characteristic(equations: Equations[Conservative]) -> Quantity:
 
 
 def _drift(linear: Sequence[Quantity], root: CharacteristicRoot) -> dict[str, Any]:
-    """Return the residuals of the equations of motion for a uniform motion along a zero mode, if all vanish: then no
-    force acts to any order."""
+    """Return the residuals of the full equations of motion for a uniform motion along a zero mode, if all vanish.
+
+    In this case no force acts to any order; otherwise the result is empty.
+    """
     if root.sign != 0:
         return {}
     time = stand_in("s")
@@ -211,7 +216,7 @@ def _frequency(equations: Equations[Conservative], characteristic: Quantity, n: 
 
 @lru_cache(maxsize=8)  # the same for all frequencies of a system
 def _trace(mass: MatrixBase, stiffness: MatrixBase) -> Expr:
-    """Return the trace of M^-1 K, as the sum of K_ij times the cofactor of M_ij, over det M."""
+    """Return the trace of M^-1 K: the sum of K_ij times the cofactor of M_ij, divided by det M."""
     size = range(mass.shape[0])
     cofactors = (stiffness[i, j] * mass.cofactor(i, j) for i in size for j in size if stiffness[i, j] != 0)
     return tidied(Add(*cofactors) / mass.det())
@@ -247,7 +252,7 @@ def _shape(
     drift = _drift(linear, root)
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Substitute the motion in the linear equations, at any time."""
+        """Substitute the motion into the linear equations, at any time."""
         w = stand_in("w", positive=True)
         course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
         square = {w**2: -root.value if root.sign == -1 else root.value}
@@ -306,9 +311,9 @@ PERIOD = Rule(
 def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quantity:
     """Period of an oscillation, tau = 2 pi/omega.
 
-    of   its angular frequency, 1/s
-    Check: after that time, and not after half of it, cos(omega t) and its rate have the same values again.
-    Errors: this is not an angular frequency of an oscillation.
+    of   the angular frequency of the oscillation, 1/s
+    Check: after one period, and not after half a period, cos(omega t) and its rate have the same values again.
+    Errors: `of` is not the angular frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 5.2.
     """
     require_kind("period", "of", of, "angular speed")
@@ -317,7 +322,7 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
         raise Rejected(Complaint("no-oscillation", f"`{of.key}` is not the frequency of an oscillation"))
 
     def same_again(found: Expr) -> tuple[Expr, Expr]:
-        """Check that the phase increases by one full turn: its cos and sin, and the cos of its half."""
+        """Check that the phase increases by one full turn, with its cosine and sine and the cosine of half of it."""
         turn = tidied(of.value * found)
         u, v = (stand_in(name) for name in ("u", "v"))
         return cos(turn) + u * sin(turn) + v * cos(turn / 2), 1 - v
@@ -346,10 +351,10 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
     """Frequency of the beats of two oscillations of the same amplitude, omega_beat = omega_2 - omega_1.
 
     slow, fast   the angular frequencies of two modes, 1/s
-    cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2) cos((omega_1 + omega_2) t/2), whose size rises and
-    falls with the difference.
-    Check: the sum of the two oscillations is that product, at any time.
-    Errors: the first is faster, or the two are the same; one is not the frequency of an oscillation.
+    cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2) cos((omega_1 + omega_2) t/2); the amplitude of this
+    product rises and falls with the frequency omega_2 - omega_1.
+    Check: the sum of the two oscillations is this product, at any time.
+    Errors: the first frequency is greater, or both are equal; an input is not the frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
     """
     for role, each in (("slow", slow), ("fast", fast)):
@@ -381,7 +386,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
 )
 def _in_results(frequencies: Sequence[Quantity], key: str, symbol: str = "omega_beat") -> Quantity:
     if len(frequencies) != 2:
-        message = f"`beats` needs two frequencies, but these are {len(frequencies)}"
+        message = f"`beats` needs two frequencies, but {len(frequencies)} are given"
         raise Rejected(Complaint("wrong-argument", message))
     slow, fast = frequencies
     return checked(beats)(slow, fast, symbol, key)

@@ -1,4 +1,4 @@
-"""Small oscillations of one coordinate about an equilibrium: their frequency, by the linear equation of motion."""
+"""The frequency of small oscillations of one coordinate about an equilibrium, from the linear equation of motion."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["frequency", "frequency_and_growth", "frequency_squared"]
 
-SHORT = 4  # a condition with more terms is not stated
+SHORT = 4  # number of terms up to which a condition is stated
 
 
 FREQUENCY_SQUARED = Rule(
@@ -47,8 +47,8 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     """Square of the frequency of small oscillations, omega_0^2 = k/m, in 1/s^2.
 
     linear   the equation m q_ddot + k q = 0, as `linearised` yields it
-    Check: q = cos(omega_0 t) substituted back into the equation.
-    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
+    Check: q = cos(omega_0 t) is substituted back into the equation.
+    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
     q = linear.needed(OfCoordinate).coordinate.symbol
@@ -56,7 +56,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     stiffness, mass = spread(diff(left, q)), spread(diff(left, rate(q, 2)))
     damping = diff(left, rate(q))
     if mass == 0 or damping != 0 or (left - stiffness * q - mass * rate(q, 2)).expand() != 0:
-        message = f"`frequency_squared` needs an equation m q_ddot + k q = 0, which `{linear.key}` is not"
+        message = f"`frequency_squared` needs an equation m q_ddot + k q = 0, but `{linear.key}` is not one"
         raise Rejected(Complaint("wrong-argument", message))
     for role, coefficient in (("stiffness", stiffness), ("inertia", mass)):
         require_constant("frequency_squared", role, coefficient)
@@ -112,7 +112,7 @@ def _squared_form(value: Expr) -> Expr:
 
 
 def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:
-    """Return the outcome by the sign of omega_0^2 = k/m, where the equilibrium exists."""
+    """Return the outcome, which depends on the sign of omega_0^2 = k/m where the equilibrium exists."""
     value = tidied(value)
     if value == 0:
         return "neutral"
@@ -123,7 +123,7 @@ def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -
 
 
 def _turned(value: Expr) -> Expr:
-    """Return the negative, M g (a/2 - R) of M g (R - a/2): the sign goes into a sum with a minus sign, if any."""
+    """Return minus the value; a sum with a minus sign takes up the sign: M g (a/2 - R) for M g (R - a/2)."""
     factors = list(Mul.make_args(value))
     sums = [
         i for i, f in enumerate(factors) if isinstance(f, Add) and any(t.could_extract_minus_sign() for t in f.args)
@@ -135,7 +135,7 @@ def _turned(value: Expr) -> Expr:
 
 
 def told_where_positive(square: Expr) -> dict[str, tuple[Relation, Relation]]:
-    """Return the condition for a positive square of a frequency, if it is short."""
+    """Return the condition under which the square of a frequency is positive, if this condition is short."""
     has_roots = any(not power.exp.is_Integer for power in square.atoms(Pow))
     if has_roots or len(Add.make_args(square.expand())) > SHORT:
         return {}
@@ -151,10 +151,10 @@ def frequency(
 ) -> Quantity:
     """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); if the square is negative, the growth rate.
 
-    squared     as `frequency_squared` yields it, 1/s^2
+    squared     the square of the frequency, as `frequency_squared` yields it, 1/s^2
     condition   whether the sentence states the condition for an oscillation
-    stands_for  keys of the steps that would also exist if the sign of the square were open
-    Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
+    stands_for  keys of the steps that would also exist if the sign of the square were unknown
+    Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and the result is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the growth rate kappa).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
@@ -166,11 +166,11 @@ def frequency_and_growth(
 ) -> tuple[Quantity, Quantity]:
     """Frequency of small oscillations, omega_0, if the square is positive; growth rate, kappa, if it is negative.
 
-    squared     as `frequency_squared` yields it, 1/s^2
-    keys        of the two; if the sign of the square is known, one step replaces both
+    squared     the square of the frequency, as `frequency_squared` yields it, 1/s^2
+    keys        the keys of the frequency and of the growth rate; if the sign of the square is known, one step is both
     condition   as for `frequency`
     Check: as for `frequency`.
-    Outcomes: those of `frequency`; next to a conditional one, growing for the growth rate.
+    Outcomes: those of `frequency`; if the frequency is conditional, growing for the growth rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
     first, second = keys
@@ -202,8 +202,9 @@ def _rate(
     stands_for: Sequence[str] = (),
 ) -> Quantity:
     """Frequency of the oscillation, or growth rate kappa.
-    Check: the motion substituted back; its sign.
-    Outcomes: stable, conditional, neutral, unstable, growing (unstable if the square is negative, which is open).
+
+    Check: the motion is substituted back into its equation; the result is not negative.
+    Outcomes: stable, conditional, neutral, unstable, growing (the growth rate if the sign of the square is unknown).
     Source: that of `frequency`.
     """
     known = squared.needed(SquareOf)
@@ -220,7 +221,10 @@ def _rate(
         return left.expand().subs(trial**2, found**2), Integer(0)
 
     def positive_root(found: Expr) -> tuple[Expr, Expr]:
-        """Check the sign of the rate at one point: the motion leaves it open; it changes only where the root is 0."""
+        """Check the sign of the result for one set of numbers.
+
+        The motion does not determine this sign, and the sign changes only where the result is zero.
+        """
         letters = sorted(squared.value.free_symbols, key=str)
         drawn = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
         there = fulfilling(drawn)

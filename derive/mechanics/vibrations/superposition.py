@@ -1,6 +1,8 @@
-"""The motion of coupled coordinates from its initial values: a sum of normal modes, with amplitudes from these values.
-Shapes are orthogonal with respect to M, so the motion along the shape a is that of one oscillator with the mass a.M a,
-the stiffness a.K a and, if drag does not mix the modes, the drag a.C a; its initial value is a.M eta(0)/(a.M a).
+"""The motion of coupled coordinates from their initial values, as a sum of normal modes.
+
+The shapes are orthogonal with respect to M. So the motion along each shape a is the motion of one oscillator, with the
+mass a.M a, the stiffness a.K a and, if drag does not mix the modes, the drag a.C a. Its initial value is
+a.M eta(0)/(a.M a).
 """
 
 from __future__ import annotations
@@ -38,7 +40,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ExcitedMode:
-    """One mode in a motion: its shape, the initial values of its oscillator, and its frequency if that is a step."""
+    """One mode in a motion: its shape, the initial values of its oscillator, and its frequency if a step derives it."""
 
     column: MatrixBase
     first: Expr
@@ -52,7 +54,7 @@ class ExcitedMode:
         return bool(self.first != 0 or self.initial != 0)
 
     def course(self, w: Expr) -> Expr:
-        """Return cosine and sine, or the corresponding functions for a mode that is free or grows."""
+        """Return the motion of the oscillator: cosine and sine, or the functions for a free, growing or damped mode."""
         if self.frequency is None:
             return self.damped
         if self.sign == 0:
@@ -70,14 +72,14 @@ def motions_by_modes(
 ) -> tuple[Quantity, ...]:
     """Motion of all coordinates from their start, eta(t) = sum of a_n (A_n cos(omega_n t) + B_n sin(omega_n t)).
 
-    modes        as `normal_modes` yields them
+    modes        the modes, as `normal_modes` yields them
     start        the value of each coordinate at t = 0; by default its equilibrium value
-    start_rate   its rate at t = 0; 0 by default
-    case         `underdamped`, `critically_damped` or `overdamped`, if the letters leave the case open
+    start_rate   the rate of each coordinate at t = 0; 0 by default
+    case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
     Keys: of_t and the name of the coordinate; or `key` in place of of_t.
-    Check: substituted back into all linear equations; the values and the rates at t = 0.
+    Check: the motion is substituted back into all linear equations; it has the given values and rates at t = 0.
     Outcomes: generic, zero (this coordinate does not move).
-    Errors: drag mixes the modes; gyroscopic forces act; an initial value that is not constant.
+    Errors: drag mixes the modes; gyroscopic forces act; an initial value is not constant.
     Source: Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*,
     section 6.3.
     """
@@ -148,7 +150,7 @@ def _separates(drag: MatrixBase, columns: Sequence[MatrixBase]) -> bool:
 
 
 def _damped(together: Linear, column: MatrixBase, own: Sequence[Expr], case: str | None) -> Expr:
-    """Return the motion of the oscillator along a shape."""
+    """Return the damped motion of the oscillator along a shape."""
     a, b, c = (tidied((column.T * each * column)[0]) for each in (together.mass, together.turning, together.stiffness))
     return linear_motion.free_motion(linear_motion.LinearCoefficients(a, b, c, ZERO), own[0], own[1], case)
 
@@ -248,8 +250,10 @@ def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) ->
 
 
 def _as_product(excited: Sequence[ExcitedMode], i: int) -> Expr | None:
-    """A cos(w_1 t) + A cos(w_2 t) = 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), by the letters of the frequencies:
-    the form that shows the beats."""
+    """Write A cos(w_1 t) + A cos(w_2 t) as 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), which shows the beats.
+
+    The product contains the symbols of the frequencies. The result is None for any other sum.
+    """
     plain = [s for s in excited if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
     if len(excited) != 2 or len(plain) != 2:
         return None
@@ -267,14 +271,14 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 @in_results(
     "solution",
     "the motion, from a linear equation; from `normal_modes` the motion of all coordinates, where `both_x_1` is "
-    "one if the result is called `both`",
+    "the motion of `x_1` if the result is called `both`",
     one_of=("start", "values"),
     excludes=(("values", "for"), ("values", "start"), ("values", "start_rate")),
     motions="solution: a linear equation of motion, or `normal_modes`",
     q="for: a coordinate",
     start="start",
     start_rate="start_rate: 0 by default",
-    values="values: from `normal_modes`, in place of these three: `{x_1: A, x_2_dot: v}`, all else zero",
+    values="values: from `normal_modes`, in place of these three: `{x_1: A, x_2_dot: v}`, all other values zero",
     case="case",
 )
 def _in_results(
@@ -287,7 +291,7 @@ def _in_results(
     values: Values = NONE,
     case: str | None = None,
 ) -> Quantity | tuple[Quantity, ...]:
-    """Return the motion of one coordinate from its start, or of all coordinates by their modes, from their values."""
+    """Return the motion of one coordinate, or the motions of all coordinates as sums of modes, from initial values."""
     if start is None and len(motions) > 1:
         return checked(motions_by_modes)(motions, *_start_by_name(values, coordinates), case, key)
     for argument, name, value in (("q", "for", q), ("start", "start", start)):
@@ -304,7 +308,7 @@ def _in_results(
 def _start_by_name(
     values: Mapping[str, Expr], coordinates: Mapping[str, Coordinate]
 ) -> tuple[dict[Coordinate, Expr], dict[Coordinate, Expr]]:
-    """Return the initial values of the coordinates and of the rates."""
+    """Return the initial values of the coordinates and the initial values of the rates."""
     places = {coordinates[name]: value for name, value in values.items() if name in coordinates}
     rates = {q: value for name, value in values.items() for q in coordinates.values() if q.rate.name == name}
     known = {*(q.symbol.name for q in places), *(q.rate.name for q in rates)}

@@ -42,7 +42,7 @@ def test_the_tension_at_rest(tmp_path: Path) -> None:
     [
         (("  potential: k*x**2/2\n", ""), "do not determine Q"),
         (("k*x**2/2", "k*x**4/(4*d**2)"), "linear"),
-        (("answer: equilibria", "answer: stability"), "keeps the constraint x + y = d"),
+        (("answer: equilibria", "answer: stability"), "maintains the constraint x + y = d"),
     ],
 )
 def test_a_rest_that_is_not_told_is_refused(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
