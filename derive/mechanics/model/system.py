@@ -282,9 +282,8 @@ class System:
         self.known: Mapping[Symbol, Expr] = known
         self.eliminated = tuple(known)
         made = (_as_part(part) for part in parts if not isinstance(part, Quantity))
-        self._described = tuple(
-            sorted(made, key=lambda part: isinstance(part, MovingBody))
-        )  # sums begin with particles
+        # sums over all masses begin with the particles
+        self._described = tuple(sorted(made, key=lambda part: isinstance(part, MovingBody)))
         self.put_in = tuple(c for c in self.conditions if _is_put_into(c, self._described))
         self.parts = tuple(part.moved(known) for part in self._described) if known else self._described
         self.particles = self._of(Particle)
