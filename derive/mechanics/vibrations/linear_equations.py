@@ -62,7 +62,7 @@ def together_for(verb: str, linear: Sequence[Quantity]) -> Linear:
     """
     together = linear[0].needed(Linear)
     if len(linear) != len(together.displacements) or any(each.fact(Linear) != together for each in linear):
-        message = f"`{verb}` needs all equations of one call of `linearised`"
+        message = f"`{verb}` needs all the equations of one call of `linearised`"
         raise Rejected(Complaint("wrong-argument", message))
     if any(force != 0 for force in together.driven):
         message = f"`{verb}` needs equations without a driving force, but a force depends on the time"
