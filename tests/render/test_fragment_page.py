@@ -53,6 +53,6 @@ def test_a_plain_article_with_these_packages_typesets_it(tmp_path: Path, name: s
     mine = r"\begin{figure}\caption{Mine.}\end{figure}"
     document = ["\\documentclass{article}", *packages, "\\begin{document}", mine, text, "\\end{document}"]
     target, log = tmp_path / "mine.pdf", tmp_path / "log"
-    typeset("\n".join(document), target, chosen_engine(None), beside=found.files, log=log)
+    typeset("\n".join(document), target, chosen_engine(None), included=found.files, log=log)
     said = " ".join(page.extract_text() for page in PdfReader(target).pages)
     assert said.count("Figure 1") == 1 and "??" not in said
