@@ -66,7 +66,7 @@ LAMBDA, OMEGA, S = (
     Dummy("lambda"),
     Dummy("omega", positive=True),
     Dummy("s", real=True),
-)  # the roots of the three classes
+)  # the symbol of the root in each of the three classes
 LARGEST, LETTERS = 12, 40  # limits of a conservative system: coordinates; coordinates times symbols of the matrices
 LARGEST_WITH_RATES = 4  # limit on the coordinates of any other system
 FINEST = 60  # the angles a pi/2b of a uniform chain are tried for b below this number
@@ -503,7 +503,7 @@ class Gyroscopic(LinearSystem):
         return self._mirrored(factor) if factor.mirrored else self._by_squares(factor)
 
     def _mirrored(self, factor: Factor) -> list[CharacteristicRoot]:
-        """The frequencies |omega| for a omega^2 - b omega + c = 0, with omega = (b +- sqrt(b^2 - 4 a c))/2a."""
+        """The frequencies |omega| of the roots omega = (b +- sqrt(b^2 - 4 a c))/2a of a omega^2 - b omega + c = 0."""
         a, minus_b, c = factor.coefficients
         real, both_ways = self._is_real(factor), self.sign(tidied(c))
         middle, root = tidied(-minus_b), sqrt(factor.discriminant)

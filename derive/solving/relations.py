@@ -17,7 +17,7 @@ from derive.steps.signs import sign_for_all, sign_known
 from derive.steps.step import Quantity
 
 TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
-LARGEST_PRODUCT = 60  # number of operations of a sum that is tested for being a product
+LARGEST_PRODUCT = 60  # number of operations up to which a sum is tested for being a product
 
 
 class Isolated(NamedTuple):

@@ -46,7 +46,7 @@ from derive.steps.record import assume
 from derive.steps.signs import sign_for_all
 
 HIGHEST = 6  # highest power of a coordinate that is solved
-LARGEST_PRODUCT = 60  # number of operations of a sum that is tested for being a product
+LARGEST_PRODUCT = 60  # number of operations up to which a sum is tested for being a product
 ZERO, ONE = Integer(0), Integer(1)
 
 
@@ -79,7 +79,7 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros of a function; for a periodic function only zeros about three half turns to each side.
+    """All real zeros of a function; for a periodic function only the zeros within about three half turns on each side.
 
     A product of sines and cosines that cannot be solved is written as a sum and tried again.
     """

@@ -108,7 +108,7 @@ def conserved(claim: Claim) -> Verdict | None:
 
 
 def kept(claim: Claim) -> Verdict | None:
-    """Test whether an energy keeps its initial value."""
+    """Test whether an energy stays equal to its initial value."""
     return _unchanging(claim, explicit(claim.value).left) if isinstance(claim.value, Relation) else None
 
 

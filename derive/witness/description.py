@@ -75,7 +75,7 @@ class Drag:
 
 @dataclass(frozen=True)
 class Charge:
-    """A charge in C in uniform fields; in a plane the magnetic field has one component, towards the reader."""
+    """A charge, in C, in uniform fields; in a plane the magnetic field has one component, towards the reader."""
 
     charge: Expr
     place: Vector

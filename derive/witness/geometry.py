@@ -56,7 +56,7 @@ class Place:
 
 @dataclass(frozen=True)
 class PlacedBody:
-    """The centre of mass of a body, and its axes by their numbers."""
+    """The centre of mass of a body, and the body axes, each under its number."""
 
     centre: Place
     axes: dict[int, Place]
@@ -129,7 +129,11 @@ def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], 
 
 
 def _points(state: State) -> Numbers:
-    """The state, a complex step along each coordinate, one along the motion, and six more ahead and behind."""
+    """The points at which formulas are evaluated.
+
+    These are the state itself, the state with a complex step along each coordinate, the state with a complex step along
+    the motion, and six states ahead and behind, also with a complex step along the motion.
+    """
     n = len(state.q)
     here, along = np.append(state.q, state.t), np.append(state.v, 1.0)
     points = np.tile(here.astype(complex)[:, None], (1, n + 8))

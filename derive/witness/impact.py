@@ -38,7 +38,7 @@ def _ends(start: Force | None, end: Force) -> list[Force]:
 
 @dataclass(frozen=True)
 class After:
-    """The rates just after an impact, and the impulses by their symbols."""
+    """The rates just after an impact and the impulses of the impact, each under its symbol."""
 
     rates: dict[Symbol, float]
     impulses: dict[Symbol, float]

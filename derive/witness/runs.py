@@ -23,7 +23,7 @@ from derive.witness.trial import Contradiction, Given, Trial
 
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
-MOMENTS, WATCHED = 12, 80  # least number of steps, without and with an event that may be short
+MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event; with an event that may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
 MANY = 6  # motions from one start; the values of the symbols may decide whether a motion reaches a position
@@ -32,7 +32,7 @@ Event = Callable[[State], float]
 
 
 class TooLong(Exception):
-    """The motion needs more evaluations than one test is allowed."""
+    """Reports a motion that needs more evaluations than one test is allowed."""
 
 
 class Run:
@@ -257,7 +257,7 @@ def period(claim: Claim) -> Verdict | None:
 
 
 INTEGRATED = "integrated"
-LARGE = 0.8  # an amplitude
+LARGE = 0.8  # amplitude of a large oscillation
 TIMED = 1e-7  # accuracy of the period of a simulated motion
 
 

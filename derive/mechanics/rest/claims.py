@@ -106,7 +106,10 @@ def several(facts: Judged) -> bool:
 
 
 def under_its_condition(facts: Judged) -> bool:
-    """Whether the equilibrium exists exactly where the condition holds, which must be true for only some numbers."""
+    """Whether the equilibrium exists exactly where the condition holds.
+
+    Some trial numbers must satisfy the condition, and some must not.
+    """
     if "exists" not in facts.inputs:
         return False
     exists, letters = facts.inputs["exists"], _letters(facts)
@@ -264,7 +267,7 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """Whether no order decides: all derivatives vanish, or the sign of the first nonzero, stated one is unknown."""
+    """Whether no order decides: all derivatives vanish, or the stated first nonzero derivative has an unknown sign."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 
@@ -367,7 +370,7 @@ DIGITS_LEFT = 10**40  # largest ratio of an energy to its difference; values hav
 
 
 def is_its_derivative(facts: Judged, outcome: str) -> bool:
-    """Whether the result is the derivative of the potential energy that its symbol shows."""
+    """Whether the result is the derivative of the potential energy that the symbol of the result shows."""
     of, q, order = facts.symbol.args
     potential, found = facts.quantities["potential"], explicit(facts.result)
     energy = explicit(potential.value)
@@ -550,7 +553,7 @@ def falls_along(facts: Judged, _: Any) -> bool:
 
 
 def at_its_place(facts: Judged, state: Any) -> bool:
-    """Whether each coordinate has the value at which the energy is judged, or the symbol of the equilibrium."""
+    """Whether the stated equation gives each coordinate its equilibrium value, or the symbol of the equilibrium."""
     moving, place = facts.inputs["coordinates"], facts.inputs["place"]
     if state.operator != "=":
         return False

@@ -33,14 +33,21 @@ class RestOf(Fact):
 
 
 def matter_behind(potential: Quantity) -> Matter | None:
-    """Return the mass points and forces behind a potential energy; the momenta are constant if it is effective."""
+    """Return the mass points and forces behind a potential energy.
+
+    For an effective potential energy, some coordinates are eliminated with constant momenta.
+    """
     seen, own = potential.fact(SeenWith), potential.fact(Matter)
     return seen.matter if seen is not None else own if own is not None and own.is_known else None
 
 
 @dataclass(frozen=True)
 class Shape(Fact):
-    """The potential energy behind a curvature, the equilibrium value `place`, and a symbol's value on the boundary."""
+    """The curvature of a potential energy at an equilibrium.
+
+    place    the equilibrium value of the coordinate
+    border   a symbol and the value for which the curvature vanishes; None if there is no such boundary
+    """
 
     missing = "is not the curvature at an equilibrium"
     potential: Quantity

@@ -106,7 +106,8 @@ def frequency_squared_about(
     of        a potential energy, an effective potential energy, or a Lagrangian, J
     at        an equilibrium of `of`, as `equilibria` yields it; or, for an effective potential energy, the condition of
     a steady motion of the same Lagrangian, as `steady_motion` yields it
-    without   the symbol that the condition of the steady motion eliminates; by default the result is the shortest
+    without   the symbol that the condition of the steady motion eliminates; by default the symbol that gives the
+    shortest result
     During the oscillation, the momenta of the cyclic coordinates have the values of the steady motion.
     Second route: d'Alembert's principle for all coordinates, including the cyclic ones, to first order in the
     displacements: the determinant of its equations vanishes for oscillations of this frequency.

@@ -37,7 +37,7 @@ from derive.witness.facts import Around, Rest
 __all__ = ["linearised"]
 
 ZERO = Integer(0)
-MOST_TOLD = 2  # terms of higher order that a sentence can list
+MOST_TOLD = 2  # largest number of terms of higher order that a sentence can list
 
 
 def linearised(
