@@ -101,7 +101,7 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
         current_run.reset(token)
 
 
-QUESTIONS: dict[str, Callable[..., Any]] = {}  # the functions by which a verb asks the record, by name
+QUESTIONS: dict[str, Callable[..., Any]] = {}  # name -> function with which a verb queries the record
 A = TypeVar("A")
 
 

@@ -150,7 +150,7 @@ class Rule:
         if not _names_its_point(facts):
             return Doubt("it names a point that the result is not about")
         if not _names_its_axis(facts):
-            return Doubt("it names an axis that the result is not about")
+            return Doubt("it names an axis other than the axis of the result")
         if not _letter_of_its_axis(facts):
             return Doubt("its letter has the index of another axis")
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)

@@ -315,7 +315,7 @@ def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
 
 
 def _stays(near: Neighbourhood) -> bool:
-    """Whether the system is not driven, so that it stays at the equilibrium at any time."""
+    """Whether the system is undriven, so its equilibrium is the same at all times."""
     at_times = [near.trial.dynamics.response(replace(near.state, t=t)) for t in (0.0, 0.3)]
     return all(np.max(np.abs(each.a[list(near.free)]), initial=0.0) < STAYS * 10 for each in at_times)
 

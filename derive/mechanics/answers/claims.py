@@ -465,7 +465,7 @@ def as_asked_for(facts: Judged, outcome: str) -> bool:
 def as_asked(facts: Judged, outcome: str) -> bool:
     is_letter = isinstance(facts.inputs["unknown"], Symbol)
     numbered = facts.inputs["count"] == 1 or facts.symbol != facts.inputs["unknown"]
-    if not is_letter:  # the value of a cosine is called a cosine
+    if not is_letter:  # the symbol of the root must say that it is a cosine
         numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
     limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
     held = explicit(facts.inputs["equation"]).has(explicit(facts.inputs["unknown"]))

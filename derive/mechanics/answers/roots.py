@@ -76,7 +76,7 @@ def roots(
     values     quantities for letters of the coefficients, substituted after the formula for both roots
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
                separate step follows for each root, the smaller in absolute value first. A single root, or the
-               statement that there is no root, counts for all keys
+               statement that there is no root, is returned for all keys
     keys       keys of the steps; by default the letter, with _1, _2 if there are several
     key        the beginning of the keys in place of the letter
     symbols    the letters of the roots; by default the letter of the unknown, with _1, _2 if there are several

@@ -50,7 +50,7 @@ class PlacedBody:
         return not isinstance(self.turned, Axes)
 
     def seen_in_space(self, arm: ImmutableMatrix) -> Location:
-        """Convert a vector from body axes to the axes of space or of the plane."""
+        """Convert a vector from body axes to axes fixed in space or in the plane."""
         if isinstance(self.turned, Axes):
             return Location(tuple(self.turned.in_space * arm))
         j, k = self.in_plane

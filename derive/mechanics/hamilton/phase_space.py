@@ -97,7 +97,8 @@ def rates_by_momenta(
 
 
 def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Solve for the rates: linear equations in blocks of coupled rates, all other equations by one quadratic form."""
+    """Solve for the rates: linear equations block by block, where a block has the rates that are coupled; all other
+    equations together, by a quadratic form."""
     matrix = Matrix([[derivative(explicit(p), v) for v in rates] for p in momenta_of.values()])
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])

@@ -42,7 +42,7 @@ MOST = 8  # greatest number of unknowns in one linear system
 
 @dataclass(frozen=True)
 class _Problem:
-    """Linear equations for accelerations and multipliers: equations of motion, and constraints kept by forces.
+    """Linear equations for accelerations and multipliers: equations of motion, and constraints enforced by forces.
 
     lagrangian   the Lagrangian of all equations
     equations    the equations of motion, one for each coordinate
@@ -148,12 +148,12 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     Second route: as `accelerations`.
     Outcomes: generic (the multiplier is the constraint force), multiplier (the gradient of f with respect to the
     position of the particle does not have length 1; the sentence states its length), zero.
-    Errors: no constraint is kept by a force; also the errors of `accelerations`.
+    Errors: no constraint is enforced by a force; also the errors of `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("multipliers", equations, keeping)
     if not problem.constraints:
-        message = "`multipliers` needs constraints kept by forces, but this system has none"
+        message = "`multipliers` needs constraints enforced by forces, but this system has none"
         raise Rejected(
             Complaint(
                 "wrong-argument",

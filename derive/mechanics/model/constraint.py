@@ -1,4 +1,4 @@
-"""Constraints that forces keep: between coordinates, f(q, t) = c, or linear in the rates of coordinates."""
+"""Constraints enforced by forces: between coordinates, f(q, t) = c, or linear in the rates of coordinates."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class Constraint(Part):
-    """A constraint f = c, kept by a force with the virtual work lambda df; or a_1 q_1_dot + a_2 q_2_dot + ... = c, kept
+    """A constraint f = c, enforced by a force with the virtual work lambda df; or a_1 q_1_dot + ... = c, enforced
     by a force with the virtual work lambda (a_1 dq_1 + a_2 dq_2 + ...).
 
     left      f, or the sum of rates
@@ -88,14 +88,14 @@ class Constraint(Part):
 
 @dataclass(frozen=True)
 class Constrained(Fact):
-    """The constraints that forces keep in a motion."""
+    """The constraints of a motion that are enforced by forces."""
 
-    missing = "has no constraints kept by forces"
+    missing = "has no constraints enforced by forces"
     constraints: tuple[Constraint, ...]
 
 
 def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Constraint:
-    """A constraint f = c on coordinates or on their rates, which a force keeps.
+    """A constraint f = c on coordinates or on their rates, enforced by a force.
 
     condition   f, a formula in coordinates and time, or a formula linear in the rates of coordinates
     equals      c

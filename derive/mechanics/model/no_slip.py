@@ -64,7 +64,7 @@ def no_slip(
 def rolling_constraint(
     body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
-    """Conditions of rolling as constraints, each kept by a force: F, or F_1 and F_2 for two conditions."""
+    """Conditions of rolling as constraints, each enforced by a force: F, or F_1 and F_2 for two conditions."""
     conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
     _check_against_particle(body, at, ground, conditions)
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]

@@ -50,7 +50,7 @@ class Part:
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """The places at which the part acts on an unstated particle, each with the name of the part."""
+        """The places of the part for which the description names no particle to act on, each with the name of the part."""
         return ()
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:

@@ -404,7 +404,7 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
         message = f"`{condition.key}` does not express a coordinate by others, so the energies cannot use it"
         help_line = Spelled(
             "keep a rolling condition that cannot be integrated by forces: `*rolling_constraint(...)`",
-            "keep it by a force: add `force: F` under `rolling`",
+            "enforce it by a force: add `force: F` under `rolling`",
         )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return found.coordinate, found.function

@@ -190,7 +190,7 @@ class Places:
         return each([partial(self.at, start, "from"), partial(self.at, end, "to")])
 
     def axes(self, name: Word) -> Axes:
-        """Return the axes of this name, which follow from the axes of space by successive rotations."""
+        """Return the axes of this name, which follow from the axes fixed in space by successive rotations."""
         turns = next((turns for known, turns in self.turns.items() if known == name), None)
         if turns is None:
             help_line = did_you_mean(name, self.turns) or "give them under `axes`"

@@ -82,7 +82,7 @@ class SystemKeys(Record):
         required=True,
     )
     axes: Mapping[Word, tuple[Mapping[Word, Tree], ...]] = key(
-        "rotating axes, by the rotations that lead to them from the axes of space: `hoop: [{z: omega*t}]`", TURNS
+        "rotating axes, by the rotations that lead to them from the axes fixed in space: `hoop: [{z: omega*t}]`", TURNS
     )
     points: Mapping[Word, WrittenPlace] = key(
         "places by name: `A: [l*sin(theta), -l*cos(theta)]`, `B: {from: A, by: [x, y]}`; the last component is upwards",

@@ -181,7 +181,7 @@ def test_a_coordinate_that_rolling_gives_has_no_equation_of_its_own(tmp_path: Pa
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        ("multipliers", "`multipliers` needs constraints kept by forces"),
+        ("multipliers", "`multipliers` needs constraints enforced by forces"),
         ("conserved", "no coordinate of this system is cyclic"),
         ("no_slip", "nothing rolls in this system"),
         ("lagrangan", "`lagrangan` is not the name of an answer"),
