@@ -50,7 +50,7 @@ class Part:
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """The places of the part for which the description names no particle to act on, each with the name of the part."""
+        """The name of the part and each of its places for which the description names no particle."""
         return ()
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
