@@ -11,6 +11,7 @@ only if it is true at each point where it has a meaning, and if there is such a 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import count, islice
 from typing import Any, TypeAlias
 
@@ -105,8 +106,8 @@ def signs(value: Any, points: Iterable[Point]) -> set[int | None]:
     found = set[int | None]()
     for point in points:
         try:
-            found.add(sign_at(value, point))
-        except (Undefined, NoNumber):
+            found |= sign_as_set(value, point)
+        except NoNumber:
             found.add(None)
     return found
 
@@ -119,11 +120,23 @@ def signs_of(value: Expr, *conditions: Relation) -> set[int | None]:
 def sign_found(value: Expr) -> int | None:
     """Return the sign that a value has at all trial numbers which the assumptions allow; None if the sign varies.
 
-    The numbers that the problem gives are substituted. The rules by which verbs decide a sign are not used.
+    The numbers that the problem gives are substituted. The rules by which verbs decide a sign are not used. Points at
+    which the value is too large or too small to compute, such as exp(-r/a) for r = 900 a, do not count.
     """
     known = with_numbers(explicit(value))
-    found = signs_of(known, *assumptions_about(letters_of(known)))
+    found = set[int | None]()
+    for point in trial_points(letters_of(known), *assumptions_about(letters_of(known))):
+        with suppress(NoNumber):
+            found |= sign_as_set(known, point)
     return next(iter(found)) if len(found) == 1 else None
+
+
+def sign_as_set(value: Expr, point: Point) -> set[int | None]:
+    """Return the sign of a value at one point, or None for a value that is not real or not defined, as a set."""
+    try:
+        return {sign_at(value, point)}
+    except Undefined:
+        return {None}
 
 
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:

@@ -6,14 +6,14 @@ from itertools import permutations
 from typing import Any
 
 import pytest
-from sympy import Expr, Poly, log, sqrt, symbols
+from sympy import Expr, Poly, exp, log, sqrt, symbols
 
 from derive.algebra import ranges
 from derive.algebra.expressions import Relation
 from derive.algebra.order import Order, in_order
 from derive.algebra.ranges import Range, sign_within, within
 from derive.algebra.samples import NoNumber
-from derive.steps import known_numbers
+from derive.steps import signs as steps_signs
 from derive.steps.record import Run, assume, recorded
 from derive.steps.trial_numbers import (
     TRIED,
@@ -25,6 +25,7 @@ from derive.steps.trial_numbers import (
     real_at,
     roots_of,
     sign_at,
+    sign_found,
     signs_of,
     trial_points,
 )
@@ -124,7 +125,13 @@ def test_trial_numbers_do_not_use_the_signs_by_which_verbs_decide(monkeypatch: p
     def asked(*_: Any) -> Any:
         raise AssertionError
 
-    for module, name in ((known_numbers, "sign_known"), (ranges, "sign_within"), (ranges, "strict_sign_within")):
+    for module, name in ((steps_signs, "sign_known"), (ranges, "sign_within"), (ranges, "strict_sign_within")):
         monkeypatch.setattr(module, name, asked)
     with within({x: Range(ONE, 3 * ONE)}):
         assert signs_of(k * x - x * 2, Relation(m, ">", k)) == {1, -1}
+
+
+def test_a_value_too_small_to_compute_at_some_points_has_its_sign() -> None:
+    assert sign_found(exp(-k / m)) == 1
+    assert sign_found(-k * exp(-k / m)) == -1
+    assert sign_found(exp(-k / m) - exp(-1)) is None
