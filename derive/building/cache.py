@@ -132,7 +132,7 @@ NO_CACHE = Cache()
 
 
 @dataclass(frozen=True)
-class Constrained:
+class Kept:
     """One value of a cache that is replaced by the next of its kind, such as the page numbers of a document."""
 
     cache: Cache

@@ -16,7 +16,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Constrained, digest, engine_digest, file_digest, not_kept
+from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
 from derive.building.documents import named_documents, still_there, with_asked
 from derive.building.files import folder, write, writing
 from derive.building.lock import locked
@@ -359,7 +359,7 @@ class _Build:
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
         for kind, file in self._wanted():
-            numbers = Constrained(self.cache, digest("numbers", kind, self.engine.identity))  # then one run is enough
+            numbers = Kept(self.cache, digest("numbers", kind, self.engine.identity))  # then one run is enough
             document = partial(the_document(kind), self.root, self.heading, parts)
             of_set = partial(document_page, self.root, self.heading, parts, kind)
             page = self._page(file, of_set) if kind in ON_A_PAGE else {}
@@ -382,7 +382,7 @@ class _Build:
         texts: dict[str, str],
         files: Files,
         rank: float,
-        numbers: Constrained | None = None,
+        numbers: Kept | None = None,
     ) -> None:
         pdf = f"{name}.pdf"
         try:

@@ -24,7 +24,7 @@ from functools import partial
 from pathlib import Path
 
 from derive.building import preamble
-from derive.building.cache import NO_CACHE, Cache, Constrained
+from derive.building.cache import NO_CACHE, Cache, Kept
 from derive.building.files import cannot_write, folder, shown_path, write
 from derive.building.preamble import without_preamble
 from derive.building.scratch import Scratch
@@ -121,7 +121,7 @@ def typeset(
     *,
     timeout: float = 120,
     log: Path | None = None,
-    numbers: Constrained | None = None,
+    numbers: Kept | None = None,
     included: Sequence[tuple[str, bytes]] = (),
     formats: Cache = NO_CACHE,
 ) -> bool:

@@ -11,7 +11,7 @@ from jinja2 import meta
 from pypdf import PdfReader
 
 from derive.building import preamble
-from derive.building.cache import Cache, Constrained, digest
+from derive.building.cache import Cache, Kept, digest
 from derive.building.preamble import DIFFERS, beginning
 from derive.building.set_document import COUNTED, problem_document, report_document, set_document, sheet_document
 from derive.building.tex import Engine, chosen_engine, prepare, typeset
@@ -160,6 +160,6 @@ def test_page_numbers_that_are_not_known_are_found_by_a_run_without_a_pdf(
     monkeypatch.setattr(Engine, "command", lambda *given: runs.append("-draftmode" in given) or command(*given))
     for more in ("", "again"):
         tex = document(rf"on \pageref{{there}} {more}\newpage\label{{there}}there")
-        typeset(tex, target, chosen_engine(None), formats=kept, numbers=Constrained(kept, digest("numbers")))
+        typeset(tex, target, chosen_engine(None), formats=kept, numbers=Kept(kept, digest("numbers")))
         assert "on 2" in text_of(target)
     assert runs == [True, False, False], "the second time they are known"

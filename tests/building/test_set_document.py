@@ -12,7 +12,7 @@ import pytest
 from pypdf import PdfReader
 
 from derive.building import tex as engine_runs
-from derive.building.cache import Cache, Constrained
+from derive.building.cache import Cache, Kept
 from derive.building.set_document import COUNTED, problem_document, report_document, set_document, sheet_document
 from derive.building.solution import rendered
 from derive.building.tex import chosen_engine, typeset
@@ -80,8 +80,8 @@ PLAIN = r"\documentclass{article}\usepackage[T1]{fontenc}\usepackage{lmodern}\de
 PLAIN += r"\begin{document}\told\end{document}"
 
 
-def numbers_in(course: Path) -> Constrained:
-    return Constrained(Cache(course / "kept"), "numbers")
+def numbers_in(course: Path) -> Kept:
+    return Kept(Cache(course / "kept"), "numbers")
 
 
 def page_of(reader: PdfReader, name: str) -> int:
