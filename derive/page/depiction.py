@@ -133,7 +133,7 @@ def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[
         letters = {symbol.name for symbol in drawing.letters}
         for name, place in placement.names.items() if placement else ():
             if name not in letters and name in problem.symbols:
-                message = f"`{name}` does not occur in what `{drawing.key}` draws now, so its value is not used"
+                message = f"`{name}` does not occur in the drawing `{drawing.key}`, so its value is not used"
                 found.append(Complaint("unused-letter", message, place, severity="warning"))
     return found
 

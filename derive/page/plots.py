@@ -79,7 +79,7 @@ def _range(problem: Problem, plot: Plot, placement: Placement | None) -> tuple[E
     lower, upper = ends
     if not (lower.is_number and upper.is_number and lower < upper):
         raise Rejected(
-            Complaint("range", f"the range of `{plot.key}` must go from a smaller number to a larger", place)
+            Complaint("range", f"the range of `{plot.key}` must go from a smaller number to a larger number", place)
         )
     return lower, upper
 
