@@ -103,7 +103,7 @@ class Sliding:
             yield DistanceMark(column_of(start), column_of(at), aside, off, label=track.by)
 
     def _lies(self, track: Track) -> bool:
-        """Return whether a particle is drawn as a block: if there are weights or springs at fixed ends, or its line rises."""
+        """Return whether a particle is drawn as a block: if weights or fixed ends of springs exist, or its line rises."""
         walls = [end for each in self.system.between for end in (each.start, each.end) if is_fixed(self.system, end)]
         return bool(self.system.weights or walls) or track.way.components[1] != 0
 
@@ -227,7 +227,7 @@ class Sliding:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Return values of coordinates and radii for the drawing: fractions of lengths in positions at zero coordinates."""
+        """Return values of coordinates and radii in the drawing: fractions of lengths in the positions at zero."""
         found: dict[Symbol, Expr] = {}
         for q, kind in self.system.coordinates.items():
             slides = any(track.by == q and _is_slope(track) and i in self.carriers for i, track in self.tracks.items())
