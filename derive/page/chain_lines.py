@@ -89,7 +89,7 @@ class ChainWriter:
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         last = lines[result]
         if isinstance(last.right, MatrixBase) and (last.left is None or last.right.shape[1] > 1):
-            lines[result] = replace(last, presented=True)  # no later line uses this vector, so it keeps its form
+            lines[result] = replace(last, presented=True)  # shown with its common factor in front
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:

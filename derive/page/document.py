@@ -357,7 +357,7 @@ def _parts_nothing(blocks: Sequence[Block], i: int) -> bool:
 
 
 def _goes_on(block: Block) -> bool:
-    """Return whether this block continues a sentence, so that it begins with a small letter."""
+    """Return whether this block continues the sentence before it: its text begins with a small letter."""
     first = block.nodes[0] if isinstance(block, Paragraph) else None
     return isinstance(first, Text) and first.text.lstrip()[:1].islower()
 

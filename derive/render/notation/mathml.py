@@ -48,7 +48,7 @@ def of_latex(formula: str, inline: bool = False) -> Html:
     for spacing in SPACING:
         formula = formula.replace(spacing, "")
     converted = _converter().convert_with_local_state(formula, displaystyle=not inline)
-    # A block becomes its row; a separate formula is within a row.
+    # The page puts a display formula within a row of its own, so the formula is not a block.
     converted = converted.replace('<math display="block">', '<math displaystyle="true">', 1)
     return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML does not define the name of this character
 

@@ -91,7 +91,7 @@ def to_the_right(text: str, width: int) -> str:
 
 @dataclass(frozen=True)
 class TextBox:
-    """Lines of equal width; text before or after the box is on the line with the index `middle`."""
+    """Lines of equal width; text next to the box is on the line with the index `middle`."""
 
     lines: tuple[str, ...]
     middle: int = 0
