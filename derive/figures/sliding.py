@@ -103,7 +103,7 @@ class Sliding:
             yield DistanceMark(column_of(start), column_of(at), aside, off, label=track.by)
 
     def _lies(self, track: Track) -> bool:
-        """Return whether a particle is drawn as a block: with weights, with a fixed end of a spring, or on a rising line."""
+        """Return whether a particle is drawn as a block: with weights, with fixed ends, or on a rising line."""
         walls = [end for each in self.system.between for end in (each.start, each.end) if is_fixed(self.system, end)]
         return bool(self.system.weights or walls) or track.way.components[1] != 0
 

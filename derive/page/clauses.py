@@ -65,7 +65,7 @@ class Clauses:
         return (*(self._sentence("where", due)), *((Text(" "),) if due else ()), *sentence)
 
     def meanings(self, steps: Sequence[Step]) -> tuple[Inline, ...]:
-        """Return the meanings of the symbols: `where rho is the density`, or `where rho = M/V` if there is no phrase."""
+        """Return the meanings of the symbols: `where rho is the density`, or `where rho = M/V` without a phrase."""
         return self._sentence("where", steps, by_value=False)
 
     def _due(self, lines: Any) -> list[Step]:

@@ -30,7 +30,7 @@ class Numbering(dict[str, Number]):
         self._like = like
 
     def add(self, key: str) -> None:
-        """Assign the number after the largest number in use, so that the last number can be assigned again if it is free."""
+        """Assign the number after the largest in use; the last number is assigned again if it has become free."""
         last = max(self.values(), default=Number(0))
         self[key] = self._next(key, last)
 
