@@ -30,7 +30,7 @@ from derive.figures.space import (
 )
 
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
-ASIDE = 12.0  # distance between a body and its dimension line, in points
+ASIDE = 12.0  # points: distance between a body and its dimension line
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 ROUND = 10.0  # least radius of a rotation arrow, in points
@@ -119,7 +119,7 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
-        """Return the additional distance along the axis at which the rotation arrow overlaps no surface."""
+        """Return how far the rotation arrow must move along the axis so that it overlaps no surface."""
         outline = hull(paper.spots(*paper.fixed))
         tried = [PAST * paper.reach * step / 4 for step in range(9)]
         for off in tried:
@@ -138,10 +138,10 @@ class LengthMark(_Between):
     """A dimension line between two points, shifted to one side; a length of zero is not drawn.
 
     aside    the direction of the shift; by default to the left in the drawing
-    clear    the part of the shift that is a length in the drawing
-    beyond   a further part of the shift, in points, which leaves room for other dimension lines
+    clear    the part of the shift that scales with the drawing, a length
+    beyond   a further part of the shift, in points, to leave room for other dimension lines
 
-    The shift also contains a constant number of points.
+    A constant distance is added to the shift.
     """
 
     aside: Position | None
@@ -182,11 +182,11 @@ class LengthMark(_Between):
 
 @dataclass(frozen=True)
 class Arrow(Mark):
-    """A vector in its true direction; a zero vector is not drawn.
+    """A vector, drawn in its true direction; a zero vector is not drawn.
 
     start    the point at which the arrow starts
     size     the drawn length relative to the size of the body, because vectors of different kinds have no common scale
-    asked    whether the problem asks for the vector, so the arrow is emphasised
+    asked    whether the problem asks for the vector; then the arrow is emphasised
     pushes   whether the tip of the arrow is at `start`
     """
 
@@ -369,7 +369,7 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """Return the direction of a vector by numbers; None if symbols occur outside a common factor of known sign."""
+    """Return the direction of a vector as numbers; None unless all symbols are in a common factor of known sign."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

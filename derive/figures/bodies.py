@@ -44,7 +44,7 @@ CURVED = 48  # number of circles for a curved side; they are closer together at 
 
 
 def outline(body: Any, about: str | None = None, named: bool = True, sliced: bool = False) -> list[Mark]:
-    """Return the outline of a body, in axes that begin at one of its points.
+    """Return the outline of a body, in axes whose origin is one of the body's points.
 
     body    a body of `derive.mechanics`
     about   the name of the point; by default the origin of the body's own axes
@@ -102,7 +102,7 @@ def axes_at(body: Body, about: str) -> list[Mark]:
 
 
 def is_in_plane(body: Body) -> bool:
-    """Whether a body of several parts should be shown in the plane of its parts."""
+    """Return whether a body of several parts should be shown in the plane of its parts."""
     return hasattr(body, "parts") and body.flat_across == "z"
 
 
@@ -118,7 +118,7 @@ def words_of(body: Any) -> dict[str, Any]:
 class Pose:
     """The position and orientation of a body in a drawing in space.
 
-    at      a place in body axes -> the same place in the drawing
+    at      a function from a position in body axes to the position in the drawing
     along   the direction of the z axis of the body in the drawing, a unit vector (3)
     """
 
@@ -331,7 +331,7 @@ def centre_mark(body: Body, about: str | None = None, label: Any = "C") -> Mark:
 
 
 def _is_told(length: Expr, body: Body) -> bool:
-    """Whether the length is one of the measures of the body."""
+    """Return whether the length is one of the measures of the body."""
     return length != 0 and any(is_zero(length - measure) for measure in body.measures.values())
 
 

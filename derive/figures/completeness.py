@@ -31,7 +31,7 @@ def is_whole(
     pairs: Iterable[tuple[int, int]],
     touching: Touching,
 ) -> bool:
-    """Whether the drawing shows every part of the system.
+    """Return whether the drawing shows every part of the system.
 
     links      the links to particles that are drawn
     pairs      the particles that are joined by a string or a rod
@@ -52,12 +52,12 @@ def is_whole(
 
 
 def _is_loose(system: System, link: Link) -> bool:
-    """Whether no mass is at the start of the link."""
+    """Return whether no mass is at the start of the link."""
     return not any(same(link.start, at) for _, at in system.masses)
 
 
 def _bodies_are_seen(system: System) -> bool:
-    """Whether each body has an outline, or rolls as a wheel, or has an axis from its fixed point in space."""
+    """Return whether each body has an outline, or rolls as a wheel, or has an axis from its fixed point in space."""
     return all(
         placed_outline(with_its_shape(placed))
         or (len(placed.at.components) == 3 and not same(placed.at, placed.centre))
@@ -69,7 +69,7 @@ def _bodies_are_seen(system: System) -> bool:
 def _conditions_are_seen(
     system: System, links: Collection[Link], pairs: Iterable[tuple[int, int]], touching: Touching
 ) -> bool:
-    """Whether each constraint and rolling condition is shown: as a wall, a length, a string or a rolling surface."""
+    """Return whether a wall, a length, a string or a rolling surface shows each constraint and rolling condition."""
     lengths = {link.length for link in links if kept_length(system, link.length) is not None}
     tied = {system.particles[i].at: None for pair in pairs for i in pair}
     tracks = {t.by for at in tied if (t := track_of(system, at)) is not None}
@@ -83,7 +83,7 @@ def _conditions_are_seen(
 
 
 def _energies_are_seen(system: System) -> bool:
-    """Whether the system is a single particle, or all energies that are given as formulas are linear.
+    """Return whether the system is a single particle, or all energies that are given as formulas are linear.
 
     A drawing of several particles or of bodies cannot show another energy, such as a coupling.
     """
@@ -97,7 +97,7 @@ def _energies_are_seen(system: System) -> bool:
 
 
 def _is_joined(system: System, links: Collection[Link], pairs: Iterable[tuple[int, int]], touching: Touching) -> bool:
-    """Whether parts that move with the same coordinate are joined in the drawing."""
+    """Return whether parts that move with the same coordinate are joined in the drawing."""
     places = [particle.at for particle in system.particles] + [placed.centre for placed in system.bodies]
     group = list(range(len(places)))
 
@@ -137,7 +137,7 @@ def _neighbours(system: System, links: Collection[Link], places: Sequence[Locati
 
 
 def _shows_something(system: System, marks: Sequence[Mark], links: Collection[Link]) -> bool:
-    """Whether the drawing shows a pivot, a free body in space, or more than particles, bodies and angles."""
+    """Return whether the drawing shows a pivot, a free body in space, or more than particles, bodies and angles."""
     outlines = [mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))]
     if any(not isinstance(mark, ALONE) and mark not in outlines for mark in marks):
         return True

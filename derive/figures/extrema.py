@@ -1,6 +1,6 @@
 """The extrema of a curve, from sign changes of its exact derivative.
 
-The direction of the sign change decides between minimum and maximum. The second route is the curve itself: a little to
+The direction of the sign change distinguishes minimum and maximum. The second route evaluates the curve: a little to
 either side, its values are greater than at a minimum, or less than at a maximum.
 """
 
@@ -15,7 +15,7 @@ from sympy import Expr, Symbol, diff, lambdify
 
 from derive.errors import Complaint, Rejected, Unverified
 
-STEPS = 1009  # odd and prime, so that the centre of a symmetric range is inside a step and not at its end
+STEPS = 1009  # odd and prime: then the centre of a symmetric range is inside a step, not at its end
 MINIMUM, MAXIMUM = "minimum", "maximum"
 
 

@@ -24,7 +24,7 @@ __all__ = ["dashed_at"]
 class Ghost(Surface):
     """The dashed outline of a surface for another value of a coordinate.
 
-    of              the surface with this value
+    of              the surface at this value
     letter, value   the coordinate and this value
     """
 

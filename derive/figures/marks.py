@@ -1,6 +1,6 @@
 """The marks of a drawing, as data: positions and directions are SymPy expressions in the symbols of the problem.
 
-With numbers for the symbols, a mark returns its pieces and its outermost points; it also returns its description in
+Given numbers for the symbols, a mark returns its pieces and its outermost points; it also returns its description in
 words. `derive.render.drawing` decides which lines are hidden and where labels are.
 Positions are columns (x, y, z), or (x, y) in a plane, along the same axes for all marks of a drawing.
 """
@@ -24,7 +24,7 @@ InWords: TypeAlias = tuple[str, dict[str, Any]]  # the phrase that describes a m
 LAST = 99  # the layer of marks that are placed next to all others
 SPACE, PLANE = "space", "plane"
 
-BESIDE = {"beside": True}  # metadata of a field that is only a label, so its symbols need no numbers
+BESIDE = {"beside": True}  # metadata of a field that is only a label: symbols in labels need no numbers
 MARK_CLASSES: dict[str, type[Mark]] = {}  # name -> class, for all classes of marks
 
 _DRAWING_NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
@@ -40,7 +40,7 @@ class Mark:
 
     label: Any = field(default=None, metadata=BESIDE)
     keys: tuple[str, ...] = ()
-    together: ClassVar[str | None] = None  # the phrase that describes all marks of this class together, by their labels
+    together: ClassVar[str | None] = None  # one phrase for all marks of this class and their labels
     layer: ClassVar[int] = 9  # marks with a lower layer are drawn first
 
     def __init_subclass__(cls) -> None:
@@ -55,12 +55,12 @@ class Mark:
 
     @property
     def ends(self) -> tuple[Position, ...]:
-        """Points that determine the size of a drawing without bodies."""
+        """Return the points that determine the size of a drawing without bodies."""
         return ()
 
     @property
     def directions(self) -> tuple[Position, ...]:
-        """One direction that must not point at the viewer, or two directions whose angle must be visible."""
+        """Return one direction that must not point at the viewer, or two directions whose angle must be visible."""
         return ()
 
     def tip(self, numbers: InNumbers, reach: float) -> Vector | None:
@@ -120,7 +120,7 @@ class Drawing:
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """The keys of the steps that the drawing uses."""
+        """Return the keys of the steps that the drawing uses."""
         return tuple(dict.fromkeys(key for mark in self.marks for key in mark.keys))
 
     @property
@@ -174,7 +174,7 @@ Recorded: TypeAlias = Drawing | Plot
 
 
 def noted(drawing: Recorded) -> Recorded:
-    """Record the drawing and return it; a name that another drawing has is rejected."""
+    """Record the drawing and return it; two drawings with the same name are rejected."""
     if not _DRAWING_NAME.fullmatch(drawing.key):
         help_line = "use lower-case letters, digits and _"
         raise Rejected(Complaint("drawing-name", f"`{drawing.key}` cannot name a drawing", help=help_line))

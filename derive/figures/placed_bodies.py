@@ -1,4 +1,4 @@
-"""The outlines of the bodies of a system at their places: rotated axes in space, or a rotation angle in a plane."""
+"""The outlines of the bodies of a system at their positions, rotated in space or by an angle in a plane."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
 
 
 def _rolls(system: System, placed: Any) -> bool:
-    """Whether a rolling condition applies to the body, so that it lies on a surface."""
+    """Return whether a rolling condition applies to the body, so that it lies on a surface."""
     return any((r := each.fact(Rolling)) is not None and r.body.body is placed.body for each in system.conditions)
 
 

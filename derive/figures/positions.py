@@ -51,7 +51,7 @@ def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
 
 
 def _is_derived(quantity: Quantity) -> bool:
-    """Whether a step other than a definition contributed to the quantity."""
+    """Return whether a step other than a definition contributed to the quantity."""
     own = any(evidence.grade is not Grade.DEFINITION for evidence in quantity.step.evidence)
     return own or any(_is_derived(parent) for parent in quantity.parents)
 

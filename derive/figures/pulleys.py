@@ -87,7 +87,7 @@ class HangingPulley:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Values of symbols for which all parts are drawn at distinct heights."""
+        """Return values of symbols for which all parts are drawn at distinct heights."""
         if not self.hung:
             return {}
         alone, down, up = self.hung

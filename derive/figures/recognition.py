@@ -51,7 +51,7 @@ class Track:
 
     @property
     def foot(self) -> Location:
-        """The point on the line that is nearest to the origin."""
+        """Return the point on the line that is nearest to the origin."""
         along = sum((a * b for a, b in zip(self.start.components, self.way.components, strict=True)), ZERO)
         square = sum((b * b for b in self.way.components), ZERO)
         return Location(tuple(tidied(a - along / square * b) for a, b in _pairs(self.start, self.way)))
@@ -76,7 +76,7 @@ def is_fixed(system: System, place: Location) -> bool:
 
 
 def is_spring(each: Central) -> bool:
-    """Whether the energy is of second degree in the distance, and is not known to have a maximum."""
+    """Return whether the energy is of second degree in the distance, and is not known to have a maximum."""
     constant = tidied(derivative(explicit(each.energy), each.distance, 2))
     return each.distance not in constant.free_symbols and constant.is_nonpositive is not True
 
@@ -136,10 +136,10 @@ def _link(system: System, start: Location, end: Location) -> Link | None:
 
 
 def _varies(value: Expr, turning: set[Symbol]) -> bool:
-    """Whether the value differs in two numerical samples; a value that does not differ may still vary."""
+    """Return whether the value differs in two numerical samples; a value that does not differ may still vary."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    # Differences of angles are distinct in the samples too, because a distance may depend only on such differences.
+    # The samples also differ in differences of angles, because a distance may depend only on such differences.
     angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))
@@ -202,7 +202,7 @@ def carrier_of(system: System, index: int, track: Track) -> int | None:
 
 
 def is_rod(system: System, a: Location, b: Location) -> bool:
-    """Whether two points, of which at least one moves, have a constant distance that is not zero."""
+    """Return whether two points, of which at least one moves, have a constant distance that is not zero."""
     square = Add(*(c**2 for c in (b - a).components))
     moving = moving_in(system, *a.components, *b.components)
     return bool(moving and square != 0 and not _varies(square, moving) and not moving_in(system, tidied(square)))

@@ -107,7 +107,7 @@ def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, as
     at       the point at which the arrow starts
     size     the length of the arrow relative to the size of the body
     label    the name of the vector, by default the symbol of the quantity
-    asked    whether the problem asks for the vector, so the arrow is emphasised
+    asked    whether the problem asks for the vector; then the arrow is emphasised
     """
     (value, own), (start, others), (_, named) = vector_of(vector), vector_of(at), value_and_keys(label)
     return Arrow(start, value, size, asked, label=name_of(vector, label), keys=own + others + named)

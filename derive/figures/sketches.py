@@ -55,7 +55,7 @@ HANGING = Rational(5, 2)  # length of a string through a hole in a table, relati
 FAR = Rational(8, 5)  # drawn range of a curve, relative to the value of its coordinate
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
-BROADSIDE = 23 * pi / 36  # angle of a rotating vertical plane at which it faces the viewer
+BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the viewer
 ON_A_TABLE = 17 * pi / 36  # angle of two rotating horizontal axes at which all axes are drawn well apart
 
 
@@ -307,7 +307,7 @@ class _Scene:
             yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
-        """Whether the point moves or is the position of a particle, so it is not a fixed end."""
+        """Return whether the point moves or is the position of a particle, rather than a fixed end."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
     # --- forces between two points ---

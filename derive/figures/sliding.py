@@ -72,7 +72,7 @@ class Sliding:
             yield from self._rope(*pair)
 
     def _is_held(self, track: Track, carrier: int | None) -> bool:
-        """Whether a line is fixed, moves with a particle, or has a prescribed motion."""
+        """Return whether a line is fixed, moves with a particle, or has a prescribed motion."""
         return carrier is not None or moving_in(self.system, *track.start.components) <= {TIME}
 
     def _mass(self, i: int) -> Any:
@@ -103,7 +103,7 @@ class Sliding:
             yield DistanceMark(column_of(start), column_of(at), aside, off, label=track.by)
 
     def _lies(self, track: Track) -> bool:
-        """Whether a particle is drawn as a block: with weights, with a fixed end of a spring, or on a rising line."""
+        """Return whether a particle is drawn as a block: with weights, with fixed ends, or on a rising line."""
         walls = [end for each in self.system.between for end in (each.start, each.end) if is_fixed(self.system, end)]
         return bool(self.system.weights or walls) or track.way.components[1] != 0
 
@@ -123,7 +123,7 @@ class Sliding:
         return 1 if ways and max(ways) < 0 else -1
 
     def _is_measured(self, i: int) -> bool:
-        """Whether the coordinate is labelled at this particle.
+        """Return whether the coordinate is labelled at this particle.
 
         For two particles on a string there is one label, if possible where the coordinate is zero at the foot.
         """
@@ -227,7 +227,7 @@ class Sliding:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Values of coordinates and radii in the drawing: fractions of lengths in the positions at zero coordinates."""
+        """Return values of coordinates and radii in the drawing: fractions of lengths in the positions at zero."""
         found: dict[Symbol, Expr] = {}
         for q, kind in self.system.coordinates.items():
             slides = any(track.by == q and _is_slope(track) and i in self.carriers for i, track in self.tracks.items())

@@ -104,7 +104,7 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
 
 def is_within(spot: Spot, corners: Sequence[Spot]) -> bool:
-    """Whether a spot is inside an outline: a line from the spot to the right has an odd number of crossings."""
+    """Return whether a spot is inside an outline: a line from the spot to the right has an odd number of crossings."""
     x, y = spot
     if not (min(c[0] for c in corners) < x < max(c[0] for c in corners)):
         return False

@@ -153,7 +153,7 @@ class TorusMark(Surface):
         return [spot for spot in paper.spots(*edge) if min(ends) <= spot[0] <= max(ends)] if len(behind) > 2 else []
 
     def _is_seen(self, paper: Paper, place: Vector) -> bool:
-        """Whether no part of the torus is between a point and the viewer."""
+        """Return whether no part of the torus is between a point and the viewer."""
         centre, big, small = self._sizes(paper.numbers)
         for k in range(1, SIGHT):
             x, y, z = plus(plus(place, paper.stance.eye, 4.0 * big * k / SIGHT), centre, -1.0)

@@ -66,7 +66,7 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
 
 
 def follows_nodes(placed: Any) -> bool:
-    """Whether the body is symmetric and has Euler angles, so that the line of nodes is a principal axis."""
+    """Return whether the body is symmetric and has Euler angles, so that the line of nodes is a principal axis."""
     turns = getattr(placed.turned, "turns", ())
     moments = getattr(placed.body, "moments", None)
     if [i for i, _ in turns] != [2, 0, 2]:
@@ -143,7 +143,7 @@ def _parts(placed: Any) -> list[tuple[Any, Expr]]:
 
 
 def _is_on_axis(part: Any) -> bool:
-    """Whether a part is round about the axis of the whole body, and its z axis has the same direction."""
+    """Return whether a part is round about the axis of the whole body, and its z axis has the same direction."""
     if not _is_round(part.body):
         return False
     low, high = part.seen(_on_axis(0)), part.seen(_on_axis(1))

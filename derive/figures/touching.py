@@ -230,7 +230,7 @@ class Touching:
             self.values[link.length] = far
 
     def _is_inside(self, placed: Any, radius: Expr, link: Link, far: Expr) -> bool | None:
-        """Whether the body is inside the fixed circle that it touches; None if it touches no recognised circle."""
+        """Return whether the body is inside the fixed circle that it touches; None if no circle is recognised."""
         if kept_length(self.system, link.length) is not None:
             sizes = [tidied(far - radius), tidied(far + radius)]
             plain = [size.is_Symbol for size in sizes]
@@ -286,7 +286,7 @@ def _solved(constraint: Constraint, known: Mapping[Symbol, Expr]) -> dict[Symbol
 
 
 def _follows(component: Expr, constraint: Constraint, moving: list[Symbol]) -> bool:
-    """Whether a constraint makes a velocity vanish: the velocity is a multiple of the rate of the constraint."""
+    """Return whether a constraint makes a velocity vanish: the velocity is a multiple of the rate of the constraint."""
     kept = constraint.velocity(moving)
     pairs = [(component.diff(rate(q)), kept.diff(rate(q))) for q in moving]
     share = next((a / b for a, b in pairs if b != 0 and a != 0), None)

@@ -79,7 +79,7 @@ def turning_marks(system: System, link: Link, which: Particle, named: Sequence[L
 
 
 def is_rod_for(system: System, link: Link, name: str) -> bool:
-    """Whether a link of constant length is a rod or a string, and not the radius of a hoop on which a bead slides.
+    """Return whether a link of constant length is a rod or a string, not the radius of a hoop on which a bead slides.
 
     The name of the particle decides, or a mass at the start of the link, or the symbol of the length, such as l.
     """
@@ -91,7 +91,7 @@ def is_rod_for(system: System, link: Link, name: str) -> bool:
 
 
 def _is_joint(system: System, place: Location) -> bool:
-    """Whether a particle or the centre of mass of a body is at a point."""
+    """Return whether a particle or the centre of mass of a body is at a point."""
     return any(same(place, at) for _, at in system.masses)
 
 
@@ -100,7 +100,7 @@ def _is_called(name: str, kinds: frozenset[str]) -> bool:
 
 
 def _is_rim(system: System, link: Link) -> bool:
-    """Whether a link is a radius of a round body, so its end is on the rim of the body."""
+    """Return whether a link is a radius of a round body, so its end is on the rim of the body."""
     for placed in system.bodies:
         radius = getattr(placed.body, "radius", None)
         if radius is not None and same(placed.centre, link.start) and is_zero(radius - link.length):

@@ -125,7 +125,7 @@ def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
-    """Whether a mark shows a coordinate that has a rate just before the impact, or is zero at the impact."""
+    """Return whether a mark shows a coordinate that has a rate just before the impact, or is zero at the impact."""
     if isinstance(mark, DistanceMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0

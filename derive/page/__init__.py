@@ -1,1 +1,1 @@
-"""The solution as a tree: words, numbers and figures in their places, before any format."""
+"""The solution as a tree of words, numbers and figures in the order of the page, before a format prints them."""

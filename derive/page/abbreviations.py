@@ -1,4 +1,4 @@
-"""Formulas that a page shows once: symbols of earlier steps replace the formulas that they name."""
+"""Formulas that a page shows once: after a step has named a formula, its symbol replaces that formula."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from derive.steps.step import Step, is_zero
 
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
-    """Return how a step writes an expression: symbols of earlier steps replace the formulas that they name."""
+    """Return a function of a step and an expression that replaces formulas by the symbols of earlier steps."""
     letters: list[tuple[Any, Any]] = []
     known: dict[str, list[tuple[Any, Any]]] = {}
     for step in steps:
@@ -23,7 +23,7 @@ def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
 
 
 def _written(value: Any, letters: Sequence[tuple[Any, Any]]) -> Any:
-    """Replace each root of a named formula, however it is arranged, by its symbol."""
+    """Replace each named formula under a root by its symbol, also if the formula is written differently."""
     if not letters or not hasattr(value, "atoms"):
         return value
     found = {}

@@ -13,7 +13,7 @@ MIRRORED = {">": "<", ">=": "<="}
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
-    """Join two bounds of a symbol in one line; omit that a sine or cosine is not zero where the bounds imply it."""
+    """Join the two bounds of a symbol; omit the condition that a sine or cosine is not zero if the bounds imply it."""
     conditions = list(assumed)
     below = {
         r.left: r for r in conditions if r.operator in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number
@@ -33,7 +33,7 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
 
 
 def _follows(condition: Relation, below: dict[Expr, Relation], above: dict[Expr, Relation]) -> bool:
-    """Return whether the condition follows from the bounds, as sin(alpha) != 0 from 0 < alpha < pi/2."""
+    """Return whether the bounds imply the condition: 0 < alpha < pi/2 implies sin(alpha) != 0."""
     function = condition.left
     if condition.operator != "!=" or condition.right != Integer(0) or not isinstance(function, sin | cos):
         return False

@@ -16,12 +16,12 @@ from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, name
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Step
 
-EQUATION_OF = "equation_of_"  # begins a name in a reason that refers to the equations of one role
+EQUATION_OF = "equation_of_"  # prefix: <<equation_of_ROLE>> in a reason gives the numbers of the equations of that role
 
 
 @dataclass(frozen=True)
 class ChainLine:
-    """`left relation right` with its reason; a continued line has no left side, unless it is a relation."""
+    """`left relation right` with its reason; a line that continues a chain has a left side only if it is a relation."""
 
     left: Any | None
     relation: str
@@ -29,13 +29,13 @@ class ChainLine:
     reason: tuple[Inline, ...] = ()
     presented: bool = False
     numeric: bool = False
-    beside: bool = False  # whether it may begin on the row of the line before it
-    because: str = ""  # the reason of its form; empty in a list of results
+    beside: bool = False  # whether this line may begin on the row of the line before
+    because: str = ""  # the `because` of the form that this line shows; empty in a list of results
 
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step; the number is on the last line. The last `framed` lines have a frame, as answers have."""
+    """The lines of one step, with the number at the last line; the last `framed` lines are framed as an answer."""
 
     key: str
     lines: tuple[ChainLine, ...]
@@ -44,12 +44,12 @@ class Equations:
 
     @property
     def frames_bare_number(self) -> bool:
-        """Return whether the framed line is only a number such as 0, which means nothing without its left side."""
+        """Return whether the frame contains only a number such as 0, which has no meaning without the left side."""
         last = self.lines[-1]
         return self.framed == 1 and last.left is None and _is_bare_number(last.right)
 
     def beside(self, other: Equations) -> Equations:
-        """Return both steps with one number, in one row if there is room."""
+        """Return both steps under one number; they share a row if there is room."""
         first, *others = other.lines
         return replace(self, lines=(*self.lines, replace(first, beside=True), *others))
 
@@ -58,7 +58,7 @@ class ChainWriter:
     """Writes the lines of each step of a page.
 
     names    names that prose may mention on this page
-    numbers  equations that have a number so far
+    numbers  numbers of the equations so far
     """
 
     def __init__(
@@ -76,7 +76,7 @@ class ChainWriter:
         self._used = _letters_used(derivation.steps, values)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
-        """Return the lines of a step, or only its result."""
+        """Return the lines of a step; with the mode `result` or `hidden`, only the last line."""
         forms = [form for form in step.chain if form.expr != step.symbol]
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
@@ -89,11 +89,11 @@ class ChainWriter:
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         last = lines[result]
         if isinstance(last.right, MatrixBase) and (last.left is None or last.right.shape[1] > 1):
-            lines[result] = replace(last, presented=True)  # a vector that is not computed further keeps its form
+            lines[result] = replace(last, presented=True)  # shown with its common factor in front
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:
-        """Return the decimals of an answer without symbols; they are written on the lines of the answer."""
+        """Return the decimals of an answer that contains no symbols: they are shown with the lines of that answer."""
         value = self.values.get(step.key)
         exact = value is not None and value.outcome == "exact"
         return [form for form in value.chain if form.because in NUMBERS] if value is not None and exact else []
@@ -107,7 +107,7 @@ class ChainWriter:
             return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True, because=form.because)
         if isinstance(form.expr, Relation):
             left, right, word = form.expr.left, form.expr.right, sign_of_relation(step, form.expr.word)
-            if step.about and word != "approx" and not reason:  # no sign means "about" for an inequality
+            if step.about and word != "approx" and not reason:  # "about" in words for an inequality
                 reason = filled(self.words.labels["approximately"], {})
             return ChainLine(left, word, right, reason, numeric=numeric, because=form.because)
         own = step.breaks_off and form.because in ONLY_ABOUT and step.symbol in self._used
@@ -138,7 +138,7 @@ class ChainWriter:
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
         inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
         own |= {"variable": Math(inner[0])} if inner else {}
-        alike = {number: key for key, number in reversed(list(self.numbers.items()))}  # one row has one number
+        alike = {number: key for key, number in reversed(list(self.numbers.items()))}  # a row has one number
         found = {name: [key for key in keys if alike[self.numbers[key]] == key] for name, keys in found.items()}
         references = {
             name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
@@ -146,11 +146,11 @@ class ChainWriter:
         return filled(template, {**self.names, **own, **references})
 
     def _numbered(self, keys: Collection[str]) -> list[str]:
-        """Return the keys that have a number, ordered by their numbers."""
+        """Return the keys of the numbered equations, ordered by number."""
         return sorted(self.numbers.keys() & keys, key=self.numbers.__getitem__)
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the key of the step; if its vector or tensor is not shown, the keys of the entries that are used."""
+        """Return the key of the step; for a vector or tensor that is not shown, the keys of the entries in use."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]
@@ -159,7 +159,7 @@ class ChainWriter:
 
 
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
-    """Return the symbols of limits and series that other steps or numbers use: the page has to introduce them."""
+    """Return the symbols of limits and series that other steps or numbers use, so that the page introduces them."""
     own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
     found = {step.symbol for step in values.values()} & own
     for step in steps if own else ():
@@ -171,19 +171,19 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]
 
 
 def _is_bare_number(value: Any) -> bool:
-    """Return whether the value is 0, 2 or a vector that vanishes: neither a symbol nor decimals with a unit."""
+    """Return whether the value is a rational number such as 0 or 2, or a zero vector."""
     if isinstance(value, MatrixBase):
         return all(entry == 0 for entry in value)
     return isinstance(value, Rational)
 
 
 def names_results(symbol: Any) -> bool:
-    """Return whether the symbol is a list of symbols, each the name of one result, rather than a vector."""
+    """Return whether the symbol is a list of names, one for each result, rather than the symbol of a vector."""
     return isinstance(symbol, MatrixBase) and all(isinstance(name, Symbol) for name in symbol)
 
 
 def listed(names: Any, values: Any) -> tuple[ChainLine, ...]:
-    """Return I_1 = I_2 = one value, I_3 = the other: each value once, after all its names."""
+    """Return a line for each distinct value with all its names, such as I_1 = I_2 = a and I_3 = b."""
     found: dict[Any, Any] = {}
     for name, value in zip(names, values, strict=True):
         found[value] = Relation(found[value], "=", name) if value in found else name

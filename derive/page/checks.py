@@ -1,8 +1,8 @@
-"""How a problem was checked, in counts and step by step: for the closing note and for the report of the set.
+"""The checks of a problem, counted and listed step by step, for the closing note and for the report of the set.
 
 The grade of a step is the lower of two: the lowest grade of its lines, and the highest grade of its second routes and
-checks. Each route and each check is counted once for every result that it tests. Checks, which start from the result,
-are counted separately from routes, and so are the motions that the witness follows numerically.
+checks. Each route and each check is counted once for every result that it tests. Checks start from the result and
+are counted separately from routes. Motions that the witness follows numerically are counted separately too.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Row:
-    """Consecutive steps of one rule that were checked in the same way, with their inputs and the number of lines.
+    """Consecutive steps of one rule that were checked by the same methods, with their inputs and the number of lines.
 
-    `routes` names the second routes, then the motion if it was followed numerically; `checks` names the checks.
+    `routes` names the second routes, then the motion if the witness followed it numerically; `checks` names the checks.
     """
 
     steps: tuple[str, ...]
@@ -44,12 +44,16 @@ class Row:
         return replace(self, steps=(*self.steps, *other.steps), made_from=made_from, lines=self.lines + other.lines)
 
 
-_NOT_ALIKE: Mapping[str, Any] = {"steps": (), "made_from": (), "lines": 0}  # fields that may differ in one row
+_NOT_ALIKE: Mapping[str, Any] = {
+    "steps": (),
+    "made_from": (),
+    "lines": 0,
+}  # steps of one row may differ in these fields
 
 
 @dataclass(frozen=True)
 class Checks:
-    """The counts, the table of the steps, and the errors of the source document."""
+    """The counts, the table of the steps, and the errata of the source document."""
 
     steps: Mapping[Grade, int]
     lines: Mapping[Grade, int]
@@ -70,11 +74,11 @@ class Checks:
 
     @property
     def refuted(self) -> int:
-        """Return how many of them are wrong; an erratum that is only quoted has no value of a step."""
+        """Return how many of the compared statements are wrong; an erratum that is only quoted is not counted."""
         return sum(bool(erratum.answer) for erratum in self.errata)
 
     def counts(self) -> dict[str, int]:
-        """Return the numbers for the table on the last page, by the names of its columns."""
+        """Return the counts for the table on the last page, by the name of each column."""
         return {
             **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in LEAST_SURE_FIRST[1:]},
             "lines": sum(self.lines.values()),
@@ -90,7 +94,7 @@ class Checks:
         }
 
     def closing(self, words: Phrases, evidence: EvidenceShown) -> tuple[Inline, ...]:
-        """Return the note at the end of a problem: that it was checked, and how often if `evidence` asks for it."""
+        """Return the note at the end of a problem that it was checked, with counts if `evidence` requests them."""
         if evidence is EvidenceShown.NONE:
             return filled(words.labels["closing_line"], {})
         names: dict[str, Any] = {
@@ -109,7 +113,7 @@ class Checks:
 
 
 def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -> Checks:
-    """Count the evidence of these steps, and how the source document compares."""
+    """Count the evidence of these steps and the outcomes of the comparison with the source document."""
     steps = list(steps)
     evidence = [(step, e) for step in steps for e in step.evidence]
     lines = [e for _, e in evidence if e.compared is Compared.LINES]
@@ -132,7 +136,7 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
 
 
 def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
-    """Return the second routes to the result of a step, then the motion if it was followed; or its checks."""
+    """Return the words for the second routes of a step and for the motion if it was followed, or for its checks."""
     found = tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
     followed = sort is Compared.ROUTE and any(e.compared is Compared.WITNESS for e in step.evidence)
     return (*found, words.labels["motion"]) if followed else found
@@ -156,5 +160,5 @@ def _by_grade(counts: Mapping[Grade, int], words: Mapping[str, str]) -> str:
 
 
 def _columns_of_steps(words: Phrases) -> dict[str, str]:
-    """Return the words under which steps are counted: a definition is only named."""
+    """Return the word for each grade above the counts of steps; definitions are counted as named."""
     return {**words.grades, Grade.DEFINITION: words.labels["named"]}

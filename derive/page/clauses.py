@@ -12,7 +12,7 @@ from derive.page.introduced import expressions_in, letters_in, letters_of
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined, names_asked, names_of_step
 from derive.steps.step import Step
 
-BY_VALUE = "<<definition>>"  # for a step without a phrase
+BY_VALUE = "<<definition>>"  # the clause of a step without a phrase: symbol = value
 
 
 class Clauses:
@@ -30,7 +30,7 @@ class Clauses:
         self.set_up: list[Inline] = []
 
     def set_aside(self, step: Step, is_told: bool) -> None:
-        """Keep what a step without lines introduces; define its symbol there or, if `is_told`, at its first use."""
+        """Store the words of a step without lines; if `is_told`, its symbol is defined at its first use."""
         phrase = self.words.setup(step)
         self.set_up += filled(phrase, self._names(step))
         if "definition" in names_asked(phrase):
@@ -39,23 +39,23 @@ class Clauses:
             self.waiting.append(step)
 
     def point_out(self, step: Step, said: tuple[Inline, ...]) -> None:
-        """Add the sentence of a step whose result is in lines above."""
+        """Store the sentence of a step whose result earlier lines already show."""
         self.set_up += [*([Text(" ")] if self.set_up else []), *said]
         self.told.add(step.key)
 
     def begun(self) -> tuple[Inline, ...]:
-        """Return the text to put before the next sentence, and forget it."""
+        """Return the stored text that belongs before the next sentence, and clear it."""
         said, self.set_up = self.set_up, []
         return (*said, Text(" ")) if said else ()
 
     def behind(self, lines: Any) -> tuple[Inline, ...]:
-        """Return the meanings of the symbols in these lines, as a clause that continues their sentence."""
+        """Return the definitions of symbols in these lines as a clause that continues the sentence of the lines."""
         return self._sentence("where", self._due(lines))
 
     def around(self, sentence: tuple[Inline, ...], lines: Any) -> tuple[Inline, ...]:
-        """Return the sentence after some lines, with the clause that defines their symbols before it.
+        """Return the sentence after some lines; a clause before it defines the symbols in the lines.
 
-        If the sentence continues the lines, the clause follows it.
+        If the sentence continues the sentence of the lines, the clause comes after it.
         """
         due = self._due(lines)
         first = sentence[0]
@@ -65,9 +65,7 @@ class Clauses:
         return (*(self._sentence("where", due)), *((Text(" "),) if due else ()), *sentence)
 
     def meanings(self, steps: Sequence[Step]) -> tuple[Inline, ...]:
-        """Return the meanings of the symbols, without values where a phrase has words for them: `where rho is the
-        density`.
-        """
+        """Return the meanings of the symbols: `where rho is the density`, or `where rho = M/V` without a phrase."""
         return self._sentence("where", steps, by_value=False)
 
     def _due(self, lines: Any) -> list[Step]:
@@ -84,7 +82,7 @@ class Clauses:
         return filled(self.words.labels[label], {"definitions": told})
 
     def _told(self, step: Step, by_value: bool) -> tuple[Inline, ...]:
-        """Return `rho = M/(6 a^3) is the density`, or the value alone without a phrase."""
+        """Return `rho = M/(6 a^3) is the density`; if there is no phrase, only `rho = M/(6 a^3)`."""
         phrase = self.words.clauses.get(step.rule, {}).get(step.outcome, BY_VALUE)
         names = self._names(step)
         return filled(phrase, names if by_value or phrase == BY_VALUE else {**names, "definition": Math(step.symbol)})
@@ -95,7 +93,7 @@ class Clauses:
 
 
 def _in_a_row(value: Any) -> tuple[Inline, ...]:
-    """Return a value as a sentence shows it: a vector as (a, 2a, 3a) rather than as a column."""
+    """Return a value for use in a sentence: a vector is written (a, 2a, 3a) instead of as a column."""
     shown = explicit(value)
     if not isinstance(shown, MatrixBase):
         return (Math(value),)

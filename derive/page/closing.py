@@ -1,4 +1,4 @@
-"""The limiting cases at the end of a page: a sentence for each, with its formula in the text where there is room."""
+"""The limiting cases at the end of a page: one sentence for each case, with the formula in the text if it fits."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Nodes = tuple[Inline, ...]
 
 
 def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]:
-    """Return warnings for the cases left out because the result no longer depends on their symbols."""
+    """Return a warning for each case that is left out because the result does not depend on the symbols of the case."""
     found = []
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
         if not keys:
@@ -42,14 +42,14 @@ def limiting_cases(
     told: Callable[[Any], Nodes],
     numbers: Mapping[str, Number],
 ) -> Iterator[Step | Nodes]:
-    """Yield steps, to be shown like any other step, and sentences.
+    """Yield the steps that only the limiting cases need, and a sentence for each case.
 
-    phrase, told   return the words of a step and of prose, as the page shows them
-    numbers        numbers of the equations that the page has when a sentence is made
+    phrase, told   functions that return the words of a step and of the author's prose
+    numbers        numbers of the page's equations, which grow while sentences are written
     """
     own = {key for keys in derivation.closing for key in keys}
     shown = {key for keys in derivation.parts for key in keys} | own
-    yield from (step for step in derivation.steps if step.key not in shown)  # only the limiting cases need these
+    yield from (step for step in derivation.steps if step.key not in shown)  # only the limiting cases need these steps
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
         if not keys:  # the result no longer contains the symbols of this case
             continue
@@ -64,16 +64,16 @@ def limiting_cases(
 
 
 def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, Number]) -> Nodes:
-    """Return what a limit agrees with: the number of an equation, a symbol, or a formula."""
+    """Return the sentence that a limit agrees with a known result, which a number, symbol or formula names."""
     known = derivation.step(step.inputs[-1])
     named: Inline = Ref(known.key) if known.key in numbers or known.symbol is None else Math(known.symbol)
     return filled(words.phrase(step), {"known": named, "formula": Math(step.chain[0].expr)})
 
 
 def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:
-    """Return the sentence of a step with its result in it; None for a vector or a tensor, which is too tall."""
+    """Return the sentence of a step with its result in the text; None for a vector or tensor, which is too tall."""
     last = step.chain[-1]
-    if step.display.names_formula and step.outcome == ZERO:  # its sentence is complete
+    if step.display.names_formula and step.outcome == ZERO:  # the sentence already states the result 0
         said, _ = around_chain(nodes)
         return *said[:-1], Text(said[-1].text.rstrip(" ,")) if isinstance(said[-1], Text) else said[-1]
     if isinstance(last.expr, MatrixBase):
@@ -87,7 +87,7 @@ def _result(step: Step) -> Nodes:
         return (Math(last.expr),)
     what = dict(step.roles).get(
         "bound", name_before(step)
-    )  # the least value of a symbol is its bound, which is on the page
+    )  # for the least value of a symbol the left side is its bound, which the page shows
     match sign_before(last):
         case "tends":
             return (Math(Approach(what, last.expr)),)
@@ -99,7 +99,7 @@ def _result(step: Step) -> Nodes:
 
 
 def _with_commas(parts: Sequence[Nodes]) -> Nodes:
-    """Join the parts of one sentence by commas."""
+    """Join the parts of a sentence with commas, and end the sentence with a full stop."""
     nodes: list[Inline] = []
     for i, part in enumerate(parts):
         nodes += [Text(", ")] if i else []

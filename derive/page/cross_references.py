@@ -1,4 +1,4 @@
-"""References by number: `<<eq torque>>` to an equation, `<<figure axes>>` to a drawing, `<<problem top>>`."""
+"""References by number to equations, drawings and problems: `<<eq torque>>`, `<<figure axes>>`, `<<problem top>>`."""
 
 from __future__ import annotations
 
@@ -40,17 +40,17 @@ class References:
         return Ref(mention.name)
 
     def note(self, pieces: Iterable[str | Mention], names: Mapping[str, object]) -> None:
-        """Note the names that denote an equation: relations have a number and no symbol."""
+        """Record which mentioned names refer to equations: a relation has no symbol, so its number is mentioned."""
         mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
         self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
 
     @property
     def named(self) -> set[str]:
-        """Return the steps whose equations prose refers to."""
+        """Return the steps to whose equations prose refers."""
         return {mention.name for mention in self.equations}
 
     def check_title(self, mentions: Iterable[Mention], names: Mapping[str, object]) -> None:
-        """Reject numbers in a title: it also appears in lists, in bookmarks and at the head of pages."""
+        """Reject references by number in the title, because lists, bookmarks and heads of pages also show the title."""
         for mention in mentions:
             if mention.of or isinstance(names.get(mention.name), Ref):
                 message = "a title cannot refer to an equation or to a problem"
@@ -74,7 +74,7 @@ class References:
         return None
 
     def check(self, numbers: Mapping[str, Number], known: Collection[str]) -> None:
-        """Check that every equation has a number; `known` are the steps of the page, shown or hidden."""
+        """Check that every equation that prose mentions has a number; `known` are all steps, shown or hidden."""
         for mention in self.equations:
             if mention.name in numbers:
                 continue
@@ -87,7 +87,7 @@ class References:
 
 
 def found_before(steps: Iterable[Step], shown_in: Mapping[str, str], words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return a sentence for each earlier part that has derived some of these steps, with their equations."""
+    """Return a sentence for each earlier part that derived some of these steps; it refers to their equations."""
     found: dict[str, list[tuple[Inline, ...]]] = {}
     for step in (each for each in steps if each.key in shown_in):
         names = {"name": name_of(step), "has_symbol": step.symbol is not None, "ref": Ref(step.key)}
@@ -112,7 +112,7 @@ def each_number_once(nodes: Sequence[Inline], numbers: Mapping[str, Number]) -> 
 
 
 def _repeats(before: Sequence[Inline], node: Inline, numbers: Mapping[str, Number]) -> bool:
-    """Return whether the reference before this one, separated by a comma or a word, has the same number."""
+    """Return whether the reference before the last comma or word has the same number as this reference."""
     match (*before, node):
         case (Ref(one), Text(between), Ref(other)):
             return len(between.split()) == 1 and numbers[one] == numbers[other]

@@ -1,8 +1,8 @@
-"""The drawings of a page in words: where each appears, its caption, and its alternative text.
+"""The position, caption and alternative text of each drawing on a page.
 
 The alternative text is derived from the marks themselves, with the same expressions, so it changes with the inputs.
-A drawing appears in the statement if it shows only inputs. Otherwise it appears in the first part that has derived
-everything it shows. A problem may move it to a later place, never to an earlier one.
+A drawing appears in the statement if it shows only inputs. Otherwise it appears in the first part by whose end all its
+steps are derived. A problem may move a drawing to a later part, but never to an earlier one.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 
 CURVE = "way"  # the phrase for a dashed curve
-FOUND = -1  # the index of the statement, before that of part a
+FOUND = -1  # the index of the statement; part (a) has the index 0
 
 
 @dataclass(frozen=True)
 class Depicted:
-    """A drawing on its page; `number` is that of its caption, if it has one."""
+    """A drawing on its page; `number` is the figure number, if there is a caption."""
 
     drawing: m.Recorded
     placement: Placement | None
@@ -44,7 +44,7 @@ class Depicted:
 
 
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
-    """Return the numbers of the drawings that have a caption, in the order of the page."""
+    """Return the figure numbers of the drawings with a caption, in the order of the page."""
     placed = [(index, d.key) for d in drawings if (index := _index(problem, d, derivation)) is not None]
     captioned = {p.key for p in problem.drawings if p.caption}
     ordered = sorted(placed, key=lambda entry: entry[0])
@@ -58,7 +58,7 @@ def depictions(
     words: Phrases,
     told: Callable[[Any, dict[str, Any]], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
-    """Return the drawings in the order of the page, and the errors in where the problem puts them."""
+    """Return the drawings in the order of the page, and an error for each wrong position that the problem specifies."""
     faults = _unknown(problem, drawings) + [f for drawing in drawings for f in _without_letter(problem, drawing)]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
@@ -83,7 +83,7 @@ def depictions(
 
 
 def _lettered(drawing: m.Recorded) -> dict[str, Any]:
-    """Return the symbols next to its marks, which its caption may mention like inputs: C for `<<C>>`."""
+    """Return the symbols in a drawing, which its caption may mention by name like inputs: `<<C>>` prints C."""
     labels = (getattr(mark, "label", None) for mark in getattr(drawing, "marks", ()))
     return {label.name: (Math(label),) for label in labels if isinstance(label, Symbol)}
 
@@ -114,7 +114,7 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
 
 
 def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return errors for symbols that have a value for a drawing in which they do not occur."""
+    """Return an error for each symbol that the problem gives a value for a drawing in which it does not occur."""
     placement = placement_of(problem, drawing.key)
     letters = {symbol.name for symbol in drawing.letters}
     return [
@@ -126,20 +126,20 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
 
 
 def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return warnings for symbols of the problem that have values for a drawing in which they no longer occur."""
+    """Return a warning for each symbol of the problem with a value for a drawing in which it does not occur."""
     found = []
     for drawing in drawings:
         placement = placement_of(problem, drawing.key)
         letters = {symbol.name for symbol in drawing.letters}
         for name, place in placement.names.items() if placement else ():
             if name not in letters and name in problem.symbols:
-                message = f"`{name}` does not occur in what `{drawing.key}` draws now, so its value is not used"
+                message = f"`{name}` does not occur in the drawing `{drawing.key}`, so its value is not used"
                 found.append(Complaint("unused-letter", message, place, severity="warning"))
     return found
 
 
 def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return warnings for keys of plots that the problem gives to another drawing."""
+    """Return a warning for each key for plots that the problem specifies for a drawing that is not a plot."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
@@ -152,7 +152,7 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the first part by whose end all steps of the drawing are derived; None if no part is."""
+    """Return the index of the first part by whose end all steps of the drawing are derived; None if there is none."""
     known: set[str] = set()
     for index, keys in enumerate(((), *derivation.parts), FOUND):
         known |= set(keys)
@@ -162,7 +162,7 @@ def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
 
 
 def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the part with the drawing, where the statement comes before part 0; None if it is hidden."""
+    """Return the index of the part with the drawing, or -1 for the statement; None if the drawing is hidden."""
     placement = placement_of(problem, drawing.key)
     if placement is None or placement.at is None:
         return _earliest(drawing, derivation)
@@ -174,7 +174,7 @@ def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int
 
 
 def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
-    """Return the part that asks for a step, else the part that shows it; None otherwise, without a drawing."""
+    """Return the index of the part that asks for a step, else of the part that shows the step, else None."""
     answered = [derivation.answering(part.answers) for part in problem.parts]
     asked = [index for index, steps in enumerate(answered) if key in [step.key for step in steps]]
     shown = [index for index, keys in enumerate(derivation.parts) if key in keys]
@@ -194,7 +194,7 @@ def _given_away(
         help_line = did_you_mean(at, derivation.keys)
         return Complaint("undefined-name", f"no step of this problem is called `{at}`", place, help=help_line)
     if earliest is None and at is None:
-        return None  # the page does not have what the drawing shows, since a part was left out
+        return None  # a part was left out, so the page lacks steps that the drawing shows
     if earliest is None:
         loose = next(key for key in drawing.keys if key not in derivation.keys)
         message = f"the drawing `{drawing.key}` shows `{loose}`, on which no answer depends"
@@ -215,7 +215,7 @@ def _given_away(
 def alternative(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, words: Phrases
 ) -> tuple[Inline, ...]:
-    """Return the drawing in words."""
+    """Return the alternative text of a drawing."""
     if isinstance(drawing, m.Plot):
         return _curves(problem, drawing, placement, words)
     told = [nodes for nodes in (_mark(mark, words) for mark in _told_once(drawing.marks)) if nodes]
@@ -228,7 +228,7 @@ def alternative(
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
-    """Keep only the first of the curves that show where something can move."""
+    """Return the marks with only the first of the curves along which something can move."""
     found: dict[Any, m.Mark] = {}
     for mark in marks:
         told = mark.in_words()
@@ -237,7 +237,7 @@ def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
 
 
 def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """Return the range, and for each curve its numbers and extrema."""
+    """Return words for the range of a plot and for the numbers and extrema of each curve."""
     curves = curves_of(problem, plot, placement)
     first = curves.curves[0]
     names = {
@@ -264,7 +264,7 @@ def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:
 
 
 def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return the numbers that all curves share, which no curve shows above it."""
+    """Return the numbers that all curves share; they are not written above the panels."""
     if not curves.shared:
         return []
     numbers = joined(_put_in(curves.shared), words.labels["and"])
@@ -272,7 +272,7 @@ def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
 
 
 def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return the extrema of a curve, each in a few words."""
+    """Return a few words for each extremum of a curve."""
     return [
         filled(
             words.drawings["extremum"],
@@ -288,7 +288,7 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
 
 
 def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """Return the extrema of a plot with their numbers, panel by panel, for use after its caption."""
+    """Return the extrema of a plot with their values, panel by panel, to follow the caption."""
     curves = curves_of(problem, plot, placement)
     last = words.labels["and"]
     told = [
@@ -301,7 +301,7 @@ def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words
 
 
 def _mark(mark: m.Mark, words: Phrases) -> tuple[Inline, ...]:
-    """Return the words for one mark; nothing for an auxiliary line."""
+    """Return the words for one mark; an auxiliary line has none."""
     told = mark.in_words()
     if told is None:
         return ()
@@ -322,7 +322,7 @@ def _measured(name: str, value: Any, last: str) -> tuple[Inline, ...]:
 
 
 def _named(value: Any) -> Any:
-    """Return a value as a phrase may mention it: words and counts unchanged, everything else as mathematics."""
+    """Return a value for use in a phrase: words and counts are unchanged, everything else becomes mathematics."""
     if value is None or isinstance(value, str):
         return (Text(value),) if value else ()
     return value if isinstance(value, int) else (Math(value),)

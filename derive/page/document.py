@@ -72,10 +72,10 @@ def document_of(
     evidence: EvidenceShown = EvidenceShown.NONE,
     like: Document | None = None,
 ) -> tuple[Document, list[Complaint]]:
-    """Return the page and every error found on it: names that nothing defines, lines that are not homogeneous.
+    """Return the page and its errors, such as undefined names and lines that are not homogeneous.
 
-    others   numbers of the set's problems, to which prose may refer
-    like     a page of less detail, whose equations have the same numbers here
+    others   numbers of the set's problems, by name, to which prose may refer
+    like     a page of less detail, whose equation numbers this page uses
     """
     needed = NOTHING_NEEDED
     while True:
@@ -113,10 +113,10 @@ class _Writer:
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
         self.converted, self.stated = set[Any](), Stated()
-        self.before: Step | None = None  # the last step shown, on which the words of the next may depend
+        self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps of the part that are shown after this one
-        self.told_before = ""  # the key of the step whose words are in the sentence of the step before it
-        self.unplaced: set[str] = set()  # steps without words so far
+        self.told_before = ""  # the key of a step that the sentence of the step before already describes
+        self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = page_names(problem, derivation, words)
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
@@ -127,7 +127,7 @@ class _Writer:
 
     def _dimensions(self) -> dict[Any, Dimension | None]:
         table, unlike = dimension_table(self.problem.dimensions, [*self.derivation.steps, *self.values.values()])
-        # Everything that follows from a wrong line is wrong too: only the first error needs a fix.
+        # All lines that follow from a wrong line are wrong too, so only the first error is reported.
         self.faults += [replace(fault, place=self.problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
         return {**table, **{a: self.problem.dimensions.get(letter) for letter, a in self.problem.every_amount}}
 
@@ -159,7 +159,7 @@ class _Writer:
             shown_in=self.shown_in,
             dimensions=self.dimensions,
             warnings=(
-                # The author cannot change what a script of the engine establishes without using it.
+                # An author cannot edit a script of the engine, so its warnings about unused results are left out.
                 *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
                 *letters_not_drawn(problem, self.drawings),
@@ -170,7 +170,7 @@ class _Writer:
         )
 
     def needs(self, document: Document) -> tuple[set[str], set[str]]:
-        """Return the steps that are not shown although the page uses their symbols or refers to their equations."""
+        """Return the hidden steps whose symbols the page uses, and the hidden steps to whose equations it refers."""
         shown = (document.title, document.statement, document.strategy, document.illustrations)
         whole = (shown, document.parts, document.limits, document.note)
         moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
@@ -194,7 +194,7 @@ class _Writer:
         )
 
     def _assumed(self) -> tuple[Inline, ...]:
-        """Return what the script assumes of the symbols, to be stated with the inputs."""
+        """Return a sentence with the script's assumptions about symbols, to follow the statement."""
         assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
         if not assumed:
             return ()
@@ -235,7 +235,7 @@ class _Writer:
         return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
 
     def _limits(self) -> PartPage | None:
-        """Return the limiting cases at the end, after the steps that only they depend on."""
+        """Return the limiting cases as the last part, which begins with the steps that only these cases need."""
         blocks: list[Block] = []
         for each in limiting_cases(self.problem, self.derivation, self.words, self._phrase, self._told, self.numbers):
             if isinstance(each, Step):
@@ -246,9 +246,7 @@ class _Writer:
         return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
-        """Return the steps of a part whose last line is framed, except where their number follows directly and is
-        framed.
-        """
+        """Return the steps of a part that are framed: its answers, but not a formula whose number is framed instead."""
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
         return self.selection.standing_for(set(asked) - measured)
@@ -298,24 +296,24 @@ class _Writer:
             blocks.append(Paragraph(self.clauses.around(after, blocks[-1])))
 
     def _clause(self, blocks: Sequence[Block]) -> tuple[Inline, ...]:
-        """Return the meanings of symbols in the lines just shown."""
+        """Return a clause that defines the symbols in the lines just shown."""
         told = self.clauses.behind(blocks[-1]) if blocks and isinstance(blocks[-1], Display) else ()
         return (*told, Text(" ")) if told else ()
 
     def _beside(self, step: Step | None, equations: Equations) -> bool:
-        """Return whether the only line of a step, a symbol and its value, may share its row with another."""
+        """Return whether a step may share a row with another step: it has a symbol, no reason and no frame."""
         if step is None or self.level is Level.FULL or step.symbol is None or equations.framed:
             return False
         return not any(line.reason for line in equations.lines) and equations.lines[-1].left is not None
 
     def _following(self, key: str) -> Step | None:
-        """Return the step that is shown next in the part, if one sentence may describe both."""
+        """Return the next step shown in the part, if one sentence may describe it together with this step."""
         if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
             return None
         return self.rest[0] if self.rest[0].display.told_along else None
 
     def _completed(self, key: str) -> set[str]:
-        """Return the steps that are complete with this one: steps without lines wait for their words."""
+        """Return the steps that are now complete: a step without lines is complete when its words are shown."""
         self.unplaced.add(key)
         if key not in self.numbers:
             return set()
@@ -333,17 +331,17 @@ class _Writer:
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
         both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
         self.told_before = following.key if following and both else ""
-        return filled(both or self.words.phrase(step, self.before), own)  # not the keys of other steps
+        return filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
-        """Return the numbers that a step substitutes for the first time, in their units."""
+        """Return the numbers with units that no earlier step has substituted."""
         used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
         new, self.converted = used - self.converted, self.converted | used
         return joined(conversions(self.problem, new), self.words.labels["and"])
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
-    """End a display with a comma where the sentence continues after it."""
+    """End a display with a comma if the next block continues the sentence."""
     result: list[Block] = []
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         if isinstance(block, Display) and following is not None and _goes_on(following):
@@ -353,13 +351,13 @@ def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
 
 
 def _parts_nothing(blocks: Sequence[Block], i: int) -> bool:
-    """Return whether a drawing may precede this block: not between words and the lines they introduce or explain."""
+    """Return whether a drawing may precede this block: it must not separate words from the lines that they describe."""
     introduced = i > 0 and isinstance(blocks[i - 1], Paragraph) and isinstance(blocks[i], Display)
     return not introduced and not (i > 0 and _goes_on(blocks[i]))
 
 
 def _goes_on(block: Block) -> bool:
-    """Return whether this block continues the sentence of the lines before it."""
+    """Return whether this block continues the sentence before it: its text begins with a small letter."""
     first = block.nodes[0] if isinstance(block, Paragraph) else None
     return isinstance(first, Text) and first.text.lstrip()[:1].islower()
 
@@ -367,7 +365,7 @@ def _goes_on(block: Block) -> bool:
 def _illustrated(
     blocks: tuple[Block, ...], own: Sequence[Illustration], ends: Mapping[str, int], steps: int
 ) -> tuple[Block, ...]:
-    """Put each drawing after the step that completes it; a drawing without steps begins the part, others end it."""
+    """Insert each drawing after the last step that it shows; a drawing that shows no steps begins the part."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
     completed = [max((ends[k] for k in d.rests_on if k in ends), default=n) for d, n in zip(own, without, strict=True)]
     places = [

@@ -1,4 +1,4 @@
-"""The explanation of one step: why the page needs it, how it was checked, its sentence, and its law in the code."""
+"""The explanation of one step: why the page needs it, how it was checked, its sentence, and the code of its law."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Need:
-    """A part that asks for an answer, and the steps through which the answer depends on the step that is explained."""
+    """A part that asks for an answer, and the steps that lead from the explained step to this answer."""
 
     part: str
     answer: str
@@ -28,9 +28,9 @@ class Need:
 
 @dataclass(frozen=True)
 class Explanation:
-    """The explanation of one step, shown in `part`; at `own_words` the problem replaces the `sentence`.
+    """The explanation of a step in `part`; `own_words` is the place in the problem that rewords the `sentence`.
 
-    A problem cannot replace the words of a step that only gives the number of an answer: `names` is empty then.
+    A problem cannot reword a step that only gives the number of an answer; `names` is empty for such a step.
     """
 
     step: Step
@@ -52,7 +52,7 @@ class Explanation:
         return f"{place.path}:{place.line}" if place else ""
 
     def facts(self) -> dict[str, Any]:
-        """Return the same facts for other programs."""
+        """Return the explanation as data for other programs."""
         return {
             "key": self.step.key,
             "part": self.part,
@@ -113,14 +113,14 @@ def _label(index: int) -> str:
 
 
 def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step]) -> dict[str, str]:
-    """Return the part that first asks for each answer, also by the key of its number."""
+    """Return the first part that asks for each answer, by the key of the answer and by the key of its number."""
     answers = [derivation.answering(part.answers) for part in problem.parts]
     asked = {step.key: _label(i) for i, steps in reversed(list(enumerate(answers))) for step in steps}
     return asked | {value.key: asked[key] for key, value in values.items()}
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """Yield the answers that depend on the step, each by its shortest path, but not through another answer."""
+    """Yield each answer that depends on the step, with the shortest path that does not pass through another answer."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])
@@ -137,11 +137,11 @@ def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Itera
 
 # --- in words --------------------------------------------------------------------------------------------------------
 
-Section = tuple[str, tuple[tuple[Inline, ...], ...]]  # its heading, and the sentences under it
+Section = tuple[str, tuple[tuple[Inline, ...], ...]]  # a heading, and the sentences under it
 
 
 def told_of(explanation: Explanation, words: Phrases) -> list[Section]:
-    """Return the explanation of a step, under a few headings."""
+    """Return the explanation of a step in words, divided into sections."""
     say = _Teller(explanation, words)
     headings = words.labels["explain_headings"]
     sections = (say.why(), say.checked(), say.wording(), say.shown(), say.law())
@@ -149,7 +149,7 @@ def told_of(explanation: Explanation, words: Phrases) -> list[Section]:
 
 
 class _Teller:
-    """Writes the facts of an explanation in sentences of the phrases."""
+    """Writes the facts of an explanation in sentences that it takes from the phrases."""
 
     def __init__(self, explanation: Explanation, words: Phrases):
         self.of, self.step, self.words = explanation, explanation.step, words

@@ -1,4 +1,4 @@
-"""A page that also contains the lines of a more detailed page, folded until the reader opens them."""
+"""A page that also contains the additional lines of a more detailed page, folded until the reader opens them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Sentence = tuple[Block, ...]
 
 
 def with_details(document: Document, full: Document) -> Document:
-    """Return a page with the additional lines of `full`, a page of the same problem with the same numbers."""
+    """Return the page with the additional lines of `full`, a page of the same problem with the same numbers."""
     lines = {group.key: group.lines for part in document.parts for group in _groups(part.blocks)}
     numbers = {**full.numbers, **document.numbers}
     merged = {part.label: _merged(part, document.numbers, lines) for part in full.parts}
@@ -32,7 +32,7 @@ def with_details(document: Document, full: Document) -> Document:
 def _merged(
     full: PartPage, numbers: Mapping[str, Number], lines: Mapping[str, Sequence[ChainLine]]
 ) -> dict[str, tuple[Block, ...]]:
-    """Return the blocks to fold after each step, by the key of the step; before the first step under the empty name."""
+    """Return the blocks to fold after each step, by its key; those before the first step have the empty key."""
     found: dict[str, list[Block]] = {}
     at = ""
     for sentence in sentences(full.blocks):
@@ -54,7 +54,7 @@ def _merged(
 
 
 def _naming_once(block: Block, numbers: Mapping[str, Number]) -> Block:
-    """Name an equation once where two equations of the full page share its number here."""
+    """Refer to a number once in a row, also if two equations of the full page share that number on this page."""
     if isinstance(block, Paragraph):
         return Paragraph(each_number_once(block.nodes, numbers))
     if not isinstance(block, Display):
@@ -71,7 +71,7 @@ def _has_more(full: Sequence[ChainLine], shown: Sequence[ChainLine]) -> bool:
 
 
 def _placed(blocks: Sequence[Block], folded: Mapping[str, tuple[Block, ...]]) -> tuple[Block, ...]:
-    """Return the blocks of a part, each sentence followed by the blocks folded after its steps."""
+    """Return the blocks of a part; after each sentence come the blocks to fold after its steps."""
     found: list[Block] = [Folded(folded[""])] if "" in folded else []
     for sentence in sentences(blocks):
         found += sentence
@@ -85,7 +85,7 @@ def _groups(blocks: Sequence[Block]) -> list[Equations]:
 
 
 def sentences(blocks: Sequence[Block]) -> list[Sentence]:
-    """Group blocks into sentences: words before a display, the display, and the words that continue its sentence."""
+    """Group blocks into sentences: words before a display, the display, and words that continue the sentence."""
     found: list[Sentence] = []
     for block in blocks:
         last = found[-1][-1] if found else None

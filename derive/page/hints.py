@@ -1,7 +1,7 @@
-"""Graded hints derived from a solution: what to compute, then its law, then the next lines.
+"""Graded hints derived from a solution: first what to compute, then the law, then the next lines.
 
-A line gives the result away if nothing is left to do in it: no result to substitute, no derivative or integral to
-evaluate. Hints show neither such a line nor the lines after it. A step that only substitutes numbers has no hint.
+A line gives the result away if nothing is left to do: no result to substitute, no derivative or integral to
+evaluate. Hints omit such a line and all lines after it. A step that only substitutes numbers has no hint.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 def with_hints(
     document: Document, problem: Problem, derivation: Derivation, values: Mapping[str, Step], words: Phrases
 ) -> Document:
-    """Return the page with hints in place of the derivation."""
+    """Return the page with hints instead of the derivation."""
     hints = _Hints([*derivation.steps, *values.values()], problem.dimensions, words)
     hints.answers = {_of(s.result) for part in problem.parts for s in derivation.answering(part.answers)}
     parts = tuple(hints.of(part) for part in document.parts_shown)
@@ -42,7 +42,7 @@ def with_hints(
 class _Hints:
     """The hints of one page.
 
-    introduced  symbols that need no explanation any more
+    introduced  symbols that the statement or a hint has explained
     """
 
     steps: Sequence[Step]
@@ -59,7 +59,7 @@ class _Hints:
         self.clauses = Clauses(self.words)
 
     def of(self, part: PartPage) -> PartPage:
-        """Return a part with its hints, each folded."""
+        """Return a part whose blocks are its hints, each folded."""
         titles = self.words.labels["hints"]
         told = [each for each in sentences(part.blocks) if any(isinstance(block, Display) for block in each)]
         rungs = (
@@ -71,7 +71,7 @@ class _Hints:
         return replace(part, blocks=found)
 
     def _what(self, sentence: Sentence) -> list[Block]:
-        """Return the words that lead to a display, and its left sides with the results still unknown."""
+        """Return the first hint of a sentence: the words before each display, and its left sides with ? as results."""
         found: list[Block] = []
         before: list[Block] = []
         for block in sentence:
@@ -85,14 +85,14 @@ class _Hints:
         return found
 
     def _sought(self, group: Equations) -> tuple[ChainLine, ...]:
-        """Return T = ?; in an equation the left side is unknown too, unless it is a single symbol."""
+        """Return T = ?; for a relation return ? = ?, or ? = 0 if the right side is 0."""
         firsts = [lines[0] for lines in _chains(group)]
         if self.by_key[group.key].symbol is not None or isinstance(firsts[0].left, Symbol):
             return tuple(ChainLine(line.left, line.relation, BLANK, beside=line.beside) for line in firsts)
         return (ChainLine(BLANK, firsts[0].relation, firsts[0].right if firsts[0].right == 0 else BLANK),)
 
     def _cut(self, sentence: Sentence, rung: slice) -> list[Block]:
-        """Return the law in the chains of a sentence, or the lines after it, without results."""
+        """Return the law of each chain in a sentence, or the lines after the law, without results."""
         found: list[Block] = []
         for display in (block for block in sentence if isinstance(block, Display)):
             groups = tuple(cut for group in display.groups if (cut := self._part_of(group, rung)))
@@ -103,14 +103,14 @@ class _Hints:
         return found
 
     def _due(self, shown: Any) -> list[Step]:
-        """Return the steps whose symbols appear for the first time and are not in any hint."""
+        """Return the steps whose symbols appear here for the first time, and mark these symbols as introduced."""
         due = wanting(shown, set(), self.steps, self.introduced)
         found = [step for step in self.steps if step.key in due]
         self._introduce({letter for step in found for letter in letters_of(step.symbol)})
         return found
 
     def _introduce(self, letters: set[Any]) -> None:
-        """Mark symbols as introduced; a vector introduces its components."""
+        """Mark symbols as introduced; a vector also introduces its components."""
         known = [letters_of(step.symbol) for step in self.steps]
         self.introduced |= letters.union(*(each for each in known if each & letters))
 
@@ -119,7 +119,7 @@ class _Hints:
         return replace(group, lines=lines, framed=0) if lines else None
 
     def _kept(self, chain: Sequence[ChainLine], step: Step, rung: slice) -> list[ChainLine]:
-        """Return the lines for one hint; the first has the left side."""
+        """Return the lines of a chain for one hint; the first line has the left side of the chain."""
         lines = [*_law_behind(chain, step), *(line for line in chain if not line.numeric)]
         if lines[0].because != "law" or any(form.because in NUMBERS for form in step.chain):
             return []
@@ -132,24 +132,24 @@ class _Hints:
         return kept
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
-        """Return whether the line has nothing left to do, or is the result of another step."""
+        """Return whether nothing is left to do in the line, or whether its right side is the result of some step."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results
 
     def _tells(self, nodes: Sequence[Inline]) -> bool:
-        """Return whether the words themselves contain an answer."""
+        """Return whether a formula in the words is an answer."""
         formulas = [node.expr for node in nodes if isinstance(node, Math) and not isinstance(node.expr, Symbol)]
         return any(_of(formula) in self.answers or self._is_answer(formula) for formula in formulas)
 
     def _is_answer(self, formula: Any) -> bool:
-        """Return whether a formula is an answer in another form; a general law is not, even if it reduces to 0 = 0."""
+        """Return whether a formula equals an answer; a law with a derivative or integral to evaluate does not count."""
         is_plain = isinstance(formula, Basic) and not formula.is_Atom and not formula.has(*TO_BE_DONE)
         return is_plain and any(equal(formula, answer) for answer in self.answers)
 
 
 def _chains(group: Equations) -> Iterator[tuple[ChainLine, ...]]:
-    """Yield the lines of each step in the group; in a list of results each line is one chain."""
+    """Yield the lines of each chain in the group; in a list of results each line is a separate chain."""
     starts = [
         i for i, line in enumerate(group.lines) if not i or line.beside or (line.left is not None and not line.because)
     ]
@@ -157,7 +157,7 @@ def _chains(group: Equations) -> Iterator[tuple[ChainLine, ...]]:
 
 
 def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
-    """Return the law that the page leaves out, because a theorem or an equation before it has stated it."""
+    """Return the law of a step if the page omits its line because a theorem or an earlier equation states the law."""
     law = step.chain[0]
     if law.because != "law" or chain[0].because == "law" or not isinstance(law.expr, Relation):
         return []
@@ -165,7 +165,7 @@ def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
 
 
 def _sides(line: ChainLine, step: Step) -> list[Any]:
-    """Return the expressions of a line: both sides for an equation, else the right side."""
+    """Return the expressions of a line: both sides for a relation, else the right side."""
     return [line.right] if step.symbol is not None else [line.left, line.right]
 
 
@@ -175,5 +175,5 @@ def _is_to_be_done(line: ChainLine) -> bool:
 
 
 def _of(value: Any) -> Any:
-    """Return a value in the form in which it is compared: one formula, however it is written."""
+    """Return a value in a standard form, so that formulas that are only written differently compare as equal."""
     return explicit(value) if isinstance(value, Basic | MatrixBase) else value

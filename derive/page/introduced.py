@@ -1,4 +1,4 @@
-"""The symbols that the lines and sentences of a page use, and those that they introduce: no symbol may be undefined."""
+"""The symbols that a page uses and the symbols that it introduces: every symbol in use must be introduced."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from derive.steps.step import Step
 
 
 def letters_of(symbol: Any) -> set[Any]:
-    """Return the symbols that a step introduces: its symbol, and for a vector also the components."""
+    """Return the symbols that a step introduces: its symbol, and also the components if the symbol is a vector."""
     if isinstance(symbol, MatrixSymbol):
         return {symbol, *(component_names(symbol.name) if symbol.shape == (3, 1) else ())}
     if isinstance(symbol, MatrixBase):
@@ -31,7 +31,7 @@ def letters_in(exprs: Iterable[Any]) -> set[Any]:
 
 
 def _seen(expr: Any) -> Iterator[Any]:
-    """Yield the parts of an expression as they are written: for an integral over the mass the integrand without dm."""
+    """Yield the printed parts of an expression: of an integral over the mass only the integrand."""
     parts = preorder_traversal(expr)
     for part in parts:
         yield part
@@ -41,12 +41,12 @@ def _seen(expr: Any) -> Iterator[Any]:
 
 
 def expressions_in(shown: Any) -> Iterator[Any]:
-    """Return the expressions in a piece of a page: in its lines, sentences and drawings."""
+    """Return all expressions in the lines, sentences and drawings of a piece of a page."""
     return (each for each in _leaves(shown) if isinstance(each, Basic | MatrixBase))
 
 
 def references_in(shown: Any) -> set[str]:
-    """Return the steps whose numbers it refers to."""
+    """Return the steps to whose equation numbers a piece of a page refers."""
     return {each.key for each in _leaves(shown) if isinstance(each, Ref)}
 
 
@@ -63,11 +63,11 @@ def _leaves(shown: Any) -> Iterator[Any]:
 
 
 def wanting(shown: Any, told: Set[str], steps: Iterable[Step], known: Collection[Any]) -> set[str]:
-    """Return the steps that would introduce symbols that are used but not introduced.
+    """Return the steps that can introduce symbols that a piece of a page uses but does not introduce.
 
-    shown   what the page shows
-    told    the keys of the steps that it explains
-    known   symbols of the inputs, and coordinates
+    shown   the piece of the page
+    told    keys of the steps that the page explains
+    known   symbols of inputs, and coordinates with their rates
     """
     sources: dict[Any, list[str]] = {}
     for step in steps:

@@ -1,6 +1,6 @@
-"""Consecutive numbers of equations; a more detailed page keeps the numbers of a less detailed page.
+"""Consecutive numbers of equations; a more detailed page uses the same numbers as a less detailed page.
 
-An equation that the less detailed page leaves out has the number before it and a letter: (7a) after (7). So an equation
+An equation that the less detailed page omits has the previous number and a letter: (7a) after (7). So an equation
 has the same number in every document of one derivation.
 """
 
@@ -13,7 +13,7 @@ from string import ascii_lowercase
 
 @dataclass(frozen=True, order=True)
 class Number:
-    """An equation number: 7, or 7a for the first equation after it that a page of less detail leaves out."""
+    """An equation number: 7, or 7a for the first equation after (7) that a less detailed page omits."""
 
     whole: int
     behind: int = 0
@@ -23,14 +23,14 @@ class Number:
 
 
 class Numbering(dict[str, Number]):
-    """The numbers of equations by the keys of their steps; `like` are those of a page of less detail."""
+    """The numbers of equations by the keys of their steps; `like` are the numbers of a less detailed page."""
 
     def __init__(self, like: Mapping[str, Number] | None = None):
         super().__init__()
         self._like = like
 
     def add(self, key: str) -> None:
-        """Assign the next number; a number that was replaced by that of another equation is free again."""
+        """Assign the number after the largest in use; the last number is assigned again if it has become free."""
         last = max(self.values(), default=Number(0))
         self[key] = self._next(key, last)
 
@@ -42,6 +42,6 @@ class Numbering(dict[str, Number]):
 
 
 def _letters(count: int) -> str:
-    """Return a to z, then aa."""
+    """Return the letters for a count: none for 0, then a to z, then aa and so on."""
     more, last = divmod(count - 1, len(ascii_lowercase))
     return (_letters(more) if more else "") + ascii_lowercase[last] if count else ""

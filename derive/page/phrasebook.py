@@ -1,4 +1,4 @@
-"""The phrases of a language: a folder of `templates/phrases` with a file for each topic, each phrase with its place."""
+"""The phrases of a language: a folder of `templates/phrases` with one file for each topic."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _SHAPE: dict[str, Any] = {
 
 
 class Phrase(str):
-    """A phrase, and the keys that lead to it in its file."""
+    """A phrase with its file and the YAML keys under which the file contains it."""
 
     source: Source
     keys: tuple[str, ...]
@@ -57,7 +57,7 @@ class Phrase(str):
 
 
 class PhraseTable(dict[str, Any]):
-    """Phrases by their names; a missing phrase is an error of the file."""
+    """Phrases by name; access to a missing phrase raises `Rejected` with the place in the file."""
 
     def __init__(self, source: Source, keys: tuple[str, ...]):
         super().__init__()
@@ -70,7 +70,7 @@ class PhraseTable(dict[str, Any]):
 
 
 def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> Complaint:
-    """Return the error that a step has no sentence, at the phrases of its rule or with the file for it."""
+    """Return the error for a step without a sentence; it shows the rule's phrases, or names the file to edit."""
     message, place = f"`{key}`: no phrase for `{rule}` with the outcome `{outcome}`", None
     help_line = f"write `rules: {{{rule}: {{{outcome}: ...}}}}` in {SHOWN_AS}/{rule.partition('.')[0]}.yaml"
     if isinstance(of_rule, PhraseTable):
@@ -80,13 +80,13 @@ def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> 
 
 
 def read_phrases(folder: Path) -> PhraseTable:
-    """Return all phrases of a folder's files, or raise `Rejected` with the line of the error."""
+    """Return the phrases of all files in a folder, or raise `Rejected` with the line of the error."""
     page = _phrases_of(folder / OF_EVERY_PAGE)
     for file in sorted(folder.glob("*.yaml")):
         if file.name != OF_EVERY_PAGE:
             _add(page, _phrases_of(file))
     for name in _SHAPE:
-        page[name]  # raises the error
+        page[name]  # a missing table raises an error
     if len(page["labels"]["points"]) != 2:
         _wrong(page.source, ("labels", "points"), "a word for one point and one for several points")
     page["reasons"]["general"]
@@ -99,7 +99,7 @@ def _phrases_of(file: Path) -> PhraseTable:
     try:
         loaded = yaml.load(source.text, Loader=yaml.CSafeLoader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        yaml_tree(source)  # reports the error and its line
+        yaml_tree(source)  # raises an error with the line, if it can
         lines = str(error).splitlines() or [type(error).__name__]
         raise Rejected(Complaint("yaml", f"the phrases cannot be read: {lines[0]}", Place(shown_as, 1))) from None
     table: PhraseTable = _Checked(source).phrases(loaded, _SHAPE, ())
@@ -107,7 +107,7 @@ def _phrases_of(file: Path) -> PhraseTable:
 
 
 def _add(page: PhraseTable, topic: PhraseTable) -> None:
-    """Add the phrases of a topic to those of the page; a phrase that two files have is an error."""
+    """Add the phrases of a topic to the phrases of the page; a phrase that is in two files is an error."""
     for sort, table in topic.items():
         known = page.setdefault(sort, PhraseTable(page.source, (sort,)))
         for name, phrases in table.items():
@@ -118,7 +118,7 @@ def _add(page: PhraseTable, topic: PhraseTable) -> None:
 
 
 class _Checked:
-    """Adds places to phrases, and rejects files of any other structure."""
+    """Checks the structure of a file and gives each phrase its place; a file with another structure is rejected."""
 
     def __init__(self, source: Source):
         self.source, self.count = source, 0
@@ -161,7 +161,7 @@ def _wrong(source: Source, keys: tuple[str, ...], wanted: str, help_line: str | 
 
 
 def _place(source: Source, keys: tuple[str, ...]) -> Place:
-    """Return the line of the last of these keys; the file is read again only to report an error."""
+    """Return the line of the last of these keys; the YAML is parsed again here, which happens only for an error."""
     node, index = yaml.compose(source.text, Loader=yaml.CSafeLoader), 0
     for name in keys:
         pairs = node.value if isinstance(node, yaml.MappingNode) else []

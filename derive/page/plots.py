@@ -1,6 +1,7 @@
-"""The curves of a plot: the numbers of each case, the range, and the extrema of each curve.
+"""The curves of a plot: the range, and the numbers and extrema of each curve.
 
-A case states only what differs from the first one; a symbol that no case gives must have a number in the problem.
+A case states only the numbers that differ from the first case. A symbol without a number in any case must have one in
+the problem.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ DEGREE, DEGREES = pi / 180, "°"
 
 @dataclass(frozen=True)
 class Curve:
-    """One curve: the quantity in its SI unit, a function of one symbol, and the numbers that are substituted."""
+    """One curve: a quantity in its SI unit as a function of one symbol, and the numbers that are substituted."""
 
     expr: Expr
     variable: Symbol
@@ -37,7 +38,7 @@ class Curve:
 class Curves:
     """The curves of a plot, the numbers that several of them share, and the unit of the horizontal axis.
 
-    `unit` is the name of that unit; `per_unit` is how many of it make one SI unit.
+    `unit` is the name of the unit of the horizontal axis; one SI unit equals `per_unit` of these units.
     """
 
     curves: tuple[Curve, ...]
@@ -47,7 +48,7 @@ class Curves:
 
 
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
-    """Return every curve of the plot with its extrema, or raise `Rejected` with the symbols that need a number."""
+    """Return every curve of the plot with its extrema; raise `Rejected` if symbols lack a number."""
     lower, upper = _range(problem, plot, placement)
     given = placement.cases if placement and placement.cases else ((),)
     # A number for a symbol that does not occur in the curve would be shown although it has no effect.
@@ -78,7 +79,7 @@ def _range(problem: Problem, plot: Plot, placement: Placement | None) -> tuple[E
     lower, upper = ends
     if not (lower.is_number and upper.is_number and lower < upper):
         raise Rejected(
-            Complaint("range", f"the range of `{plot.key}` must go from a smaller number to a larger", place)
+            Complaint("range", f"the range of `{plot.key}` must go from a smaller number to a larger number", place)
         )
     return lower, upper
 
@@ -108,19 +109,19 @@ def _curve(
 
 
 def panel_letters(curves: Curves) -> list[str]:
-    """Return the letter of each panel, if there are several."""
+    """Return the letter of each panel, or empty letters if there is only one panel."""
     several = len(curves.curves) > 1
     return [case_label(i) if several else "" for i, _ in enumerate(curves.curves)]
 
 
 def told_value(plot: Plot, extremum: Extremum) -> str:
-    """Return the value at an extremum with its unit, with the same figures in the plot, its words and its caption."""
+    """Return the value at an extremum with its unit, to four figures, for the plot, its description and its caption."""
     shown = f"{extremum.value:#.4g}".rstrip(".") if extremum.value else "0"
     return _signed(f"{shown} {_unit(plot.kind)}")
 
 
 def with_unit(value: float, unit: str) -> str:
-    """Return a number to four figures with its unit; a degree sign follows directly."""
+    """Return a number to four figures with its unit; a degree sign has no space before it."""
     gap = "" if unit == "\u00b0" else " "
     return _signed(f"{value:.4g}{gap}{unit}")
 

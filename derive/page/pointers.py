@@ -1,6 +1,6 @@
-"""Steps whose result is in earlier lines: a root by its sign in the formula of both, a principal moment by its entry.
+"""Steps whose result earlier lines show: one of two roots in the formula with ±, a principal moment as a tensor entry.
 
-Below the level `full` the sentence of such a step points to those lines, and the step has no lines of its own.
+Below the level `full` the sentence of such a step points to the earlier lines, and the step has no lines of its own.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from derive.steps.step import Step
 
 
 def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
-    """Return the inputs whose lines have the result, one for each different value; none if a value is missing there."""
+    """Return the inputs whose lines show the result, one for each distinct value; none if a value is not among them."""
     inputs = [each for key in step.inputs if (each := derivation.step(key)).rule in step.display.result_in]
     if not isinstance(step.symbol, MatrixBase):
         return tuple(inputs)
@@ -29,7 +29,7 @@ def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
 def pointed_out(
     sentence: Iterable[Inline], step: Step, having_it: Sequence[Step], words: Phrases
 ) -> tuple[Inline, ...]:
-    """Return the sentence of a step, which points to the lines of other steps where its own lines would be."""
+    """Return the sentence of a step with a reference to lines of other steps instead of the step's own lines."""
     several = isinstance(step.symbol, MatrixBase)
     instead = _names_of_values(step, having_it, words) if several else _clause(step, having_it[0], words)
     nodes = [each for node in sentence for each in (instead if isinstance(node, Chain) else (node,))]

@@ -1,6 +1,6 @@
-"""Each formula appears once on a page: a chain neither begins nor ends with a formula that is known for its symbol.
+"""Each formula appears once on a page: a chain neither begins nor ends by repeating a known formula of its symbol.
 
-A result that is already on the page is referred to by its number.
+If a result is already on the page, the page refers to the number of its equation.
 """
 
 from __future__ import annotations
@@ -14,28 +14,28 @@ from sympy import MatrixBase
 from derive.page.wording import Inline, Text, around_chain
 from derive.steps.step import Level, Step
 
-Lines = tuple[Any, ...]  # the lines of a chain, as a page has them
+Lines = tuple[Any, ...]  # the lines of a chain on the page
 Formula = tuple[Any, str, Any]
-AGAIN = "again"  # the outcome whose sentence names the equation
+AGAIN = "again"  # the outcome of a step whose sentence refers to the earlier equation
 
 
 class Stated:
-    """The results of the page so far, each with its step."""
+    """The results that the page has shown so far, with the key of the first step for each."""
 
     def __init__(self) -> None:
         self._found: dict[Formula, str] = {}
 
     def noted(self, key: str, lines: Lines) -> str | None:
-        """Return the step that already has the result of these lines; otherwise note the result for this step."""
+        """Return the earlier step with the result of these lines; if there is none, record the result for this step."""
         before = self._found.setdefault(_result(lines), key) if lines else key
         return None if before == key else before
 
     def without_repeats(self, lines: Lines, letters: Collection[Any]) -> Lines:
         """Drop a first line that repeats the general formula of T, and a last line that repeats a known formula of I'.
 
-        T = (general formula) = (with values) loses the first, I' = I = (known formula of I') the last.
+        T = (general formula) = (with values) loses its first line; I' = I = (known formula of I') loses its last line.
 
-        letters  the symbols of the page: a chain may end with one of them
+        letters  the symbols of the page; a last line may be dropped only after one of them
         """
         if len(lines) > 1 and lines[1].left is None and _result(lines[:1]) in self._found:
             lines = (replace(lines[1], left=lines[0].left), *lines[2:])
@@ -45,20 +45,20 @@ class Stated:
 
 
 def results(step: Step, lines: Lines) -> int:
-    """Return how many lines at the end are the result: the last one, or the decimals with the exact value before them.
+    """Return how many final lines are the result: the last line, or the decimals and the exact value before them.
 
-    Where numbers are substituted, the line before repeats the formula with units: the decimals alone are the result.
+    If numbers are substituted, the line before the decimals repeats the formula with units, so only the decimals count.
     """
-    if isinstance(getattr(step, "symbol", None), MatrixBase):  # a list of names, with a line for each value
+    if isinstance(getattr(step, "symbol", None), MatrixBase):  # a list of results, with a line for each value
         return len(lines)
     decimals = next((i for i, line in enumerate(reversed(lines)) if not line.numeric), len(lines))
     return decimals if decimals and step.outcome == "measured" else min(decimals + 1, len(lines))
 
 
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
-    """Return a sentence for a repeated result: it names the earlier equation, so no line follows.
+    """Return the sentence of a repeated result, which refers to the earlier equation, so that no line need follow.
 
-    Return nothing if the step has another outcome, or if the page has every line.
+    Return nothing if the step has another outcome, or if the level is `full`.
     """
     before, _ = around_chain(nodes)
     if step.outcome != AGAIN or level is Level.FULL or not before or not isinstance(before[-1], Text):
@@ -67,11 +67,11 @@ def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple
 
 
 def noted(lines: Lines, note: tuple[Inline, ...]) -> Lines:
-    """Add a note next to the last line, unless that line has a reason."""
+    """Add a note next to the last line, unless that line already has a reason."""
     return lines if lines[-1].reason or not note else (*lines[:-1], replace(lines[-1], reason=note))
 
 
 def _result(lines: Lines) -> Formula:
-    """Return the left side, relation and right side of the last line."""
+    """Return the left side of the chain with the relation and right side of the last line."""
     left = next((line.left for line in reversed(lines) if line.left is not None), None)
     return left, lines[-1].relation, lines[-1].right

@@ -1,8 +1,8 @@
-"""A rubric: the points of a part are divided among its steps, in halves, so that they add up to those of the part.
+"""A rubric: the points of a part divided among its steps, in halves or quarters that add up to the points of the part.
 
-The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; the rest is divided by rule. A step
-has one share and an answer two; the remainder goes to the answers first. A symbolic answer counts as the answer. Its
-number is worth half a point, or nothing if a step would then have less than half a point.
+The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; a rule divides the rest. A step
+has one share and an answer has two; the remainder goes to answers first. If an answer has a formula and a number, the
+formula has the two shares; the number is worth half a point, or nothing if a step would then have less than half.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from derive.page.chain_lines import ChainLine, Equations
 from derive.page.tree import Display, Document, PartPage
 from derive.steps.step import Step
 
-UNITS = (Fraction(1, 2), Fraction(1, 4))  # the least that a step may be worth: halves where they suffice
-ANSWER, STEP, NUMBER = 2, 1, 0  # shares; a number after its formula has none
+UNITS = (Fraction(1, 2), Fraction(1, 4))  # in points; quarters if halves do not suffice
+ANSWER, STEP, NUMBER = 2, 1, 0  # shares; a number after its formula has no share
 
 
 @dataclass(frozen=True)
 class Weighed:
-    """A step, and how much it counts."""
+    """A step and its number of shares."""
 
     equations: Equations
     weight: int
@@ -31,14 +31,14 @@ class Weighed:
 
 @dataclass(frozen=True)
 class Credit:
-    """The points of a step, which is one of the equations of the page."""
+    """The points of one step, with the equations of the step on the page."""
 
     equations: Equations
     points: Fraction
 
     @property
     def result(self) -> ChainLine:
-        """Return the last equation of the step, with its left side."""
+        """Return the last line of the step, with the left side of its chain."""
         lines = self.equations.lines
         left = next((line.left for line in reversed(lines) if line.left is not None), None)
         return replace(lines[-1], left=left)
@@ -47,9 +47,9 @@ class Credit:
 def credits_of(
     document: Document, said: Mapping[str, Mapping[Word, Fraction]], values: Iterable[Step] = ()
 ) -> dict[str, tuple[Credit, ...]]:
-    """Return the rubric of each part by its label; `said` is what the problem specifies, by label.
+    """Return the rubric of each part, by label; `said` are the points that the problem specifies, by label.
 
-    `values` are the steps that substitute numbers. Parts without points share the rest of the points of the problem.
+    `values` are the steps that substitute numbers. Parts without points share the remaining points of the problem.
     """
     into = {value.key: value.inputs for value in values}
     asked = [part for part in document.parts_shown if not part.extra]
@@ -69,7 +69,7 @@ def credits_of(
 
 
 def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighed]:
-    """Return the steps of a part; where a number follows its formula, the formula is the answer."""
+    """Return the steps of a part with their shares; if a number follows its formula, the formula is the answer."""
     groups = _groups(part)
     keys = {group.key for group in groups}
     formulas = {group.key: keys & set(into.get(group.key, ())) for group in groups}
@@ -84,7 +84,7 @@ def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighe
 
 
 def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Give half a point to each number, if all steps can have as much, and divide the rest among the others."""
+    """Give each number half a point if every step can have that much, and divide the rest among the other steps."""
     numbers = [group.equations.key for group in groups if group.weight == NUMBER]
     others = [group for group in groups if group.weight != NUMBER]
     worth = UNITS[0] if points >= UNITS[0] * len(groups) else Fraction(0)
@@ -93,7 +93,7 @@ def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
 
 
 def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Divide points in whole units by largest remainder; if there are too few, answers and later steps have them."""
+    """Divide points by the method of largest remainders; if they are equal, answers and later steps come first."""
     if not groups or points <= 0:
         return {}
     weights = [group.weight for group in groups]
@@ -104,12 +104,12 @@ def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fractio
     for i in order[: int(points / unit) - sum(counts)]:
         counts[i] += 1
     shares = {group.equations.key: unit * count for group, count in zip(groups, counts, strict=True)}
-    shares[groups[-1].equations.key] += points - sum(shares.values(), Fraction(0))  # the remainder below one unit
+    shares[groups[-1].equations.key] += points - sum(shares.values(), Fraction(0))  # what is left is less than one unit
     return {key: share for key, share in shares.items() if share}
 
 
 def faults_of_rubric(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) -> list[Complaint]:
-    """Return errors for steps that a rubric names but that are not in their part."""
+    """Return an error for each step in a rubric that does not belong to its part."""
     faults = []
     for part in document.parts_shown:
         steps = [group.key for group in _groups(part)]

@@ -1,4 +1,4 @@
-"""The choice of a level of detail: how each step appears, and which of its lines are shown.
+"""The effect of a level of detail: how each step appears, and which of its lines are shown.
 
     brief      the set-up, the law, the law with values substituted, the result
     standard   what a good teacher writes; mental arithmetic is left out
@@ -31,16 +31,16 @@ LESS = {
     LEFT_OUT: OWN,
     POINTED_OUT: OWN,
     OWN: OWN,
-}  # the manner of a step whose symbol is needed after all
+}  # the next manner to try for a step whose symbol the page needs
 
-LONGEST_CLAUSE = 24  # most nodes of a value within a sentence
+LONGEST_CLAUSE = 24  # most nodes of an expression that a sentence may contain
 
 
 @dataclass(frozen=True)
 class Needed:
-    """Steps that the page turned out to need: for their symbol, or for the number of their equation."""
+    """Hidden steps that the page needs because it uses their symbols or refers to their equations."""
 
-    letters: Mapping[str, int]  # key -> how often it was needed
+    letters: Mapping[str, int]  # key -> in how many attempts at the page its symbol was missing
     numbers: frozenset[str] = frozenset()
 
     def with_more(self, letters: Iterable[str], numbers: Iterable[str]) -> Needed:
@@ -54,12 +54,12 @@ NOTHING_NEEDED = Needed({})
 
 
 class Selection:
-    """The steps of a derivation as a page of this level shows them.
+    """The steps of a derivation with the lines that a page of this level shows.
 
     asked   keys of the answers
     shown   the problem's `show:`, by key
     worded  keys of the steps that the problem rewords
-    values  the numbers of answers, by key: they may replace the formula
+    values  the numbers of answers, by key: a number may be shown instead of the formula
     """
 
     def __init__(
@@ -84,40 +84,40 @@ class Selection:
 
     @property
     def steps(self) -> Collection[Step]:
-        """Return all steps, shown or not, with the evidence of the lines that the level has rewritten."""
+        """Return all steps, shown or hidden, including the evidence of lines that the level has rewritten."""
         return self._steps.values()
 
     def manner(self, key: str) -> Manner:
         return self._manners.get(key, OWN)
 
     def having_it(self, step: Step) -> tuple[Step, ...]:
-        """Return the steps whose lines have the result of a step that points to them."""
+        """Return the steps whose lines show the result of the given step."""
         return self._having_it[step.key]
 
     def standing_for(self, keys: Collection[str]) -> set[str]:
-        """Return the steps whose lines have the results of these steps."""
+        """Return these steps, with each step that points to earlier lines replaced by the steps of those lines."""
         pointed = {key for key in keys if self.manner(key) is POINTED_OUT}
         return (set(keys) - pointed) | {each.key for key in pointed for each in self._having_it[key]}
 
     def step(self, step: Step) -> Step:
-        """Return the step with the lines that are shown."""
+        """Return the step with only the lines that the page shows."""
         return self._steps.get(step.key, step)
 
     def standing_after(self, key: str, keys: Sequence[str]) -> list[Step]:
-        """Return the steps of a part that are shown after this one."""
+        """Return the steps of a part that are shown after the step `key`."""
         return [self._steps[each] for each in keys[keys.index(key) + 1 :] if self.stands(each)]
 
     def stands(self, key: str) -> bool:
         return self.manner(key) is OWN and self.shown.get(key) != "hidden"
 
     def could_stand(self, key: str) -> bool:
-        """Return whether only the level hides the lines of a step, rather than the author."""
+        """Return whether the level hides the lines of a step, and the author does not."""
         return self.manner(key) is not OWN and self.shown.get(key) != "hidden"
 
     def _can_be_pointed_out(self, step: Step) -> bool:
-        """Return whether earlier lines have the result of a step, so that its sentence can point to them.
+        """Return whether earlier lines show the result of a step, so that its sentence can point to these lines.
 
-        If a part asks for the step and it has no number, the lines must be in the same part.
+        If a part asks for the step and the answer has no numerical value, the lines must be in the same part.
         """
         having_it = {each.key for each in self._having_it[step.key]}
         if not having_it or step.key in self.shown or step.key in self.needed.numbers or self.level is Level.FULL:
@@ -161,10 +161,9 @@ class Selection:
         return found
 
     def _lines(self, step: Step, repeats: bool, in_turn: bool) -> tuple[Form, ...]:
-        """Return the lines of the level; of several steps of one form the first has all of them, the others those of
-        `brief`.
+        """Return the lines of the level; after the first step of one form, the others show only the lines of `brief`.
 
-        A step directly after one with the same sentence may show its result alone.
+        A step directly after a step of the same rule and outcome may show only its result.
         """
         if self.level is Level.FULL or self.shown.get(step.key) == "full":
             return step.chain
@@ -175,7 +174,7 @@ class Selection:
 
 
 def _is_short(step: Step) -> bool:
-    """Return whether the step fits within a sentence: `rho = M/V`."""
+    """Return whether symbol and result of the step are short enough for a sentence: `rho = M/V`."""
     value = step.result
     if step.symbol is None or isinstance(value, Relation | MatrixBase) and not _is_row(value):
         return False
@@ -187,5 +186,5 @@ def _length(value: Any) -> int:
 
 
 def _is_row(value: Any) -> bool:
-    """Return whether the value is a vector, which a sentence shows in a row."""
+    """Return whether the value is a vector, which a sentence can show in a row."""
     return isinstance(value, MatrixBase) and value.shape[1] == 1

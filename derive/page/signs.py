@@ -1,4 +1,4 @@
-"""The sign between a line of a chain and the one before it: equals, about equals, tends to."""
+"""The sign between two lines of a chain: equals, about equals, tends to."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ _BY_REASON = {"rounded": "approx", "series": "approx", "limit": "tends"}
 
 
 def sign_before(form: Form) -> str:
-    """Return the sign by its name in the page's tree: rounded numbers and truncated series are only about equal."""
+    """Return the name of the sign before a line: about equal before rounded numbers and truncated series."""
     return _BY_REASON.get(form.because, "equals")
 
 
 def sign_behind_name(step: Step, form: Form) -> str:
-    """Return the sign between the name of a step and a line; results of an approximation are only about equal."""
+    """Return the sign between the symbol of a step and a line: about equal if the result is approximate."""
     sign = sign_before(form)
     return "approx" if sign == "equals" and step.about else sign
 
 
 def name_before(step: Step) -> Any:
-    """Return the left side of a chain: the step's symbol, or before a limit or a series the symbol of the whole."""
+    """Return the left side of a chain: the step's symbol; for a limit or series, the symbol of the full quantity."""
     return step.approximates if step.breaks_off and not isinstance(step.approximates, Str) else step.symbol
 
 
 def sign_of_relation(step: Step, word: str) -> str:
-    """Return the sign of an equation: if it follows from an approximation, it holds only about."""
+    """Return the sign of an equation: about equal if the equation follows from an approximation."""
     return "approx" if word == "equals" and not step.exact else word

@@ -1,6 +1,6 @@
-"""Templates of phrases and of TeX, and how they are filled: an unknown name is an error, and no template runs code.
+"""Templates of phrases and of TeX: an unknown name in a template is an error, and a template cannot run code.
 
-`<<name>>` is printed, `<% if ... %>` chooses, `<# ... #>` is a comment; braces are left to TeX.
+`<<name>>` prints a value, `<% if ... %>` is a condition, `<# ... #>` is a comment; braces belong to TeX.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from derive.errors import Complaint, Rejected
 
 
 def template_folder(root: Path) -> Path:
-    """Return the course's templates if it has some, else those of the installation."""
+    """Return the course's folder of templates if there is one, else the templates of the installation."""
     for folder in (each / "templates" for each in (root, Path(FOLDER), Path(FOLDER).parent)):
         if (folder / "phrases" / "en").is_dir():
             return folder
@@ -24,7 +24,7 @@ def template_folder(root: Path) -> Path:
 
 
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:
-    """Return an environment; `own` are options of one kind of template: where to find them, how to print a value."""
+    """Return an environment of Jinja; `own` are further options, such as the loader and how to print a value."""
     return ImmutableSandboxedEnvironment(
         variable_start_string="<<",
         variable_end_string=">>",
@@ -33,6 +33,6 @@ def environment(**own: Any) -> ImmutableSandboxedEnvironment:
         comment_start_string="<#",
         comment_end_string="#>",
         undefined=StrictUndefined,
-        autoescape=False,  # autoescape would be for HTML
+        autoescape=False,  # Jinja escapes HTML only
         **own,
     )

@@ -1,8 +1,8 @@
-"""Theorems in their general form: each appears once on a page, before the first step that uses it.
+"""Theorems in their general form: a page states each theorem once, before the first step that uses it.
 
-A page is part of several documents: that of its problem and those of its set. In a document of several problems the
-first problem states a theorem, and a later one names that problem. So a page contains both sentences, and the document
-chooses.
+A page is part of several documents: the document of its problem and the documents of its set. In a document of a set
+the first problem states a theorem, and later problems refer to that problem. So a page contains both sentences, and
+the document chooses.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from derive.steps.step import Level, Step
 
 
 def standalone(document: Document) -> Document:
-    """Return the page as a separate document: a paragraph before the sentence that uses a theorem states it."""
+    """Return the page as a separate document: a paragraph states each theorem before the sentence that uses it."""
 
     def of_part(part: PartPage) -> PartPage:
         return replace(part, blocks=tuple(_paragraphs(part.blocks)))
@@ -40,9 +40,9 @@ def _paragraphs(blocks: Iterable[Block]) -> Iterator[Block]:
 
 
 class Theorems:
-    """The theorems that the page has not stated yet; a brief page only names them, in the sentences of its steps.
+    """The theorems that a page states before its steps; a brief page only names them, in the sentences of its steps.
 
-    A full page shows the law of each step, so it needs no theorem that states this law before the step.
+    A full page shows the law of each step, so it does not state that law before the step.
     """
 
     def __init__(self, words: Phrases, level: Level, steps: Iterable[Step] = ()):
@@ -50,7 +50,7 @@ class Theorems:
         self._told: set[str] = set()
 
     def before(self, step: Step) -> tuple[Inline, ...]:
-        """Return the theorems to state before that step, at the beginning of its sentence."""
+        """Return the theorems to state first in the step's sentence, which the page has not stated yet."""
         used = [theorem for theorem in self._due(step) if theorem.name not in self._told]
         self._told |= {theorem.name for theorem in used}
         told: list[Inline] = []
@@ -63,14 +63,14 @@ class Theorems:
         return tuple(told)
 
     def without_law(self, step: Step) -> Step:
-        """Return the step without the line that repeats a theorem."""
+        """Return the step without its line for the law, if a theorem on the page has stated the law."""
         said = self._level is Level.STANDARD and not self._told.isdisjoint(step.law_in)
         if not (said and len(step.chain) > 1 and step.chain[0].because == "law"):
             return step
         return replace(step, chain=step.chain[1:])
 
     def _due(self, step: Step) -> list[Theorem]:
-        """Return the theorems that this level states before that step: those that it uses, and one that it prepares."""
+        """Return the theorems that this level states before the step: those it uses, and one it prepares."""
         if self._level is Level.BRIEF:
             return []
         own = [theorem for theorem in step.theorems if not theorem.prepared]

@@ -19,7 +19,7 @@ from derive.page.wording import Inline
 
 @dataclass(frozen=True)
 class Display:
-    """Equations set together, and what the margin says about them."""
+    """Equations in one display, and the data of the note in the margin next to them."""
 
     groups: tuple[Equations, ...]
     grades: frozenset[Grade] = frozenset()
@@ -29,11 +29,11 @@ class Display:
 
     @property
     def grade(self) -> Grade:
-        """Return the grade of the least sure of its steps."""
+        """Return the lowest grade of the steps in the display."""
         return min(self.grades, key=LEAST_SURE_FIRST.index)
 
     def with_more(self, other: Display, beside: bool = False) -> Display:
-        """Join the lines of both, next to the last if they fit; the margin names the first step's routes."""
+        """Join two displays, in one row if `beside`; the margin names the routes of the first, else of the second."""
         groups = (
             (*self.groups[:-1], self.groups[-1].beside(other.groups[0])) if beside else (*self.groups, *other.groups)
         )
@@ -42,7 +42,7 @@ class Display:
 
     @property
     def stops(self) -> tuple[str, ...]:
-        """Return the punctuation after each step: commas between them, at the end what the sentence needs."""
+        """Return the punctuation after each step: commas between steps, and at the end what the sentence needs."""
         return (",",) * (len(self.groups) - 1) + (self.end,)
 
 
@@ -53,7 +53,7 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Illustration:
-    """A drawing of the script: the common name of its files, its caption and number if any, and what it shows."""
+    """A drawing of the script: the stem of its file names, alternative text, caption, number, and steps shown."""
 
     key: str
     stem: str
@@ -66,10 +66,10 @@ class Illustration:
 
 @dataclass(frozen=True)
 class Folded:
-    """Additional lines of a page of more detail, closed until a reader opens them."""
+    """Additional lines of a more detailed page, folded until the reader opens them."""
 
     blocks: tuple[Block, ...]
-    title: str = ""  # its heading, if it does not continue the equations before it
+    title: str = ""  # the heading, unless the lines continue the equations before them
 
 
 Block = Paragraph | Display | Illustration | Folded
@@ -82,7 +82,7 @@ class PartPage:
     points: Fraction | None
     blocks: tuple[Block, ...]
     extra: bool = False
-    shown: bool = True  # false if only a page of more detail shows the part
+    shown: bool = True  # false if only a more detailed page shows the part
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
-"""From steps to words: the phrase of a rule and outcome, with its names filled from the derivation.
+"""From steps to words: the phrase for a rule and an outcome, with its names filled from the derivation.
 
-A phrase gives nodes that do not depend on a format: `Text`, `Math`, `Ref` and one `Chain`. Only verified quantities
-have names here, so prose cannot mention anything else: an unknown name is an error.
+A phrase becomes nodes that do not depend on a format: `Text`, `Math`, `Ref` and one `Chain`. Only verified quantities
+have names here, so prose can mention only those: an unknown name is an error.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Text:
 
 @dataclass(frozen=True)
 class FigureRef(Text):
-    """A drawing of the page, in words: Figure 1. Other documents may number it differently."""
+    """A reference to a drawing of the page: Figure 1. Other documents may number the drawing differently."""
 
     key: str
 
@@ -70,14 +70,14 @@ class UnitMark:
 
 @dataclass(frozen=True)
 class Ref:
-    """The number of a step's last line."""
+    """A reference by number to the last line of a step."""
 
     key: str
 
 
 @dataclass(frozen=True)
 class ProblemRef:
-    """Another problem of the set, in words: Problem 3."""
+    """A reference to another problem of the set: Problem 3."""
 
     id: str
     text: str
@@ -85,28 +85,28 @@ class ProblemRef:
 
 @dataclass(frozen=True)
 class Chain:
-    """The position of the step's lines in its sentence."""
+    """Marks where a sentence contains the lines of its step."""
 
 
-AND = " and "  # between the outcome of a phrase and the rule of a second step that the phrase covers
-AFTER = " after "  # between the outcome of a phrase and the outcome or rule that must come just before it
+AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
+AFTER = " after "  # key of a phrase: outcome, AFTER, outcome or rule of the step just before
 
-JOINED = "<<chain>>"  # a phrase of a step that only continues with lines after the step before
-VALUE = "value_"  # the prefix of roles that give the values of symbols
+JOINED = "<<chain>>"  # the phrase of a step without words, whose lines follow the step before
+VALUE = "value_"  # prefix of the roles that give values of symbols
 
-AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the symbol of the time
+AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # axes and time
 
 
 @dataclass(frozen=True)
 class ToldIn:
-    """The problem of a document that has stated a theorem first: Problem 1."""
+    """The problem that first states a theorem in a document: Problem 1."""
 
     problem: str
 
 
 @dataclass(frozen=True)
 class ToldOnce:
-    """A theorem: its statement, and the sentence that replaces it if an earlier problem of the document stated it."""
+    """A theorem: its statement, and the sentence used instead if an earlier problem of a document states it."""
 
     name: str
     nodes: tuple[Inline, ...]
@@ -135,9 +135,9 @@ class Phrases:
     labels: Mapping[str, Any]
 
     def phrase(self, step: Step, before: Step | None = None) -> str:
-        """Return the sentence of a step, which may depend on the step shown just before.
+        """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before.
 
-        The phrase may be for a step after one of the same rule with a certain outcome, or after one of another rule.
+        A phrase can require that the step before has the same rule and a certain outcome, or a certain other rule.
         """
         of_rule = self.rules.get(step.rule, {})
         preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule
@@ -148,15 +148,15 @@ class Phrases:
         return phrase
 
     def of_both(self, step: Step, following: Step) -> str:
-        """Return one sentence for a step and the one after it, if there is one."""
+        """Return the phrase for one sentence about a step and the next step, or "" if the phrases have none."""
         return self.rules.get(step.rule, {}).get(f"{step.outcome}{AND}{following.rule}", "")
 
     def setup(self, step: Step) -> str:
-        """Return what the sentence of a step introduces, such as axes and coordinates, for a step without lines."""
+        """Return the phrase that introduces axes, coordinates and the like for a step without lines."""
         return self.setups.get(step.rule, {}).get(step.outcome, "")
 
     def reason(self, step: Step, because: str, before: str) -> str:
-        """Return why a line follows from the line shown before it; a reason may hold only after a certain line."""
+        """Return why a line follows from the line before; some reasons apply only after a certain kind of line."""
         own = {**self.reasons["general"], **self.reasons.get(step.rule, {})}
         return own.get(f"{because}{AFTER}{before}", own.get(because, ""))
 
@@ -164,38 +164,38 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return a note next to an answer that is only a definition, or that an earlier equation already states."""
+        """Return the note next to an answer that is only a definition or that repeats an earlier equation."""
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
 
     def worth(self, points: Any, extra: bool = False) -> str:
-        """Return `1 point`, `2.5 points`, nothing without points, or the label of a question beyond the homework."""
+        """Return `1 point` or `2.5 points`, "" if there are no points, or the label of an extra question."""
         if extra:
             return str(self.labels["extra"])
         one, many = self.labels["points"]
         return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
 
     def compared(self, rule: str) -> set[str]:
-        """Return the names of words that the phrases of a rule compare: these words are no text for a reader."""
+        """Return the names whose words are only compared in the phrases of a rule, and are not shown to a reader."""
         tables = (self.rules, self.setups, self.clauses)
         return {name for table in tables for phrase in table.get(rule, {}).values() for name in names_compared(phrase)}
 
     def term(self, word: str) -> tuple[Inline, ...]:
-        """Return the words for a word of a step or of an input: `diagonal` is "the long diagonal"."""
+        """Return the text for a code word of a step or input: `diagonal` is "the long diagonal"."""
         return filled(self.terms.get(word, word), AXIS_NAMES)
 
     def body(self, id: str) -> str:
-        """Return the words for a sort of body: `thick_shell` is "a hollow ball"; for a script's own body, its id."""
+        """Return the text for a kind of body: `thick_shell` is "a hollow ball"; a kind without a text has its id."""
         return self.bodies.get(id) or with_article(id)
 
     def size(self, id: str) -> str:
-        """Return the words for a size of a body: `base_radius` is "base radius"."""
+        """Return the text for a size of a body: `base_radius` is "base radius"."""
         return self.sizes.get(id) or id.replace("_", " ")
 
 
 def phrases(folder: Path) -> Phrases:
-    """Return the phrases of a folder of templates, read again if its files have changed."""
+    """Return the phrases of a folder of templates; they are read again if the files have changed."""
     files = sorted((folder / "phrases" / "en").glob("*.yaml"))
     return _phrases(folder, tuple((file.name, file.stat().st_mtime_ns) for file in files))
 
@@ -212,14 +212,14 @@ _TOKEN = re.compile("\x00(\\d+)\x00")
 
 
 class _Nodes:
-    """Nodes that a template prints: each leaves a token in the text, and `split` puts the node in its place."""
+    """Nodes that a template prints: each node is printed as a token, and `split` replaces the tokens by the nodes."""
 
     def __init__(self) -> None:
         self.found: list[Inline | tuple[Inline, ...]] = []
 
     def token(self, value: Any) -> Any:
         if value == ():
-            return ""  # so that a phrase can test whether there is a value
+            return ""  # false in a phrase that tests whether there is a value
         if not isinstance(value, Inline | tuple):
             return value
         self.found.append(value)
@@ -238,7 +238,7 @@ class _Nodes:
 
 
 def filled(template: str, names: Mapping[str, Any]) -> tuple[Inline, ...]:
-    """Return a phrase with its names filled in."""
+    """Return a phrase with its names replaced by their values."""
     nodes = _Nodes()
     try:
         text = _compiled(template).render({name: nodes.token(value) for name, value in names.items()})
@@ -247,7 +247,7 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Inline, ...]:
         raise Rejected(Complaint("undefined-name", message, _place_of(template))) from error
     except DeriveError:
         raise
-    except Exception as error:  # the code in a phrase may fail in any way
+    except Exception as error:  # an expression in a phrase can raise any error
         said = (str(error).splitlines() or [""])[0] or type(error).__name__
         raise Rejected(Complaint("bad-phrase", f"a phrase cannot be read: {said}", _place_of(template))) from error
     return nodes.split(text.strip())
@@ -260,7 +260,7 @@ def _compiled(template: str) -> Template:
 
 @lru_cache(maxsize=2048)
 def names_asked(template: str) -> frozenset[str]:
-    """Return the names that a phrase uses, whether or not it prints them."""
+    """Return all names in a phrase, printed or only tested."""
     return frozenset(find_undeclared_variables(_IN_PROSE.parse(template)))
 
 
@@ -281,9 +281,9 @@ def told(
     missing: Callable[[str, Place], None],
     referred: Callable[[Mention], Inline | None] = lambda mention: None,
 ) -> tuple[Inline, ...]:
-    """Return the author's prose with its mentions filled; an unknown name is reported and left out.
+    """Return the author's prose with its mentions replaced by values; an unknown name is reported and omitted.
 
-    `referred` returns the node for a mention of an equation or a problem, if there is one.
+    `referred` returns the node for a mention of an equation, drawing or problem, or None.
     """
     nodes: list[Inline] = []
     for piece in pieces:
@@ -314,12 +314,12 @@ def joined(items: Iterable[tuple[Inline, ...] | Inline], last: str = "and") -> t
 
 
 def name_of(step: Step) -> Inline:
-    """Return how prose names the result of a step: its symbol, or the number of a relation, which has none."""
+    """Return the name of a step's result in prose: its symbol, or for a relation, which has no symbol, its number."""
     return Ref(step.key) if step.symbol is None else Math(step.symbol)
 
 
 def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> dict[str, Any]:
-    """Return the names that a step's phrase may mention in addition to the page's keys."""
+    """Return the names that the phrase of a step may mention, with their values."""
     names: dict[str, Any] = {
         "chain": Chain(),
         "symbol": name_of(step),
@@ -345,14 +345,14 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
     for each in values:
         at = (
             each.right if each.operator == "=" and isinstance(each.right, Symbol) else each
-        )  # equal numbers are not joined
+        )  # symbols with equal numbers are not joined
         joined_at[at] = Relation(Relation(joined_at[at].left, "=", each.left), "=", at) if at in joined_at else each
     others = [(role, told) for role, told in roles if not (role.startswith(VALUE) and isinstance(told, Relation))]
     return [*others, *((f"{VALUE}{i}", told) for i, told in enumerate(joined_at.values(), 1))]
 
 
 def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
-    """Return the coordinates of a step and of the steps after it without words: `theta, x and y`."""
+    """Return the coordinates of a step and of the next steps, which have no words of their own: `theta, x and y`."""
     steps = [step]
     for each in following:
         if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:
@@ -363,7 +363,7 @@ def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, 
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:
-    """Return an input in the form of the statement: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
+    """Return an input as the statement shows it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
     if given.word is not None:
         return words.term(given.word)
     if given.written is not None:
@@ -383,9 +383,10 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
 
 
 def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
-    """Keep the number of a symbol only at its first occurrence: `a = 10 cm`, then `a`.
+    """Show the number of a symbol only at its first occurrence: `a = 10 cm`, then `a`.
 
-    `last` is the word before the symbols after an expression: it is removed with them, as in `a/2 with a = 10 cm`.
+    `last` is the word before the symbols after an expression, as in `a/2 with a = 10 cm`. If the only symbol after this
+    word is known, both are removed.
     """
     kept: list[Inline] = []
     known: set[Any] = set()
@@ -405,14 +406,14 @@ def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
 
 
 def conversions(problem: Problem, put_in: Collection[Any]) -> list[tuple[Inline, ...]]:
-    """Return the conversions of given numbers that a step substitutes; angles in degrees may appear in radians."""
+    """Return the unit conversions of given numbers that a step substitutes; an angle may be given in degrees."""
     given = [(m, problem.amounts[m.symbol]) for m in problem.measured]
     written = [(m, amount) for m, own in given for amount in dict.fromkeys((own, in_radians(own)))]
     return [conversion(m, amount, problem.figures) for m, amount in written if amount in put_in]
 
 
 def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Inline, ...]:
-    """Return `omega = 900 rpm = 30 pi rad/s = 94.25 rad/s` (rounded), or `M = 1.5 kg`."""
+    """Return `omega = 900 rpm = 30 pi rad/s ≈ 94.25 rad/s`, or `M = 1.5 kg` if nothing is converted."""
     written = Amount(measured.number, measured.unit, measured.factor)
     nodes: list[Inline] = [Math(measured.symbol), Text(" = "), Math(written)]
     if measured.unit != amount.args[1].name:
@@ -427,13 +428,13 @@ def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Inline, ...]:
 
 
 def around_chain(nodes: tuple[Inline, ...]) -> tuple[tuple[Inline, ...], tuple[Inline, ...]]:
-    """Return the words before the lines of a step, and the words after them."""
+    """Return the words before and the words after the lines of a step."""
     at = next((i for i, node in enumerate(nodes) if isinstance(node, Chain)), len(nodes))
     return _trimmed(nodes[:at]), _trimmed(nodes[at + 1 :])
 
 
 def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
-    """Remove blank text at either end."""
+    """Remove empty text at both ends, and at the beginning also text of punctuation only."""
     kept = list(nodes)
     while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):
         kept.pop(0)
@@ -443,12 +444,10 @@ def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
 
 
 def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> list[Complaint]:
-    """Return errors for keys of `wording:` and `show:` that are not steps, and for outcomes that their rule does not
-    have.
-    """
+    """Return errors for keys of `wording:` and `show:` that are not steps, and for outcomes unknown to their rule."""
     here = {step.key: step for step in derivation.steps}
     in_another_case = {key for step in derivation.steps for key in step.stands_for}
-    known = {*here, *in_another_case, *derivation.unshown}  # `unshown`: of a part that was left out
+    known = {*here, *in_another_case, *derivation.unshown}  # `unshown`: steps of a part that was left out
     faults = []
     for section, key in [*(("wording", key) for key in problem.wording), *(("show", key) for key in problem.show)]:
         if key not in known:

@@ -1,4 +1,4 @@
-"""A problem solved and printed in every format: a worker passes it to its parent, and builds keep it.
+"""A problem solved and printed in every format: a worker process returns it to its parent, and builds store it.
 
 It contains only text and numbers, so JSON can store it.
 """
@@ -17,24 +17,24 @@ SourceFault = tuple[str, str, str, str, str]
 
 
 class Html(str):
-    """HTML that a page contains unchanged. Anything else that a template prints is text, and is escaped."""
+    """HTML that templates print unchanged; any other text that an HTML template prints is escaped."""
 
 
 class Tex(str):
-    """TeX that a page contains unchanged. Anything else that a template prints is text, and is escaped."""
+    """TeX that templates print unchanged; any other text that a TeX template prints is escaped."""
 
 
 @dataclass(frozen=True)
 class Rendered:
     """One problem, solved and printed in the requested formats.
 
-    texts                   its page by the name of each format
+    texts                   the page in each format, by the name of the format
     latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
     html, title_html        the solution and its title, for a page in a browser
     documents               fragments of the other requested documents, in TeX by name and in HTML by `name.html`
     counts                  the counts of its checks, see `Checks.counts`
-    steps, compared         how many steps there are, and how many statements of the reference
-    source_faults           errata of the source and remarks on it: which of the two, line, what is printed,
+    steps, compared         the number of steps, and the number of statements of the reference that were compared
+    source_faults           errata of the source and remarks on it: the kind, the line, what is printed,
                             what is right (of an erratum), and why, as plain text
     """
 
@@ -66,7 +66,7 @@ class Rendered:
 
     @classmethod
     def from_data(cls, data: Any) -> Rendered | None:
-        """Return the problem from the data of `to_data`; None if the data have another structure."""
+        """Return the problem from the data of `to_data`; None if the data have a different structure."""
         try:
             return cls(
                 id=_text(data["id"]),

@@ -70,7 +70,7 @@ def test_every_letter_without_a_number_is_named() -> None:
 @pytest.mark.parametrize("ends", [(pi, -pi), (pi, pi), (-a, a)])
 def test_a_range_goes_from_a_smaller_number_to_a_larger(ends: tuple[Expr, Expr]) -> None:
     complaint = refusal(theta, *ends)
-    assert complaint.message == "the range of `potential` must go from a smaller number to a larger"
+    assert complaint.message == "the range of `potential` must go from a smaller number to a larger number"
 
 
 def test_an_angle_is_told_in_degrees_if_its_ends_are() -> None:

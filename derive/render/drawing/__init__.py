@@ -1,1 +1,1 @@
-"""What a script draws, projected, lettered and laid out on a sheet."""
+"""The drawings of a script: projected onto paper, labelled, and laid out on a sheet."""

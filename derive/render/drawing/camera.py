@@ -1,6 +1,6 @@
-"""From a drawing's expressions to points on paper: numbers for the symbols, and the viewing direction.
+"""From the expressions of a drawing to points on paper: numbers for the symbols, and the viewing direction.
 
-A symbol with a number has that number. Every other symbol has a substitute value: the symbols of a kind get 1, 3/2,
+A symbol with a number has this value. Every other symbol has a substitute value: the symbols of one kind get 1, 3/2,
 2, ... in the order of their declaration (times the typical size of that kind), angles 36, 54, 72 degrees.
 """
 
@@ -21,12 +21,12 @@ from derive.figures.marks import PLANE, Drawing, Surface
 from derive.figures.space import Stance, Vector, angle_of, size_of, unit
 
 ANGLE = pi / 5
-APART = 0.25  # least distance of an arrowhead from a corner in the view, in units of the body's size
+APART = 0.25  # least distance in the view between a tip and a corner, in body sizes
 SHARES = (0.8, 0.6, 1.0, 0.7)  # lengths of coordinates in the drawing, in units of the given lengths
 
 
 def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:
-    """Return a number for each symbol, given with its kind: its value, or a substitute."""
+    """Return a number for each symbol: its value, or a substitute that depends on its kind."""
     found = {symbol: float(explicit(number)) for symbol, number in numbers.items()}
     known: dict[str, list[float]] = {}
     for symbol, kind in letters:
@@ -45,7 +45,7 @@ def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, An
 
 
 def with_coordinates(drawing: Drawing, lengths: Mapping[Symbol, float], typical: float) -> dict[Symbol, float]:
-    """Return the numbers of the symbols, and for each coordinate without one a number from the drawing or its kind."""
+    """Return the numbers of the symbols; a coordinate without a number gets one from the drawing or from its kind."""
     found = dict(lengths)
     free = [(q, kind) for q, kind in drawing.coordinates if q not in found]
     for (q, kind), share in zip(free, cycle(SHARES), strict=False):
@@ -57,9 +57,9 @@ def with_coordinates(drawing: Drawing, lengths: Mapping[Symbol, float], typical:
 
 
 class Numbers:
-    """The values of expressions from the numbers of their symbols; a symbol without a number is taken as an angle.
+    """Computes values of expressions from the numbers of their symbols; a symbol without a number counts as an angle.
 
-    A drawing needs each value again whenever it tries a scale, so values are kept.
+    A drawing needs the same values for each scale that it tries, so they are cached.
     """
 
     def __init__(self, values: Mapping[Symbol, float]):
@@ -80,12 +80,12 @@ class Numbers:
         return self._found[expr]
 
     def vector(self, column: Any) -> Vector:
-        """Return a position or direction; a column of two components lies in the plane of the drawing."""
+        """Return a position or direction in numbers; a column of two components lies in the plane of the drawing."""
         x, y, *rest = (self.of(entry) for entry in _entries(column))
         return x, y, rest[0] if rest else 0.0
 
     def along(self, column: Any, letter: Any, ends: tuple[Any, Any], steps: int) -> list[Vector]:
-        """Return the positions on a curve while one symbol of its formula goes from one end to the other."""
+        """Return the positions on a curve as the symbol `letter` runs from one end to the other."""
         curves = [self._along(entry, letter, *(self.of(end) for end in ends), steps) for entry in _entries(column)]
         return [(x, y, rest[0] if rest else 0.0) for x, y, *rest in zip(*curves, strict=True)]
 
@@ -113,7 +113,7 @@ def _name(letter: Expr) -> str:
 
 
 def stance_from(azimuth: float, elevation: float) -> Stance:
-    """Return the view from an azimuth about z, from x towards y, and an elevation above the xy plane, in degrees."""
+    """Return the view from an azimuth, measured from x towards y, and an elevation above the xy plane, in degrees."""
     az, el = radians(azimuth), radians(elevation)
     return Stance(
         right=(-sin(az), cos(az), 0.0),
@@ -127,14 +127,13 @@ USUAL = stance_from(25, 18)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
-    """Return the usual view, rotated if vectors would point at the eye, overlap, or seem to end at a corner of the
-    body.
+    """Return the usual view, rotated if vectors would point at the eye, overlap, or seem to end at a corner.
 
     `reach` is the size of the body.
     """
     if drawing.view == PLANE:
         return FLAT
-    if TIME in dict(drawing.values):  # a plane that moves has been rotated so that its front is seen
+    if TIME in dict(drawing.values):  # a moving plane is already rotated so that its front is visible
         return USUAL
     shown = [[unit(numbers.vector(each)) for each in mark.directions] for mark in drawing.marks]
     vectors = [v for directions in shown if len(directions) == 1 for v in directions if size_of(v)]
@@ -153,7 +152,7 @@ def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stanc
 
 
 def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector], enough: float) -> float:
-    """Return how far the tips appear from the corners, in units of `enough`, at most 1."""
+    """Return the smallest distance in the view between tips and corners, in units of `enough`, at most 1."""
     spots = [stance.spot(corner) for corner in corners]
     nearest = (hypot(x - u, y - v) for x, y in map(stance.spot, ends) for u, v in spots)
     return min(1.0, min(nearest, default=enough) / enough)

@@ -1,4 +1,4 @@
-"""The pieces of a drawing as shapes on a sheet: the pens of its lines, their ends, and its labels."""
+"""The pieces of a drawing as shapes on a sheet: lines with their pens and arrowheads, and labels."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def with_margin(extent: Extent) -> Extent:
 
 
 def _reached(piece: Piece) -> Iterable[Spot]:
-    """Return the extreme points of a piece."""
+    """Return points whose extent is the extent of a piece."""
     if not isinstance(piece, Bullet):
         return piece.spots
     (x, y), size = piece.spot, piece.size
@@ -110,7 +110,7 @@ def _reached(piece: Piece) -> Iterable[Spot]:
 
 @dataclass(frozen=True)
 class _Label:
-    """The contours of a label, each with its position and whether it is bold, and the size of the whole."""
+    """The contours of a label, each with its position and whether it is bold, and the size of the label."""
 
     contours: tuple[tuple[Contour, Spot, bool], ...]
     size: tuple[float, float]
@@ -123,7 +123,7 @@ class _Label:
 
 
 def _label(parts: Sequence[tuple[Lettered, bool]]) -> _Label:
-    """Join the runs of a label side by side."""
+    """Place the runs of a label side by side."""
     beside: list[tuple[Contour, float, bool]] = []
     corners: list[Spot] = []
     x = 0.0
@@ -137,7 +137,7 @@ def _label(parts: Sequence[tuple[Lettered, bool]]) -> _Label:
 
 
 def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
-    """Return the runs of a label: a name or expression, a word printed unchanged, or several of these in a row."""
+    """Return the runs of a label: a name or an expression, a word printed unchanged, or several of these in a row."""
     if isinstance(label, tuple):
         parts = (span.text.strip("$") for each in label for span in _runs(each, notation))
         return (Span(f"${''.join(parts)}$"),)
@@ -162,7 +162,7 @@ def shapes_of(pieces: Sequence[Piece]) -> list[Shape]:
 
 
 def _stroke(stroke: Stroke) -> list[Shape]:
-    """Return the line, shortened under its arrowheads, and the arrowheads."""
+    """Return a line, shortened where its arrowheads are, and the arrowheads."""
     pen = PENS[stroke.pen]
     spots = list(stroke.spots)
     heads = []
@@ -177,7 +177,7 @@ def _stroke(stroke: Stroke) -> list[Shape]:
 
 
 def _headed(spots: list[Spot], pen: Pen) -> tuple[list[Spot], Contour]:
-    """Return the line up to the base of an arrowhead at its last point, and the arrowhead along the final chord."""
+    """Return the line up to the base of the arrowhead at its last point, and the arrowhead along its last segment."""
     tip = spots[-1]
     kept = [spot for spot in spots[:-1] if hypot(tip[0] - spot[0], tip[1] - spot[1]) > 0.8 * pen.head] or spots[:1]
     angle = atan2(tip[1] - kept[-1][1], tip[0] - kept[-1][0])

@@ -1,6 +1,6 @@
-"""Paper on which marks draw themselves: points for positions, and the hidden lines of a surface.
+"""Paper on which marks draw themselves: it projects positions to points and finds hidden lines of surfaces.
 
-Every surface is convex, so an edge is hidden if both faces that meet in it face away from the eye.
+Every surface is convex, so an edge is hidden if both faces that meet at the edge face away from the eye.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from derive.figures.space import (
     unit,
 )
 
-FLAT = 0.25  # a body flatter than this, in units of its radius, hides too little for dashed lines
+FLAT = 0.25  # in units of the radius: a flatter body hides too little for dashed lines
 
 
 class OnPaper(Paper):
@@ -34,7 +34,7 @@ class OnPaper(Paper):
     # --- flat faces ---
 
     def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
-        """Draw an edge as seen if one of its faces faces the eye; it is on the outline if the other does not."""
+        """Draw all edges, dashed where hidden, with the names of lengths next to edges of the outline."""
         middle = mean(list(corners))
         named = [(name, [(min(edge), max(edge)) for edge in edges]) for name, edges in lengths]
         facing: dict[Edge, list[bool]] = {edge: [] for _, edges in named for edge in edges}
@@ -55,16 +55,16 @@ class OnPaper(Paper):
         ]
 
     def _beside(self, name: object, lines: Sequence[tuple[Spot, ...]]) -> Tag:
-        """Put the name of a length next to the lowest of its outer edges."""
+        """Put the name of a length next to the lowest of the outline edges that have this length."""
         spot = min((midway(*line) for line in lines), key=lambda at: (round(at[1], 6), at[0]))
         return Tag(name, spot, direction(self.spot(self.middle), spot))
 
     # --- bodies of revolution ---
 
     def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:
-        """Draw the rims of both ends, dashed where they are hidden, and the side.
+        """Draw the rims of both ends, dashed where hidden, and the side of the body.
 
-        The side is two lines if it is straight, else the outline of all its circles.
+        A straight side is drawn as two lines, any other side as the outline of all its circles.
         """
         wide, narrow = (0, -1) if radii[0] >= radii[-1] else (-1, 0)
         normal = plus(centres[narrow], centres[wide], -1.0)
@@ -73,7 +73,7 @@ class OnPaper(Paper):
         axis = unit(plus(centres[-1], centres[0], -1.0))
 
         def side(k: int) -> list[float]:
-            """Return how far the side between one ring and the next faces the eye, at each point around it."""
+            """Return for each point around ring k by how much the side up to the next ring faces the eye."""
             height, widening = size_of(plus(centres[k + 1], centres[k], -1.0)), radii[k + 1] - radii[k]
             return [height * dot(outward, eye) - widening * dot(axis, eye) for outward in outwards]
 
@@ -100,7 +100,7 @@ class OnPaper(Paper):
 
 
 def _turns(facing: Sequence[float]) -> list[tuple[int, float]]:
-    """Return where a side turns away from the eye: the index on its rim, and the fraction to the next point."""
+    """Return where a side turns away from the eye: the index of a point on a rim, and the fraction to the next."""
     pairs = enumerate(pairwise(facing))
     return [(i, at / (at - after)) for i, (at, after) in pairs if (at >= 0) != (after >= 0)]
 

@@ -1,8 +1,9 @@
-"""Positions of the labels of a drawing: next to what they name, without covering anything else.
+"""Positions of the labels of a drawing: each next to the thing that it names, covering as little else as possible.
 
-Each label tries a ring of positions around its point and takes the one that covers the least; between equals, the one
-nearest to the side that its mark prefers. Labels that lie on what they name choose first, those of lines last, as they
-can slide. Then each label chooses again. If something is still covered, labels with few positions choose first.
+Each label tries a ring of positions around its point and takes the position that covers least; among equals, the one
+nearest to the side that its mark prefers. Labels on the things that they name choose first; labels of lines, which
+can slide, choose last. Then each label chooses again. If labels still cover something, labels with few positions go
+first.
 """
 
 from __future__ import annotations
@@ -19,17 +20,17 @@ from derive.figures.space import Spot, direction, is_within
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
 CLEAR = 1.5  # points between a label and a line
-LINE, HEAVY = 3.0, 60.0  # the cost of covering a point of a line, and of covering another label
+LINE, HEAVY = 3.0, 60.0  # costs: covering a point of a line, covering another label
 HEAVY_ENOUGH = 20.0
-NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # points to another line, cost of each point there, most in all
-WIDE = 1.0  # points: a wider line counts by its edges
-OWN = 1.5  # points: a line this close to the line of a label is that line
+NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # near a line: distance, cost of each of its points, most in all
+WIDE = 1.0  # points: a wider line is represented by its two edges
+OWN = 1.5  # points: a line this close to the line that a label names is the same line
 ROUNDS = 3
 
 
 @dataclass(frozen=True)
 class Placed:
-    """A label, the lower left corner of its box, and the box."""
+    """A label with the lower left corner of its box, and the box."""
 
     label: Any
     corner: Spot
@@ -43,24 +44,24 @@ def placed(
 ) -> list[Placed]:
     """Return every label of the pieces with its position.
 
-    `measured` gives a label's width and height in points, `width` the width of a line.
+    `measured` returns the width and height of a label in points; `width` returns the width of a line.
     """
     drawn = _seen(pieces, width)
     tags = [piece for piece in pieces if isinstance(piece, Tag)]
     tried = [sorted(enumerate(_weighed(tag, measured, drawn)), key=lambda each: each[1][0]) for tag in tags]
     order = sorted(range(len(tags)), key=lambda i: (not tags[i].on, tags[i].way is not None))
     cost, found = _one_by_one(order, tried, drawn)
-    if cost >= HEAVY_ENOUGH:  # something is covered: labels with the fewest positions choose first
+    if cost >= HEAVY_ENOUGH:  # labels cover something: those with the fewest positions choose first
         other = sorted(order, key=lambda i: (not tags[i].on, len(tried[i])))
         cost, found = min((cost, found), _one_by_one(other, tried, drawn), key=lambda each: each[0])
     return [Placed(tags[i].label, found[i][:2], found[i]) for i in order]
 
 
-Tries: TypeAlias = Sequence[tuple[int, tuple[float, Extent]]]  # the positions of a label, the most expensive last
+Tries: TypeAlias = Sequence[tuple[int, tuple[float, Extent]]]  # numbered boxes with costs, cheapest first
 
 
 def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Spot]) -> tuple[float, dict[int, Extent]]:
-    """Choose the box of each label in this order, then again with all others in place; return the total cost too."""
+    """Choose a box for each label in this order, then again when all others have boxes; return total cost and boxes."""
     found: dict[int, Extent] = {}
     costs: dict[int, float] = {}
     for _ in range(ROUNDS):
@@ -73,7 +74,7 @@ def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Sp
 
 
 def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tuple[float, Extent]:
-    """Return the box of least cost, including what it covers; boxes whose base cost is higher are not tried."""
+    """Return the box of least total cost with this cost: the box's base cost plus the cost of what it covers."""
     least, best = inf, (-1, (0.0, 0.0, 0.0, 0.0))
     for place, (cost, box) in tried:
         if cost > least:
@@ -87,9 +88,7 @@ def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tupl
 def _weighed(
     tag: Tag, measured: Callable[[Any], tuple[float, float]], drawn: Sequence[Spot]
 ) -> Iterable[tuple[float, Extent]]:
-    """Yield the positions of a label; next to another line a label of a line costs more, since it would seem to name
-    it.
-    """
+    """Yield the boxes of a label with costs; a line's label near another line costs more, to avoid confusion."""
     tried = _tried(tag, *measured(tag.label))
     if tag.way is None:
         yield from tried
@@ -102,13 +101,13 @@ def _weighed(
 
 
 def _distance(spot: Spot, start: Spot, end: Spot) -> float:
-    """Return the distance of a point from the line through two others."""
+    """Return the distance of a point from the line through two other points."""
     x, y = end[0] - start[0], end[1] - start[1]
     return abs((spot[0] - start[0]) * y - (spot[1] - start[1]) * x) / (hypot(x, y) or 1.0)
 
 
 def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """Yield boxes around the point, each with the cost of its distance from the preferred position."""
+    """Yield boxes around the point of a label; the cost grows with the distance from the preferred position."""
     if tag.on:
         yield from _tried_on(tag, width, height)
         return
@@ -121,19 +120,19 @@ def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Exten
             angle = turn * pi / 8
             x = base[0] * cos(angle) - base[1] * sin(angle)
             y = base[0] * sin(angle) + base[1] * cos(angle)
-            # The box touches a circle about the point: its middle is farther by half its size in that direction.
+            # The box touches a circle about the point, so its middle is farther by half its size in that direction.
             away = gap + min(width / 2 / max(abs(x), 1e-9), height / 2 / max(abs(y), 1e-9), hypot(width, height) / 2)
             yield abs(turn) * 0.8 + ring * 2.5, _box(_moved(tag.spot, (x, y), away), width, height)
 
 
 def _tried_on(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """Yield boxes in the middle of what the label names, or a little to either side."""
+    """Yield boxes in the middle of the thing that the label names, or a little to one side."""
     for share in (0.0, -0.5, 0.5, -1.0, 1.0):
         yield 4.0 * abs(share), _box(_moved(tag.spot, tag.towards, share), width, height)
 
 
 def _tried_along(tag: Tag, way: Spot, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """Yield boxes along a line on both sides, without a corner that touches it."""
+    """Yield boxes along a line on both sides, so far away that no corner touches the line."""
     (x, y), far = tag.towards, hypot(*tag.towards) or 1.0
     normal = x / far, y / far
     away = tag.gap + (abs(normal[0]) * width + abs(normal[1]) * height) / 2
@@ -161,7 +160,7 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
-    """Return the points of all lines and bullets that no later surface hides."""
+    """Return the points of all lines and bullets that no surface drawn later hides."""
     found: list[Spot] = []
     for piece in pieces:
         if isinstance(piece, Patch):
@@ -171,7 +170,7 @@ def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spo
 
 
 def _dots(piece: Piece, width: float) -> list[Spot]:
-    """Return a stroke as points one point apart, a wide one by both its edges, and a bullet as a small cluster."""
+    """Return a stroke as dots one point apart (both edges of a wide stroke), or a bullet as a small cluster of dots."""
     if isinstance(piece, Bullet):
         x, y = piece.spot
         reach = max(1, round(piece.size - 0.6))

@@ -1,6 +1,6 @@
-"""Mathematics as contours: matplotlib's mathtext sets it in Computer Modern, as on the page.
+"""Formulas as contours: matplotlib's mathtext sets them in Computer Modern, the font of the page.
 
-Loading matplotlib and numpy takes longer than drawing, so no other module imports them.
+Importing matplotlib and numpy takes longer than drawing, so no other module does.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ from derive.render.drawing.sheets import Contour, Extent, extent_of
 
 LETTERS = 10.0  # the font size of labels, in points
 
-LINES = {1: "M", 2: "L", 4: "C"}  # by matplotlib's codes
+LINES = {1: "M", 2: "L", 4: "C"}  # commands of a path by matplotlib's codes
 
 Lettered: TypeAlias = tuple[Contour, Extent]  # a contour and its extent
 Letters: TypeAlias = Callable[[Collection[str]], Mapping[str, Lettered]]
 
 
 def letters_of(texts: Collection[str]) -> dict[str, Lettered]:
-    """Return the contours of texts of mathtext, by text; each begins at the origin."""
-    # Nothing here multiplies matrices, and a process with threads should not fork.
+    """Return the contours of each text of mathtext, which begin at the origin, by text."""
+    # One thread is enough without products of matrices, and a process with threads should not fork.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     import matplotlib
 
-    # The matplotlib settings of the user must not affect the page.
+    # The user's matplotlib settings must not affect the page.
     with matplotlib.rc_context(matplotlib.rcParamsDefault.find_all(r"^(font|text|mathtext)\.")):
         return {text: _lettered(text) for text in sorted(texts)}
 
@@ -58,13 +58,13 @@ def _lettered(text: str) -> Lettered:
 
 
 def _as_cubic(start: Spot, handle: Spot, end: Spot) -> tuple[Spot, ...]:
-    """Return the cubic form of a quadratic curve, which PDF does not have."""
+    """Return a quadratic Bézier curve as a cubic one, because PDF has only cubic curves."""
     near, far = ((p[0] + 2 * (handle[0] - p[0]) / 3, p[1] + 2 * (handle[1] - p[1]) / 3) for p in (start, end))
     return near, far, end
 
 
 def _farthest(start: Spot, handle: Spot, end: Spot) -> list[Spot]:
-    """Return the extreme points of a quadratic curve between its ends, horizontally and vertically."""
+    """Return the points between the ends of a quadratic curve where x or y has an extremum."""
     found = []
     for a, b, c in zip(start, handle, end, strict=True):
         bend = a - 2 * b + c

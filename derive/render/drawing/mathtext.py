@@ -1,6 +1,6 @@
-"""A layout as runs of mathtext, the part of TeX's mathematics that matplotlib sets.
+"""A layout as runs of mathtext, the part of TeX's mathematics that matplotlib can set.
 
-Its Computer Modern has no bold italic, so a vector's letter is a separate run drawn with an outline.
+Computer Modern in mathtext has no bold italic, so the letter of a vector is a separate run, drawn with an outline.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from derive.render.notation.latex import latex
 from derive.render.notation.layout import Layout, Name, Row
 
 _BOLD = re.compile(r"\\bm\{((?:[^{}]|\{[^{}]*\})*)\}")
-_FUNCTION = re.compile(r"([\w})])\s*(\\(?:sin|cos|tan|log|exp)\b)")  # mathtext leaves no space before a function
+_FUNCTION = re.compile(r"([\w})])\s*(\\(?:sin|cos|tan|log|exp)\b)")  # mathtext sets no space before a function
 _UNKNOWN = {r"\tfrac": r"\frac", r"\lvert ": "|", r"\rvert ": "|", r"\mathopen{}": "", r"\!": "", r"\ ": r"\,"}
 
 
 @dataclass(frozen=True)
 class Span:
-    """A piece of mathtext between its dollar signs, drawn bold or not."""
+    """A piece of mathtext without its dollar signs, and whether it is drawn bold."""
 
     text: str
     bold: bool = False

@@ -14,14 +14,14 @@ from derive.render.drawing.hidden_lines import OnPaper
 POINTS_PER_CM = 72 / 2.54
 TRIES = 12  # iterations to find the scale
 LABEL = 8.0  # points: approximate width of a letter
-SMALLEST = 15.0  # points: the smallest size if parts of fixed size leave no room
+SMALLEST = 15.0  # points: the size of the drawing if its parts of fixed size leave no room
 
 
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
-    """Return the pieces in points; lines without labels fit into width x height, in centimetres."""
+    """Return the pieces in points, scaled so that all but the labels fits into width x height, in centimetres."""
     paper = _paper(drawing, numbers)
     room = width * POINTS_PER_CM, height * POINTS_PER_CM
-    for _ in range(TRIES):  # parts with a fixed size make the size of the whole not quite proportional to the scale
+    for _ in range(TRIES):  # because of parts with a fixed size, the size is not quite proportional to the scale
         spots = [spot for piece in _pieces(drawing, paper) for spot in piece.spots]
         wide, high = (max(s[k] for s in spots) - min(s[k] for s in spots) for k in (0, 1))
         ratio = min(room[0] / max(wide, 1e-9), room[1] / max(high, 1e-9))
@@ -41,7 +41,7 @@ def _paper(drawing: Drawing, numbers: Numbers) -> OnPaper:
 
 
 def _labels_at_the_top(pieces: list[Piece], top: float) -> list[Spot]:
-    """Return the ends of labels to the right of the highest points, so that the arrow of gravity avoids them."""
+    """Return the right ends of labels at the highest points, so that the arrow of gravity does not cover them."""
     tags = [p for p in pieces if isinstance(p, Tag) and p.label is not None and p.towards[0] > 0 and p.way is None]
     return [(tag.spot[0] + tag.gap + LABEL, tag.spot[1]) for tag in tags if tag.spot[1] > top - ARROW]
 

@@ -1,6 +1,6 @@
-"""A plot as files: one panel for each curve, its axes named with quantity and unit, its extrema marked.
+"""A plot as files: one panel for each curve, with quantity and unit at each axis and with marked extrema.
 
-Numbers and names are set in the font of the page, and nothing is written over the curve.
+Numbers and names have the font of the page, and no text covers the curve.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ ROOM = 0.36  # margin above and below a curve, in units of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # scales: letters of the axes, numbers, words at extrema
-TICK = 3.5  # points: the length of a tick, and its distance from its number
+TICK = 3.5  # points: the length of a tick, and the distance from a tick to its number
 PAD = 4.0  # points: between the numbers and the name of an axis, and between a dot and its name
 EDGE = 3.0  # points: the margin around everything
 DOT = 2.2  # points: the radius of the dot at an extremum
@@ -41,13 +41,13 @@ Ticks: TypeAlias = tuple[tuple[float, str], ...]
 
 @dataclass(frozen=True)
 class Panel:
-    """The contents of one panel, before it has a size.
+    """The contents of one panel, before the panel has a size.
 
     points           the curve, in the units of the axes
     across, up       the ticks of both axes, with their numbers
     names            the names of both axes
     values           the ranges of the axes: left, below, right, above
-    turns            the extrema: where, whether it is a minimum, and its name
+    turns            the extrema: the point, whether it is a minimum, and its name
     numbers          the numbers that were substituted
     """
 
@@ -66,7 +66,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Frame:
-    """The position of the axes of a panel on paper, and their ranges: left, below, right, above."""
+    """The position of a panel's axes on paper, and the ranges of the axes: left, below, right, above."""
 
     paper: Extent
     values: Extent
@@ -84,7 +84,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Writing:
-    """Sets texts on paper."""
+    """Places texts on paper as shapes."""
 
     known: Mapping[str, Lettered]
 
@@ -93,7 +93,7 @@ class Writing:
         return scale * (right - left), scale * (above - below)
 
     def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
-        """Return a text placed so that these fractions of its width and height are left of the point and below it."""
+        """Return a text with the fractions `share` of its width and height to the left of and below the point."""
         contour, extent = self.known[text]
         if upwards:
             contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])
@@ -123,7 +123,7 @@ def plot_sheet(
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
     room = _room(panels, writing)
     widest = max((writing.size(panel.numbers, 1.0)[0] for panel in panels if panel.numbers), default=1.0)
-    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # one size for the numbers above all panels
+    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # the numbers above all panels have one size
     shapes: list[Shape] = []
     for i, panel in enumerate(panels):
         paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], tall - room[3]
@@ -135,7 +135,7 @@ def plot_sheet(
 
 
 def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases, letter: str = "") -> Panel:
-    """Return one curve with its axes, which leave room for the words below a minimum and above a maximum."""
+    """Return the panel of one curve; the axes leave room for the words below a minimum and above a maximum."""
     points = values_along(curve.expr, curve.variable, curve.lower, curve.upper, STEPS)
     low, high = min(y for _, y in points), max(y for _, y in points)
     room = ROOM * ((high - low) or abs(high) or 1.0)
@@ -162,7 +162,7 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
 
 
 def _title(letter: str, numbers: str) -> str:
-    """Return the text above a panel: its letter, if there are several panels, and its numbers."""
+    """Return the text above a panel: the letter of the panel, if there are several, and the numbers."""
     if not letter:
         return numbers
     return f"$({{\\mathrm{{{letter}}}}})\\;\\;{numbers.strip('$')}$"
@@ -171,7 +171,7 @@ def _title(letter: str, numbers: str) -> str:
 def _ticks(low: float, high: float, in_degrees: bool, room: float = 0.0) -> Ticks:
     """Return a few round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
 
-    They continue past both ends, so that each end lies between two of them, if there is room.
+    If there is room, the numbers continue beyond both ends, so that each end lies between two of them.
     """
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
@@ -188,7 +188,7 @@ def _ticks(low: float, high: float, in_degrees: bool, room: float = 0.0) -> Tick
 
 
 def _axis_name(symbol: Any, unit: str, notation: Notation) -> str:
-    """Return `U / J`, the number of units, as the name of an axis."""
+    """Return the name of an axis, a quantity divided by its unit: `U / J`."""
     name = _mathtext(notation.layout(symbol))
     over = rf"\,/\,{_mathtext_of_unit(unit)}" if unit else ""
     return f"${name}{over}$"
@@ -207,7 +207,7 @@ def _mathtext(layout: Any) -> str:
 
 
 def _mathtext_of_value(told: str) -> str:
-    """Return `2.205 J`: the number and the upright unit, with a space between them."""
+    """Return a value such as `2.205 J` as mathtext: the number, a space, and the unit upright."""
     number, _, unit = told.replace("\u2212", "-").partition(" ")
     return rf"{number}\,{unit_latex(unit)}" if unit else number
 
@@ -220,7 +220,7 @@ def _mathtext_of_unit(unit: str) -> str:
 
 
 def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
-    """Return the distances from the edges of a panel to its axes, for all panels: left, below, right, above."""
+    """Return the distances from the edges of every panel to its axes: left, below, right, above."""
     across = [writing.size(text, SMALL) for panel in panels for _, text in panel.across]
     up = [writing.size(text, SMALL) for panel in panels for _, text in panel.up]
     names = [[writing.size(panel.names[k], SMALL)[1] for panel in panels] for k in (0, 1)]
@@ -235,7 +235,7 @@ def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
 
 
 def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float) -> Iterator[Shape]:
-    """Yield all shapes of a panel; `ends` are those of its whole width, `size` is that of the numbers above it."""
+    """Yield all shapes of a panel; `ends` are its left and right edges, `size` scales the numbers above it."""
     left, below, right, above = frame.paper
     yield from shapes_of(list(_pieces(panel, frame)))
     for x, text in panel.across:

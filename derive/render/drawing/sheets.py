@@ -1,6 +1,6 @@
-"""Shapes on paper as files: a PDF for TeX and an SVG for other pages, always the same bytes.
+"""Shapes on paper as files, a PDF for TeX and an SVG for other pages; the same shapes always give the same bytes.
 
-Lengths are in points and the sheet is as large as its contents, so a drawing is included in its natural size and its
+Lengths are in points and the sheet is as large as its contents, so a drawing is included at its natural size and its
 letters match those of the page. Letters are shapes like everything else: no font is needed to show a drawing.
 """
 
@@ -18,12 +18,12 @@ Contour: TypeAlias = Sequence[tuple[str, Sequence[Spot]]]  # M, L, C and Z with 
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
 OPERATORS = {"M": "m", "L": "l", "C": "c", "Z": "h"}
-ROUND = 0.5522847  # how far the handles of a quarter circle reach, in units of its radius
+ROUND = 0.5522847  # length of the Bézier handles of a quarter circle, in units of its radius
 
 
 @dataclass(frozen=True)
 class Shape:
-    """The area inside a contour, in a colour, or the contour itself as a line; both for bold letters."""
+    """A contour that is filled with a colour, or drawn as a line, or both (bold letters)."""
 
     contour: Contour
     fill: str = ""
@@ -43,13 +43,13 @@ class Sheet:
 
 
 def contour_through(spots: Sequence[Spot], closed: bool = False) -> Contour:
-    """Return straight lines from point to point."""
+    """Return the contour of straight lines from point to point."""
     lines = [("M" if i == 0 else "L", (spot,)) for i, spot in enumerate(spots)]
     return [*lines, ("Z", ())] if closed else lines
 
 
 def circle(middle: Spot, radius: float) -> Contour:
-    """Return four quarter circles."""
+    """Return a circle as four Bézier curves."""
     x, y = middle
     ways = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)]
     spots = [(x + radius * u, y + radius * v) for u, v in ways]
@@ -77,7 +77,7 @@ def extent_of(spots: Collection[Spot]) -> Extent:
 
 
 def sheet_of_shapes(shapes: Sequence[Shape], extent: Extent, alt: str) -> Sheet:
-    """Return both files; the SVG describes its contents in words."""
+    """Return the PDF and the SVG; the SVG contains the alternative text."""
     left, below, right, above = extent
     written = [(shape, [(at, *(map(_pair, spots))) for at, spots in shape.contour]) for shape in shapes]
     pdf = "\n".join(["1 j", f"1 0 0 1 {_number(-left)} {_number(-below)} cm", *(_painted(*each) for each in written)])
@@ -86,7 +86,7 @@ def sheet_of_shapes(shapes: Sequence[Shape], extent: Extent, alt: str) -> Sheet:
     return Sheet(_pdf(pdf, *size), _svg(svg, *size, (left, above), alt), right - left, above - below)
 
 
-Written: TypeAlias = list[tuple[str, ...]]  # the letter of each segment of a contour and its points in digits
+Written: TypeAlias = list[tuple[str, ...]]  # for each segment of a contour, its letter and its coordinates as text
 
 
 def _number(x: float) -> str:
@@ -108,7 +108,7 @@ def _path(shape: Shape, written: Written) -> str:
 
 
 def _svg(paths: str, width: str, height: str, corner: Spot, alt: str) -> bytes:
-    """Return the SVG, whose origin is the upper left corner and whose heights are measured downwards."""
+    """Return the SVG; its origin is the upper left corner, and y increases downwards."""
     x, y = (_number(at) for at in (-corner[0], corner[1]))
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}pt" height="{height}pt" '

@@ -1,8 +1,8 @@
-"""Each format in which a page is given out alone; each module here is one, and nothing else names it.
+"""The formats of a single page: each module of this package defines one, and no other module names it.
 
-A module says `FORMAT = Format(...)`, and from this follow `--format`, what `Rendered` holds, and, if it is
-`built`, the files of a build.
-Modules are imported wherever formats are listed, even by `--help`: what renders a page is imported when it renders.
+A module defines `FORMAT = Format(...)`. This adds a value of `--format`, a text in `Rendered` and, if the format is
+`built`, a file of each build. Modules are imported wherever formats are listed, even by `--help`, so they import the
+code that renders a page only when they render.
 """
 
 from __future__ import annotations
@@ -24,16 +24,18 @@ if TYPE_CHECKING:
     from derive.steps.derivation import Derivation
     from derive.steps.step import Step
 
-# A document is made from a page and its set; a format is made from a page alone.
+# Documents of a set are not formats: a document needs the page and its set, a format only the page.
 TYPESET, HTML = ("latex", "pdf"), "html"
-WRITTEN = "Written by derive"  # first line of files that derive may replace, unlike handwritten files
+WRITTEN = "Written by derive"  # a file that begins with this line may be replaced; other files are handwritten
 
 
 @dataclass(frozen=True)
 class Solution:
-    """A page as a tree, with its sources: the numbers of answers by key, and how a reference compares.
+    """A page as a tree, with the data from which it was made.
 
-    warnings   warnings for the author, next to the page
+    values     the numbers of answers, by key
+    compared   outcomes of the comparison with a reference
+    warnings   warnings for the author, which are not part of the page
     """
 
     document: Document
@@ -51,8 +53,8 @@ class Solution:
 class Format:
     """The name of a format in `--format`, the suffix of its files, and the function that renders a page.
 
-    built     whether a build writes it for each problem; otherwise it is made only on request
-    drawings  the suffix of the drawings to which it refers, in the same folder
+    built     whether a build writes this format for each problem; other formats are written only on request
+    drawings  the suffix of the drawings that a file of this format includes from its folder
     """
 
     name: str

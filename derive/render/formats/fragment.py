@@ -1,4 +1,4 @@
-"""A page as LaTeX without preamble, for `\\input` into another document; its first lines list the packages it needs."""
+"""A page as LaTeX without preamble, for `\\input`; its first lines list the packages that it needs."""
 
 from __future__ import annotations
 

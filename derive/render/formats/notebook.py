@@ -1,4 +1,4 @@
-"""A page as a Jupyter notebook whose cells derive the problem again; no output is stored."""
+"""A page as a Jupyter notebook, without stored output, whose cells derive the problem again."""
 
 from __future__ import annotations
 

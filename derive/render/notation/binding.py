@@ -1,6 +1,6 @@
-"""How strongly a layout binds, which decides brackets and signs: decided only here.
+"""How strongly a layout binds: only this module decides where brackets and signs are needed.
 
-Brackets follow from what is printed, not from the kind of expression. A product with one negative factor begins with a
+Brackets depend on what is printed, not on the kind of expression. A product with one negative factor begins with a
 minus sign, whether it is a `Mul`, a `Factors` or a number times a vector, and gets brackets next to other factors.
 """
 
@@ -32,12 +32,12 @@ from derive.render.notation.layout import (
 
 
 class Binding(IntEnum):
-    """From layouts that never need brackets to those that only brackets hold together.
+    """Kinds of layout, from those that never need brackets to those that need brackets next to anything.
 
     PRODUCT    factors side by side: 2 M a
     DOTTED     numbers and letters with a dot between them: M·1/2 a
     MEASURED   a number with its unit: 2 cm
-    OPEN       applies to everything that follows: a·b and w x L of vectors, an integral, d/dt (...)
+    OPEN       includes everything that follows: a·b and w x L of vectors, an integral, d/dt (...)
     SIGNED     -M a
     """
 
@@ -74,7 +74,7 @@ def binding(layout: Layout) -> Binding:
 
 
 def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
-    """Return the binding of an item; `ended`: the row ends in a differential."""
+    """Return the binding of item `i` of a row; `ended` means that the row ends in a differential."""
     item = items[i]
     if isinstance(item, IntegralSign) and ended:
         return Binding.PRODUCT
@@ -88,7 +88,7 @@ def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
 
 
 def _is_operator(layout: Layout) -> bool:
-    """Return whether the layout is an operator such as d/dt or d^2/dx^2, which applies to what follows."""
+    """Return whether the layout is an operator such as d/dt or d^2/dx^2, which acts on the layout after it."""
     return isinstance(layout, Fraction) and is_differential(layout.above)
 
 
@@ -98,12 +98,12 @@ def within(layout: Layout, most: Binding) -> Layout:
 
 
 def sign_apart(layout: Layout) -> tuple[Operator | None, Layout]:
-    """Return the leading sign of a layout, unless it belongs to the first term of a sum, and the layout without it."""
+    """Split a layout into its leading sign and the rest; the sign of the first term of a sum is not split off."""
     if isinstance(layout, Row) and isinstance(layout.items[0], Operator) and binding(layout) is Binding.SIGNED:
         return layout.items[0], row(*layout.items[1:])
     return None, layout
 
 
 def signed(sign: Operator, layout: Layout) -> Layout:
-    """Return the layout with a sign before it."""
+    """Return the layout with this sign in front."""
     return row(sign, within(layout, Binding.OPEN))

@@ -1,4 +1,4 @@
-"""Sums too long for a line, broken before a sign as on paper: never within a root or a matrix.
+"""Breaks sums that are too long for a line before a sign, but never within a root or a matrix.
 
 A bracket that is itself too long opens on one line and closes on another. So does a fraction with a long numerator,
 after its denominator is written as a factor in front.
@@ -9,11 +9,11 @@ from __future__ import annotations
 from derive.render.notation.layout import Digits, Fenced, Fraction, Layout, Operator, Row, row, width
 
 BREAKS_BEFORE = {"plus", "minus"}
-SMALL_PART = 0.5  # a bracket narrower than this part of the room stays in one piece
+SMALL_PART = 0.5  # a bracket narrower than this fraction of a line is not broken
 
 
 def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
-    """Return the first line, which has `room`, and the lines after it; one piece if the layout cannot be broken."""
+    """Return the lines of a layout, of widths `room` and then `room_after`; one line if the layout cannot be broken."""
     pieces = _pieces(layout, min(room, room_after)) if width(layout) > room else [layout]
     lines = [pieces[0]]
     for piece in pieces[1:]:
@@ -26,7 +26,7 @@ def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
 
 
 def _pieces(layout: Layout, room: float) -> list[Layout]:
-    """Return the parts of a layout; a line may end before each of them."""
+    """Return the parts of a layout between which a line may end."""
     terms = terms_of(layout)
     if len(terms) > 1:
         return [piece for term in terms for piece in (_pieces(term, room) if width(term) > room else [term])]

@@ -1,6 +1,6 @@
-"""The layout of a quoted formula, so that a terminal shows it like ours.
+"""The layout of a formula quoted in LaTeX, so that a terminal shows it like the formulas of a page.
 
-A quoted formula may be garbled, so nothing is interpreted here, only laid out: a fraction, a root, an index, letters
+A quoted formula may contain errors, so it is laid out without interpretation: fractions, roots, indices, and letters
 in the order in which they are printed. `course/latex/quoting.py` has checked that every command is known and nested.
 """
 
@@ -61,7 +61,7 @@ _NOTHING = Row(())
 
 
 def in_plain_text(text: str) -> str:
-    """Return prose with formulas between dollar signs as a terminal shows it."""
+    """Return prose with formulas between dollar signs as plain text for a terminal."""
     return "".join(_formula(piece) if piece.is_formula else piece.text for piece in quoted(text))
 
 
@@ -78,7 +78,7 @@ def layout_of_latex(tex: str) -> Layout:
 
 
 class _Reader:
-    """Reads the tokens once; a bracket without a partner or a command without a value is printed unchanged."""
+    """Reads the tokens once; an unmatched bracket or a command without its argument is printed unchanged."""
 
     def __init__(self, tokens: Sequence[str]):
         self.tokens = [token for token in tokens if token.strip() and token not in ("~", "\\ ")]
@@ -109,7 +109,7 @@ class _Reader:
         return row(*items) if items else _NOTHING
 
     def group(self) -> Layout:
-        """Return a value in braces, or the single item without braces."""
+        """Return the layout of an argument: a group in braces, or a single item without braces."""
         if self.next != "{":
             return (self.atom() or _NOTHING) if self.next else _NOTHING
         self.at += 1
@@ -121,7 +121,7 @@ class _Reader:
         token = self.taken()
         if token.startswith("\\text{"):
             word = token[len("\\text{") : -1].strip()
-            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # not a product
+            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # no product
         command = token.removeprefix("\\") if token.startswith("\\") else ""
         if token == "{":
             self.at -= 1
@@ -143,12 +143,12 @@ class _Reader:
         return self.applied(command)
 
     def letter(self, token: str) -> Layout:
-        """Return a letter, or the sign of a differential before another letter."""
+        """Return a letter; a d before another letter is the sign of a differential."""
         before_letter = re.fullmatch(r"[A-Za-z]|\\[a-zA-Z]+", self.next) and self.next[1:] not in ("right", "end")
         return Upright("d") if token == "d" and before_letter else Name(token)
 
     def applied(self, command: str) -> Layout | None:
-        """Return a command with its arguments; a command that only sets spacing prints nothing."""
+        """Return a command with its arguments, or None for a command that only sets spacing."""
         if command in FRACTIONS:
             return Fraction(self.group(), self.group())
         if command == "sqrt":
@@ -182,12 +182,12 @@ class _Reader:
         return row(degree, RootSign(self.group()))
 
     def words(self) -> Layout:
-        """Return letters that are printed upright, as a word."""
+        """Return the argument of a command for upright text as a word."""
         text = in_one_line(self.group()).replace(" ", "")
         return Upright(text)
 
     def function(self, name: str) -> Layout:
-        """Return the function with the factor after it: also a number and a letter."""
+        """Return a function with its argument, the factor after it, which may be a number and a letter."""
         _, power = self.scripts()
         if not self.next or self.next in _OPERATORS or self.next in _CLOSING | {"}"}:
             return Upright(name)
@@ -197,7 +197,7 @@ class _Reader:
         return Applied(name, argument, power)
 
     def scripts(self) -> tuple[Layout | None, Layout | None]:
-        """Return the subscript and the superscript."""
+        """Return the subscript and the superscript, either of which may be None."""
         found: dict[str, Layout] = {}
         while self.next in ("_", "^") and self.next not in found:
             sign = self.taken()
@@ -228,7 +228,7 @@ class _Reader:
         return inside if isinstance(inside, Array) else Fenced(inside, _OPENING.get(opening, "("))
 
     def environment(self) -> Layout:
-        """Return rows of cells, or aligned lines one after the other."""
+        """Return the rows of cells of a matrix, or aligned lines one after the other."""
         name = self.braced()
         if name == "array" and self.next == "{":
             self.braced()
@@ -247,7 +247,7 @@ class _Reader:
         return Array(tuple((*line, *(_NOTHING,) * (columns - len(line))) for line in filled)) if columns else _NOTHING
 
     def braced(self) -> str:
-        """Return the plain text of a value in braces."""
+        """Return the plain text of an argument in braces."""
         found = ""
         if self.next == "{":
             end = self.tokens.index("}", self.at)

@@ -1,4 +1,4 @@
-"""Layout to LaTeX: the only module with TeX's commands for mathematics and with the escaping of text."""
+"""Writes a layout as LaTeX; no other module contains TeX commands for mathematics or escapes text for TeX."""
 
 from __future__ import annotations
 
@@ -80,35 +80,35 @@ BETWEEN_TERMS = {
     )
 }
 STROKE, COMMA = Operator("stroke"), Operator("comma")
-BLANK = "?"  # the unknown result
-# Spacing between fractions below one another: the first within a row, the second between rows.
+BLANK = "?"  # an unknown result in a hint
+# Extra height for columns of fractions: the first string is added to a row, the second between two rows.
 SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-.95em]{0pt}{2.45em}", "[3pt]"
 
 
 def latex(layout: Layout, *, inline: bool = False) -> str:
-    """Return the LaTeX of a layout; inline, fractions are small, or have a stroke where that cannot be misread."""
+    """Return the LaTeX of a layout; with `inline`, fractions are written a/b if this is unambiguous, else small."""
     return _Printer(inline).show(_with_strokes(layout) if inline else layout)
 
 
 def latex_of_terms(layout: Layout, *, inline: bool = False) -> list[str]:
-    """Return the same, each term of a sum separately, with its sign."""
+    """Return the LaTeX of each term of a sum separately, with its sign."""
     return [_Printer(inline).show(term) for term in terms_of(_with_strokes(layout) if inline else layout)]
 
 
 def _with_strokes(layout: Layout) -> Layout:
-    """Write fractions with a stroke in running text: R > a/2, dL/dt, a(1, 2, 3); next to another factor they stay."""
+    """Write fractions as a/b in running text: R > a/2, dL/dt; a fraction next to another factor is unchanged."""
     if isinstance(layout, Fenced):
         return Fenced(_with_strokes(layout.inside), layout.kind)
     items = [_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))]
     around = (None, *items, None)
     alone = [all(x is None or x in BETWEEN_TERMS for x in (around[i], around[i + 2])) for i in range(len(items))]
     if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
-        return row(*items)  # if one fraction cannot have a stroke, the others keep their form
+        return row(*items)  # if one fraction cannot be written a/b, none is
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
 
 
 def _flat(item: Layout) -> Layout:
-    """Return a column as a list of its components."""
+    """Return a column as a list of its components: (1, 2, 3)."""
     if not isinstance(item, Array) or len(item.rows[0]) > 1:
         return item
     (first,), *others = item.rows
@@ -116,7 +116,7 @@ def _flat(item: Layout) -> Layout:
 
 
 def _with_stroke(item: Layout) -> Layout:
-    """Return the fraction with a stroke, if its numerator and denominator are clear."""
+    """Return a fraction written a/b, if numerator and denominator are simple enough."""
     match item:
         case Fenced():
             return _with_strokes(item)
@@ -131,9 +131,7 @@ def _with_stroke(item: Layout) -> Layout:
 
 
 def _are_letters(layout: Layout) -> bool:
-    """Return whether the layout has only letters, numbers and functions of one letter as factors, nothing tall or
-    added.
-    """
+    """Return whether the layout is a product of letters, numbers, powers, roots and functions of one letter."""
     return all(
         _are_letters(factor.argument) and not isinstance(factor.argument, Row)
         if isinstance(factor, Applied)
@@ -143,7 +141,7 @@ def _are_letters(layout: Layout) -> bool:
 
 
 def _has_function(layout: Layout) -> bool:
-    """Return whether a stroke after the layout could be read as part of an argument: cos x/2."""
+    """Return whether a function in the layout makes a stroke after it ambiguous, as in cos x/2."""
     return any(isinstance(factor, Applied) for factor in _factors(layout))
 
 
@@ -203,12 +201,12 @@ class _Printer:
         raise TypeError(f"no LaTeX for {type(layout).__name__}")
 
     def _raised(self, base: Layout) -> str:
-        """Put a name with a prime in braces: TeX reads the prime itself as an exponent."""
+        """Put a name with a prime in braces, because TeX treats the prime as an exponent."""
         shown = self.show(base)
         return f"{{{shown}}}" if isinstance(base, Name) and base.primes else shown
 
     def _rows(self, rows: tuple[tuple[Layout, ...], ...]) -> str:
-        """Return rows with small fractions in a matrix and full-size fractions in a column."""
+        """Return the rows of an array: fractions are small in a matrix and of full size in a column."""
         if not self.inline and len(rows[0]) == 1 and any(_is_tall(entry, inline=False) for (entry,) in rows):
             return rf" \\{ROW_GAP} ".join(
                 rf"{COLUMN_STRUT if _is_tall(entry, inline=False) else ''}\displaystyle {self.show(entry)}"
@@ -236,7 +234,7 @@ class _Printer:
 
 
 def _separated(pieces: list[str]) -> list[str]:
-    r"""Separate a command from a letter after it, as in `\pi` before `a`."""
+    r"""Insert a space between a command and a letter after it, as in `\pi a`."""
     result: list[str] = []
     for piece in pieces:
         if result and result[-1][-1:].isalpha() and "\\" in result[-1] and piece[:1].isalpha():
@@ -248,7 +246,7 @@ def _separated(pieces: list[str]) -> list[str]:
 
 
 def _runs_into(before: Layout, item: Layout) -> bool:
-    """Return whether two factors need a thin space: after a fraction, before a bracket or a vector."""
+    """Return whether two factors need a thin space between them: after a fraction, before a bracket or a vector."""
     if isinstance(item, Operator) or isinstance(before, Operator | IntegralSign) or begins_with_number(item):
         return False
     return (
@@ -276,7 +274,7 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 def _name(name: Name) -> str:
     base = name.letter
     if base == BLANK:
-        return "{?}"  # with the spacing of a letter
+        return "{?}"  # braces give it the spacing of a letter
     letter = rf"\{base}" if base in GREEK_LETTERS else base
     if base in SCRIPT_LETTERS:
         letter = rf"\mathcal{{{base[-1]}}}"
@@ -306,12 +304,12 @@ def _part_below(part: str) -> str:
 
 
 def unit_latex(text: str) -> str:
-    """Return a unit in mathematics, upright: kg m^2/s."""
+    """Return a unit for use in a formula, in upright type: kg m^2/s."""
     return rf"\mathrm{{{_unit(text)}}}"
 
 
 def dimension_latex(dimension: Dimension) -> str:
-    """Return a dimension, upright: M L^2."""
+    """Return a dimension in upright type: M L^2."""
     parts = [letter if n == 1 else f"{letter}^{{{n}}}" for letter, n in dimension.powers.items() if n]
     return rf"\mathsf{{{chr(32).join(parts)}}}" if parts else "1"
 

@@ -1,6 +1,6 @@
-"""Mathematics as it is printed, before any format: fractions, superscripts, brackets.
+"""The layout of formulas, independent of any format: fractions, superscripts, brackets.
 
-`notation.py` decides the layout once; `latex.py` and `text.py` only set it.
+`notation.py` decides the layout once; `latex.py` and `text.py` only write it.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Digits:
-    """Digits as printed."""
+    """A number as a string of digits."""
 
     digits: str
 
 
 @dataclass(frozen=True)
 class Name:
-    """A symbol: `omega`, with subscript `x` and a number of dots; style is scalar, vector or tensor."""
+    """A symbol: its base such as `omega`, a subscript such as `x`, and dots; its style is scalar, vector or tensor."""
 
     base: str
     subscript: str = ""
@@ -36,7 +36,7 @@ class Name:
 
     @property
     def below(self) -> tuple[str, tuple[str, ...]]:
-        """Return the separator and the parts of the subscript: letters run together, a word is separated."""
+        """Return the separator and the parts of the subscript; a comma separates them if a part is a word."""
         parts = tuple(self.subscript.split("_"))
         return "," if any(len(part) > 2 for part in parts) else "", parts
 
@@ -106,7 +106,7 @@ class Bracketed:
 
 @dataclass(frozen=True)
 class Evaluated:
-    """A layout with a bar after it, and below the bar the place where it is evaluated."""
+    """A layout followed by a bar, with the point of evaluation below the bar."""
 
     inside: Layout
     where: Layout
@@ -114,7 +114,7 @@ class Evaluated:
 
 @dataclass(frozen=True)
 class IntegralSign:
-    """The sign with its limits, if it has any."""
+    """An integral sign, with limits if there are any."""
 
     lower: Layout | None = None
     upper: Layout | None = None
@@ -122,7 +122,7 @@ class IntegralSign:
 
 @dataclass(frozen=True)
 class Applied:
-    """A function by its printed name, with an exponent if it has one, and its argument."""
+    """A function: its printed name, an exponent if there is one, and its argument."""
 
     name: str
     argument: Layout
@@ -161,16 +161,16 @@ GREEK_LETTERS = {
     "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ",
     "Omega": "Ω", "infty": "∞",
 }  # fmt: skip
-SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # for a result whose usual letter is taken
+SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # for results whose usual symbol is in use
 
 DEGREE_SIGN = Upright("degree")  # the only unit without a space after its number
 DOT, TIMES, PLUS, MINUS, THIN_SPACE = (Operator(kind) for kind in ("dot", "times", "plus", "minus", "space"))
 EITHER_SIGN = Operator("plus_minus")
-INNER, CROSS = Operator("inner"), Operator("cross")  # between two vectors: a dot, and a cross
+INNER, CROSS = Operator("inner"), Operator("cross")  # the dot and the cross between two vectors
 
 
 def holds_fraction(layout: Layout) -> bool:
-    """Return whether a root or a function contains a fraction, which would be too high in a numerator."""
+    """Return whether a root or function in the layout contains a fraction, so that it is too tall for a numerator."""
     inside = layout.inside if isinstance(layout, RootSign) else layout.argument if isinstance(layout, Applied) else None
     if isinstance(inside, Fenced):
         inside = inside.inside
@@ -195,7 +195,7 @@ def last_of(layout: Layout) -> Layout:
 
 
 def begins_with_number(layout: Layout) -> bool:
-    """Return whether the layout needs a dot after another factor: `3a`, `3/2 a`, `10^2`."""
+    """Return whether the layout begins with a number, as `3a`, `3/2 a`, `10^2`: after another factor it needs a dot."""
     first = first_of(layout)
     if isinstance(first, Raised):
         return begins_with_number(first.base)
@@ -205,7 +205,7 @@ def begins_with_number(layout: Layout) -> bool:
 
 
 def is_numeric(layout: Layout) -> bool:
-    """Return whether the layout has only numbers: 2/(3 sqrt(14))."""
+    """Return whether the layout contains only numbers, as 2/(3 sqrt(14))."""
     match layout:
         case Fraction(above, below):
             return is_numeric(above) and is_numeric(below)
@@ -224,13 +224,13 @@ def is_number(layout: Layout) -> bool:
 
 
 def is_differential(layout: Layout) -> bool:
-    """Return whether the layout is d, d^2 or a curly d."""
+    """Return whether the layout is a sign of differentiation: d, d^2 or a curly d."""
     sign = layout.base if isinstance(layout, Raised) else layout
     return sign in (Upright("d"), Upright("partial"))
 
 
 def ends_in_differential(layout: Layout) -> bool:
-    """Return whether the layout ends in dx, after which an integral is complete."""
+    """Return whether the layout ends in a differential such as dx, which completes an integral."""
     return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Upright("d")
 
 
@@ -242,7 +242,7 @@ POSITION = re.compile(r"^r(?P<primes>'*)_(?P<of>[^_]+)_(?P<axis>[xyz])(?=_d*dot$
 
 
 def layout_of_name(name: str) -> Name:
-    """Split `omega_x`, `theta_dot`, `J_xy` into letter, subscript and dots; `r_C_z` of a position r_C is z_C."""
+    """Split `omega_x`, `theta_dot`, `J_xy` into symbol, subscript and dots; `r_C_z`, a component of r_C, is z_C."""
     name = POSITION.sub(r"\g<axis>\g<primes>_\g<of>", name)
     match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
     if not match:
@@ -254,7 +254,7 @@ def layout_of_name(name: str) -> Name:
 
 
 def width(layout: Layout) -> float:
-    """Return the approximate number of characters that a layout is wide in print."""
+    """Return the approximate printed width of a layout in characters."""
     match layout:
         case Digits(digits):
             return len(digits)

@@ -1,7 +1,7 @@
-"""One symbol, one meaning: the meaning of each symbol of a page, and the symbols of a problem with two meanings.
+"""The meaning of each symbol on a page, and errors for symbols of a problem that have two meanings.
 
-Steps introduce symbols: of results, components and entries, coordinates and their rates, variables of integration.
-What counts is the printed form: `z_C` looks just like the component `r_C_z`; a bold `I` is not `I`.
+Steps introduce symbols for results, components, entries, coordinates, their rates, and variables of integration.
+Two symbols are equal if they look the same in print: `z_C` equals the component `r_C_z`, but a bold `I` is not `I`.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ _NOTATION = Notation()
 def letter_clashes(
     problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol] = ()
 ) -> list[Complaint]:
-    """Return an error for each symbol in use whose printed form also means something else; one for each symbol.
+    """Return at most one error for each symbol of the problem: its printed form must not also mean something else.
 
-    `coordinates` are those that the script has named: a body created before may have taken such a symbol.
+    `coordinates` are the coordinates that the script names; a body created earlier may already use such a symbol.
     """
     used = letters_in_use(problem)
     looks = {as_printed(letter): letter for letter in used}
@@ -48,7 +48,7 @@ def letter_clashes(
 def _integrated_coordinates(
     problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol]
 ) -> list[Complaint]:
-    """Return errors for coordinates that a step also uses as a variable of integration."""
+    """Return an error for each coordinate whose symbol is also the variable of integration of a step."""
     named = {as_printed(q): q for q in coordinates}
     own = [
         (q, quantity.key)
@@ -67,7 +67,7 @@ def _integrated_coordinates(
 
 
 def letters_in_use(problem: Problem) -> list[Symbol]:
-    """Return the symbols of inputs or with a number; a symbol that is only declared has no meaning yet."""
+    """Return the symbols that occur in inputs or have numbers; a symbol that is only declared is not in use."""
     found = [letter for given in problem.givens for letter in given.letters]
     return list(dict.fromkeys([*found, *(measured.symbol for measured in problem.measured)]))
 
@@ -77,14 +77,14 @@ def as_printed(name: Any) -> str:
 
 
 def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, str]]:
-    """Yield every name that a step introduces, and its meaning; `letters` are those that it has from elsewhere."""
+    """Yield every name that a step introduces, with its meaning; `letters` are symbols that the problem declares."""
     yield from _named_by(step)
     for q, _ in step.coordinates:
         yield q, "the script has a coordinate of that name"
         yield from ((rate(q, n), f"it is a rate of the coordinate `{q.name}`") for n in range(1, len(RATES)))
     own: set[Basic] = {q for q, _ in step.coordinates}
     for form in step.chain:
-        own |= {x for whole in form.expr.atoms(MassIntegral) for x, *_ in whole.args[5:]}  # not printed there
+        own |= {x for whole in form.expr.atoms(MassIntegral) for x, *_ in whole.args[5:]}  # these are not printed
         for variable in _integrated(form.expr):
             own.add(variable)
             yield variable, f"the step `{step.key}` integrates over it"
@@ -94,7 +94,7 @@ def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, 
 
 
 def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
-    """Yield the name of a step's result, and of its components or entries."""
+    """Yield the symbol of a step's result, and the symbols of its components or entries."""
     symbol, result = step.symbol, f"the step `{step.key}` also uses it for its result"
     if isinstance(symbol, Symbol):
         yield symbol, result
@@ -113,7 +113,7 @@ def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
 
 
 def _integrated(expr: Any) -> Iterator[Symbol]:
-    """Yield the variables of integrals and brackets, which are printed."""
+    """Yield the printed variables of integrals and of antiderivatives in brackets."""
     for whole in expr.atoms(Integral, Bracket):
         if isinstance(whole, Integral):
             yield from whole.variables
@@ -130,7 +130,7 @@ def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
 
 
 def _place(problem: Problem, letter: Symbol) -> Place | None:
-    """Return where the symbol is declared, or the input whose number it replaces."""
+    """Return where the symbol is declared, or else the place of the input that contains it."""
     given = next((given.name for given in problem.givens if letter in given.letters), "")
     keys = (f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
     return next((problem.places[key] for key in keys if key in problem.places), None)

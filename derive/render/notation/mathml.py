@@ -1,6 +1,6 @@
-"""Layout to MathML: the output of `latex`, converted by `math-core`; browsers show it without a script.
+"""Writes a layout as MathML: `math-core` converts the output of `latex`; browsers show MathML without a script.
 
-Decision 0024 compares the converters. The style sheet of the page has what MathML Core lacks, such as frames.
+Decision 0024 compares the converters. The page's style sheet adds what MathML Core lacks, such as frames.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from derive.render.rendered import Html
 
 
 def mathml(layout: Layout, *, inline: bool = False) -> Html:
-    """Return a separate formula; inline, its fractions are small or have a stroke."""
+    """Return a layout as one MathML formula; with `inline`, its fractions are small or written a/b."""
     return of_latex(latex(layout, inline=inline), inline=inline)
 
 
 def in_pieces(
     layout: Layout, *, inline: bool = False, sign: str = "", goes_on: bool = False
 ) -> list[tuple[float, Html]]:
-    """Return the terms of a sum as separate formulas, between which a line may end, each with its width in characters.
+    """Return each term of a sum as a separate formula with its width in characters; a line may end between two terms.
 
-    Before the first there is a relation, or the sum continues from another line.
+    Before the first term is the relation `sign`, or nothing; with `goes_on` the sum continues from another line.
     """
     first, *others = latex_of_terms(layout, inline=inline)
     begun = _going_on(first, inline) if goes_on else of_latex(f"{sign} {first}".strip(), inline=inline)
@@ -35,22 +35,22 @@ def in_pieces(
 
 
 def _going_on(formula: str, inline: bool) -> Html:
-    """Return a formula that begins with a sign between it and the formula before it."""
+    """Return a formula whose leading sign has the spacing of a sign between two terms."""
     return Html(of_latex(f"{{}}{formula}", inline=inline).replace("<mrow></mrow><mo", '<mo form="infix"', 1))
 
 
 @cache
 def of_latex(formula: str, inline: bool = False) -> Html:
-    """Return the MathML of LaTeX that `latex` writes, which can always be converted.
+    """Return the MathML for LaTeX written by `latex`, which can always be converted.
 
-    The spacing between rows of a column is for TeX only: a browser makes each row as high as its contents.
+    The extra height of rows in a column is removed: only TeX needs it, since a browser fits rows to their contents.
     """
     for spacing in SPACING:
         formula = formula.replace(spacing, "")
     converted = _converter().convert_with_local_state(formula, displaystyle=not inline)
-    # A block becomes its row; a separate formula is within a row.
+    # The page puts a display formula within a row of its own, so the formula is not a block.
     converted = converted.replace('<math display="block">', '<math displaystyle="true">', 1)
-    return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML has no name for this character
+    return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML does not define the name of this character
 
 
 APPLIED = "&ApplyFunction;"

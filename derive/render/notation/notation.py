@@ -1,11 +1,11 @@
 """From expressions to textbook layout: 13/12 M a^2, not 13 M a^2/12; dots for rates; masses before lengths.
 
-The engine decides the form of a line, where lines are checked: which terms are collected, what is one fraction, what is
-multiplied out (`derive.algebra.tidy`, `derive.algebra.collect`). This module, with `products` and `binding`, decides
-the printed form, once for every format: the order of terms and factors, the factor in front of a vector or of a
+The engine decides the form of a line, because it checks lines: which terms are collected, which are one fraction, what
+is multiplied out (`derive.algebra.tidy`, `derive.algebra.collect`). This module, with `products` and `binding`, decides
+the printed form, once for every format: the order of terms and factors, the factor in front of a vector or a
 bracket, roots under one sign or below, signs, fractions, brackets and dots. `latex` and `text` set the layout.
 
-`Notation` keeps the only data that depends on the problem: the dimensions of its symbols, which decide their order.
+`Notation` has the only data that depends on a problem: the dimensions of symbols, which determine their order.
 """
 
 from __future__ import annotations
@@ -92,14 +92,14 @@ PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "l
 class Notation:
     """The layout of any expression of the engine.
 
-    dimensions   of the symbols, so that masses come first and rates last; unknown symbols are placed among the lengths
-    flat         whether vectors are lists of their components rather than columns, for a short page
+    dimensions   dimensions of symbols, so that masses come first and rates last; unknown symbols are treated as lengths
+    flat         whether vectors are printed as lists of components instead of columns, for a short page
     """
 
     def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None, flat: bool = False):
         self.known_dimensions, self.flat = dimensions or {}, flat
         self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
-        self._known: dict[Any, Layout] = {}  # computed once: every format of a page needs the same layouts
+        self._known: dict[Any, Layout] = {}  # a cache: all formats of a page need the same layouts
         self._results: dict[Any, Layout] = {}
 
     def layout(self, expr: Any) -> Layout:
@@ -121,7 +121,7 @@ class Notation:
         raise TypeError(f"no notation for {type(expr).__name__}")
 
     def result(self, expr: Any) -> Layout:
-        """Return a result with its common factor in front; components in running text as a list."""
+        """Return a result with its common factor in front; a tuple of components becomes a list."""
         if isinstance(expr, tuple):
             return self.list_of(expr)
         if expr not in self._results:
@@ -158,7 +158,7 @@ class Notation:
         return row(*items)
 
     def _product(self, expr: Expr) -> Layout:
-        above, below = fraction(gathered(expr), exact=expr.has(exp))  # e^(-t) stays above
+        above, below = fraction(gathered(expr), exact=expr.has(exp))  # e^(-t) remains in the numerator
         if expr.is_number and (rooted := under_one_root(expr)):
             return self._factors(rooted)
         number_above, letters_above = number_and_letters(above)
@@ -183,7 +183,7 @@ class Notation:
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
-        """Return whether a letter is alone or before functions: a/2 and a/2 sin x, but 1/2 M a^2 and 1/2 x_dot."""
+        """Return whether the factors are one letter and perhaps functions: a/2, a/2 sin x; but 1/2 M a^2, 1/2 x_dot."""
         first, *others = (self.layout(letter) for letter in letters)
         is_function = all(isinstance(other, Applied) for other in others)
         return isinstance(first, Name) and first.style == "scalar" and not first.dots and is_function
@@ -203,12 +203,12 @@ class Notation:
         return side_by_side([*(self._as_factor(f, Binding.DOTTED) for f in before), self._as_factor(last)])
 
     def _as_factor(self, expr: Any, most: Binding = Binding.OPEN) -> Layout:
-        """Return a factor next to others; an open layout may come last without brackets."""
+        """Return a factor for use next to others, in brackets if it binds less strongly than `most`."""
         inner = self.layout(expr)
         return Fenced(inner) if binding(inner) is Binding.MEASURED else within(inner, most)
 
     def _as_written(self, expr: ex.Factors) -> Layout:
-        """Return factors in the given order, with a dot where two would run together."""
+        """Return factors in the given order, with a dot between two factors that would run together."""
         first, *others = expr.args
         whole = self.layout(first)
         sign, leading = sign_apart(whole)
@@ -280,7 +280,7 @@ class Notation:
         return signed(sign, row(*items)) if sign else row(*items)
 
     def _operand(self, inner: Layout, *, leads: bool, ends: bool) -> Layout:
-        """Return a vector or tensor next to another; w x L needs no brackets after a number."""
+        """Return a vector or tensor for use next to another, in brackets if necessary; w x L at the end needs none."""
         if not leads and begins_with_number(inner):
             return Fenced(inner)
         return within(inner, Binding.OPEN if ends else Binding.PRODUCT)
@@ -309,7 +309,7 @@ class Notation:
         return self._differentiated("partial", expr.args[0], self.layout(expr.args[1]))
 
     def _differentiated(self, sign: str, what: Any, by: Layout, order: int = 1) -> Layout:
-        """Return dL/dt for a name, d|L|^2/dt for a length, d/dt of anything longer; d^2U/dx^2 for the second order."""
+        """Return dL/dt for a name, d|L|^2/dt for a norm, d/dt (...) for anything longer, and d^2U/dx^2 for order 2."""
         inner = self.layout(what)
         above, by = (each if order == 1 else Raised(each, Digits(str(order))) for each in (Upright(sign), by))
         below = row(Upright(sign), by)
@@ -340,7 +340,7 @@ class Notation:
         return row(self.layout(what), Operator("tends"), place)
 
     def side(self, expr: Any) -> Layout:
-        """Return a side of an equation: a number common to its terms is not factored out."""
+        """Return a side of an equation, in which a numerical factor common to all terms is not factored out."""
         return self._terms(self._ordered_terms(expr)) if isinstance(expr, Add) else self.layout(expr)
 
     def _identity(self, expr: Identity) -> Layout:
@@ -349,7 +349,7 @@ class Notation:
     # --- integrals ---
 
     def _integral(self, expr: Integral) -> Layout:
-        """Return the signs, outermost first; the integrand; the differentials, innermost first."""
+        """Return an integral: its signs from the outermost, the integrand, the differentials from the innermost."""
         signs = [IntegralSign(self.layout(lower), self.layout(upper)) for _, lower, upper in reversed(expr.limits)]
         inside: list[Layout] = [self._as_factor(expr.function)] if expr.function != 1 else []
         for x, *_ in expr.limits:
@@ -357,7 +357,7 @@ class Notation:
         return row(*signs, *inside)
 
     def _swing(self, expr: SwingTime) -> Layout:
-        """Write the constants of f under a root before the sign, without a fraction in the denominator."""
+        """Write the integral of 1/sqrt(f): constant factors of f form a root before the integral sign."""
         f, q, amplitude, _ = expr.args
         sign = IntegralSign(Digits("0"), self.layout(amplitude))
         constant, varying = f.as_independent(q, as_Add=False)
@@ -408,7 +408,7 @@ class Notation:
         (ImaginaryUnit, lambda self, _: Name("i")),
         (Exp1, lambda self, _: Name("e")),
         (Derivative, _derivative),
-        (MatAdd, lambda self, expr: self._terms(list(expr.args))),  # before Add: SymPy makes MatAdd a subclass of it
+        (MatAdd, lambda self, expr: self._terms(list(expr.args))),  # before Add, because MatAdd is a subclass of Add
         (Add | ex.Terms, _sum),
         (MatMul, _matrix_product),
         (Mul, _product),

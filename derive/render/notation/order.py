@@ -1,7 +1,7 @@
 """The order in which terms and factors are written.
 
-Terms of a motion come first, by accelerations and rates; then plain terms, fractions in letters, functions of angles.
-Factors: masses, accelerations of gravity, lengths, sums, numbers, roots, rates, functions.
+Terms with accelerations and rates come first; then plain terms, fractions with symbols, and functions of angles.
+Factors have this order: masses, accelerations of gravity, lengths, sums, numbers, roots, rates, functions.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
 def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
-    """Return the terms of a sum as they are written; `moving` numbers the coordinates."""
+    """Return the terms of a sum in the order of print; `moving` gives the index of each coordinate."""
     terms = roots_last(expr.as_ordered_terms())
     if expr.has(ex.Amount):  # 0.2 m + 1/2 (0.05 m), like R + a/2
         return positive_first(sorted(terms, key=lambda term: not isinstance(term, ex.Amount)))
@@ -30,7 +30,7 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 
 
 def plain_first(terms: list[Any]) -> list[Any]:
-    """Sort plain terms first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
+    """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
     Plain terms come before fractions, roots and functions.
     """
@@ -48,9 +48,9 @@ def _has_root(term: Expr) -> bool:
 
 
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
-    """Sort terms with accelerations first, then those with rates, each by the order of the coordinates and by powers.
+    """Sort terms: first accelerations, then rates, each by the order of the coordinates and by powers.
 
-    After them terms with a coordinate come before constants: m y_ddot + k y - m g.
+    Of the other terms, those with a coordinate come before constants: m y_ddot + k y - m g.
     """
     rates = sorted(
         {s for term in terms for s in term.free_symbols if s.name.endswith(RATE_ENDS)},
@@ -75,14 +75,14 @@ def _coordinate(letter: Symbol) -> str:
 
 
 def ordered_factors(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
-    """Return the factors of a product as they are written."""
+    """Return the factors of a product in the order of print."""
     return _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
 
 
 def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
     """Write omega_z omega_x, to match omega_x omega_y and omega_y omega_z in the components of a cross product.
 
-    Next to a product of inertia I_xz they have the order of its axes.
+    Next to a product of inertia such as I_xz, the rates have the order of its axes.
     """
     names = [factor.name if isinstance(factor, Symbol) else "" for factor in factors]
     for i, name in enumerate(names):
@@ -119,7 +119,7 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
 
 
 def _place_of_term(term: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
-    """Return the place of a product by its dimension; angles and other factors that are not letters do not count."""
+    """Return the place for the dimension of a product; angles and factors that are not symbols are ignored."""
     found = [factor.as_base_exp() for factor in Mul.make_args(term)]
     powers = [(letter, n) for letter, n in found if isinstance(letter, Symbol | ex.Amount) and n.is_Rational]
     dimensions = [(dimension_of(letter), n) for letter, n in powers]

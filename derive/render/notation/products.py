@@ -1,4 +1,4 @@
-"""The form of a product or a sum: its sign, its number, its letters, and their order."""
+"""The form of a product or sum: its sign, numerical factors and symbols, and the order of these."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ from derive.render.notation.layout import (
 
 
 def decimal(number: Rational) -> Layout:
-    """Return 1.5 as it was written, not 3/2; a third stays a fraction; 2.657*10^-26 has its power of ten."""
+    """Return a number in decimals: 1.5, not 3/2, or 2.657*10^-26; 1/3 remains a fraction."""
     sign = (MINUS,) if number < 0 else ()
     places = _places(number.q)
     if places is None:
@@ -54,7 +54,7 @@ def decimal(number: Rational) -> Layout:
 
 
 def _places(denominator: int) -> int | None:
-    """Return the number of decimal places, or None if they do not end; large numbers are not factored."""
+    """Return the number of decimal places of 1/denominator, or None if the decimals do not end."""
     found = {}
     for prime in (2, 5):
         found[prime] = 0
@@ -64,26 +64,26 @@ def _places(denominator: int) -> int | None:
 
 
 def _point_before(places: int, number: Rational) -> str:
-    """Return all digits of a decimal, with the point before the last places."""
+    """Return all digits of a decimal, with the point before the last `places` digits."""
     digits = str(number.p * 10**places // number.q).rjust(places + 1, "0")
     return f"{digits[:-places]}.{digits[-places:]}" if places else digits
 
 
 def unit_behind_number(name: str) -> Layout:
-    """Return `s^-2` for 1/s^2: the 1 could be read as a factor."""
+    """Return `s^-2` for the unit 1/s^2, because the 1 could be read as a factor."""
     only_below = re.fullmatch(r"1/([A-Za-z]+)(?:\^(\d+))?", name)
     return Upright(f"{only_below[1]}^-{only_below[2] or 1}" if only_below else name)
 
 
 def rounded_number(text: str) -> Layout:
-    """Return -1.50, 2.66*10^-26 with all digits of the rounding, including zeros."""
+    """Return a rounded number such as -1.50 or 2.66*10^-26 with all its digits, including final zeros."""
     digits, _, power = text.lstrip("-").partition("e")
     sign = [MINUS] if text.startswith("-") else []
     return row(*sign, Digits(digits), *([TIMES, times_ten_to(int(power))] if power else []))
 
 
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:
-    """Separate the power of ten of a very small number, or of a very large round one, with one digit before the point.
+    """Split a very small or a very large round number into a power of ten and a factor from 1 to 10.
 
     A number is round if it has at most four digits before its zeros, or not more digits than zeros.
     """
@@ -102,7 +102,7 @@ def times_ten_to(power: int) -> Layout:
 
 
 def present(value: Any) -> Any:
-    """Return a vector or tensor of the same value with its common factor in front; anything else is unchanged."""
+    """Return a vector or tensor with its common factor in front; anything else is unchanged."""
     if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
         return value
     if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
@@ -112,7 +112,7 @@ def present(value: Any) -> Any:
 
 
 def sign_and_size(term: Any) -> tuple[Operator | None, Any]:
-    """Return the sign that a scalar is printed with, if any, and the scalar without it."""
+    """Return the sign printed before a scalar, if any, and the scalar without this sign."""
     if not isinstance(term, Expr) or ex.is_matrix(term):
         return None, term
     as_written = isinstance(term, ex.Factors)
@@ -127,7 +127,7 @@ def sign_and_size(term: Any) -> tuple[Operator | None, Any]:
 
 
 def roots_last(terms: list[Any]) -> list[Any]:
-    """Put the root of a sum after other terms with units, the same order as for letters."""
+    """Put terms with roots of sums last if terms have units; terms with symbols have this order too."""
 
     def is_root(term: Any) -> bool:
         return any(isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Add for f in Mul.make_args(term))
@@ -136,7 +136,7 @@ def roots_last(terms: list[Any]) -> list[Any]:
 
 
 def positive_first(terms: list[Any]) -> list[Any]:
-    """Begin with a positive term: c^2 - a^2, not -a^2 + c^2."""
+    """Put the first positive term before the others: c^2 - a^2, not -a^2 + c^2."""
     if terms and sign_and_size(terms[0])[0] is MINUS:
         first = next((term for term in terms if sign_and_size(term)[0] is not MINUS), None)
         if first is not None:
@@ -145,7 +145,7 @@ def positive_first(terms: list[Any]) -> list[Any]:
 
 
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
-    """Return the numerical factors (13, sqrt(14), pi) and the others; a factor of 1 is dropped."""
+    """Return the numerical factors such as 13, sqrt(14), pi, and the other factors; a factor of 1 is omitted."""
     factors = [f for factor in Mul.make_args(expr) for f in with_content_apart(factor) if f != 1]
     numbers = [f for f in factors if f.is_number and not f.has(ex.Amount)]
     rational = Mul(*(f for f in numbers if f.is_Rational))
@@ -170,7 +170,7 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def under_one_root(number: Expr) -> list[Expr]:
-    """Return the factors 7 and sqrt(7/397) of 7 sqrt(2779)/397; none if the root of a fraction is not shorter."""
+    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397); return no factors if this is not shorter."""
     square = number**2
     if number.is_Rational or not square.is_Rational or square.q == 1 or square < 0:
         return []
@@ -184,13 +184,13 @@ def under_one_root(number: Expr) -> list[Expr]:
 
 
 def _digits(*numbers: Expr) -> int:
-    """Return how many digits rational numbers and their roots have in print; a 1 is omitted."""
+    """Return how many digits rational numbers and their roots have in print; a 1 is not printed."""
     fractions = [number**2 if number.is_Pow else number for number in numbers]
     return sum(len(str(n)) for number in fractions for n in (number.p, number.q) if n != 1)
 
 
 def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
-    """Split 12 a^2 + 12 b^2 into 12 and a^2 + b^2; a sum with fractions keeps its form."""
+    """Split 12 a^2 + 12 b^2 into 12 and a^2 + b^2; a sum with fractions is unchanged."""
     if not isinstance(factor, Add):
         return (factor,)
     content, rest = factor.primitive()
@@ -198,15 +198,15 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
 
 
 def gathered(expr: Expr) -> Expr:
-    """Combine powers of one letter, then roots under one sign."""
+    """Combine powers of each symbol, then write roots under one sign."""
     return roots_together(higher_roots_together(powers_together(expr)))
 
 
 def roots_together(expr: Expr) -> Expr:
-    """Combine roots: sqrt(M) sqrt(g)/sqrt(I + M a^2) is one root of a fraction, 1/(sqrt(L) sqrt(C)) one over a root.
+    """Combine square roots: sqrt(M) sqrt(g)/sqrt(I + M a^2) as the root of a fraction, 1/(sqrt(L) sqrt(C)) as 1/root.
 
-    Fourth roots of numbers and of sums become square roots within it. A single root is unchanged, and so are roots of
-    numbers alone.
+    Fourth roots of numbers and of sums become square roots under the combined root. A single root is unchanged, and so
+    is a product of roots of numbers.
     """
     factors = Mul.make_args(expr)
     roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
@@ -225,7 +225,7 @@ def roots_together(expr: Expr) -> Expr:
 
 
 def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rational]:
-    """Return the factor and the new number under the root that write sqrt(6)/3 as sqrt(2/3), sqrt(2)/2 as sqrt(1/2)."""
+    """Return a factor and a new number under the root, to write sqrt(6)/3 as sqrt(2/3) and sqrt(2)/2 as sqrt(1/2)."""
     shared = gcd(number.q, inside.p) if inside.q == 1 else Rational(1)
     return Rational(1, shared), inside / shared**2
 
@@ -239,7 +239,7 @@ def higher_roots_together(expr: Expr) -> Expr:
         return expr
     square = [root for root in roots if abs(root.exp) == Rational(1, 2)]
     if index == 4 and square and all(root in square or _is_fourth_root(root) for root in roots):
-        return expr  # `roots_together` writes these
+        return expr  # `roots_together` combines these roots
     wholes = [int(root.exp) if root.exp > 0 else 0 for root in roots]
     inside = [Pow(root.base, index * (root.exp - n)) for root, n in zip(roots, wholes, strict=True)]
     outside = [Pow(root.base, n) for root, n in zip(roots, wholes, strict=True)]
@@ -247,7 +247,7 @@ def higher_roots_together(expr: Expr) -> Expr:
 
 
 def powers_together(expr: Expr) -> Expr:
-    """Write r^(n - 1), not r^n/r: combine powers of one letter if one of the exponents is a letter."""
+    """Combine powers of one symbol if an exponent contains a symbol: r^(n - 1), not r^n/r."""
     factors = Mul.make_args(expr)
     open_bases = {f.base for f in factors if isinstance(f, Pow) and f.exp.free_symbols}
     shared = {b for b in open_bases if sum(f.as_base_exp()[0] == b for f in factors) > 1}
@@ -257,28 +257,28 @@ def powers_together(expr: Expr) -> Expr:
 
 
 def _is_fourth_root(factor: Pow) -> bool:
-    """Return whether the factor is a fourth root of an integer or a sum: sqrt(2) or a diagonal under a square root."""
+    """Return whether the factor is a fourth root of an integer or of a sum: a square root under a square root."""
     return bool((factor.base.is_Integer or factor.base.is_Add) and factor.exp.is_Rational and factor.exp.q == 4)
 
 
 class Place(IntEnum):
-    """The places of symbols among the factors of a product."""
+    """The places of factors in a product, in the order of print."""
 
     PER_MASS = auto()  # the gravitational constant comes before the masses
     MASS = auto()  # also a moment of inertia, a spring constant, a charge
     SUM_OF_MASSES = auto()
     COUPLING = auto()  # an energy, an angular momentum, a constant of a force law
-    ACCELERATION = auto()  # also a speed; a field comes after the charge in it
+    ACCELERATION = auto()  # also a speed, and a field, which follows the charge
     LENGTH = auto()
     SUM = auto()
     OTHER = auto()  # numbers, densities, momenta
     RATE = auto()
     ROOT = auto()
-    CHANGING = auto()  # rates of coordinates and the time: r r_dot, not r_dot r
+    CHANGING = auto()  # rates of coordinates, and the time: r r_dot, not r_dot r
 
 
 def rank_of_dimension(dimension: Dimension | None) -> Place:
-    """Return the place of a symbol among factors."""
+    """Return the place of a factor with this dimension."""
     if dimension is None or dimension.is_number:
         return Place.OTHER
     if dimension.current:
@@ -295,7 +295,7 @@ def rank_of_dimension(dimension: Dimension | None) -> Place:
 
 
 def rank_of_sum(places: Iterable[Place]) -> Place:
-    """Place a sum of masses or of accelerations like its terms: (M + m) r_dot^2, m (g + a) l."""
+    """Return the place of a sum: masses or accelerations have that of their terms, (M + m) r_dot^2, m (g + a) l."""
     return {frozenset({Place.MASS}): Place.SUM_OF_MASSES, frozenset({Place.ACCELERATION}): Place.ACCELERATION}.get(
         frozenset(places), Place.SUM
     )
@@ -316,7 +316,7 @@ def _needs_dot(before: Layout, item: Layout) -> bool:
 
 
 def _would_be_argument(before: Layout, item: Layout) -> bool:
-    """Return whether a factor could be read as part of the argument of the function before it: cos x·a^n."""
+    """Return whether a factor after a function could be misread as part of the argument, as in cos x·a^n."""
     last, first = last_of(before), first_of(item)
     bare = isinstance(last, Applied) and not isinstance(last.argument, Fenced)
     letter = first.base if isinstance(first, Raised) else first
@@ -324,9 +324,7 @@ def _would_be_argument(before: Layout, item: Layout) -> bool:
 
 
 def between_factors(before: Layout, after: Layout) -> Layout | None:
-    """Return the mark between two factors in their given order: none between different letters, a dot if they run
-    together.
-    """
+    """Return the mark between two adjacent factors: none between distinct letters, a dot if they would run together."""
     if begins_with_number(after):
         return DOT
     if isinstance(first_of(after), Applied):
@@ -347,6 +345,6 @@ def _is_letter(layout: Layout) -> bool:
 
 
 def _begins_with_vector(layout: Layout) -> bool:
-    """Return whether the layout begins with a vector: a dot before it would be a scalar product."""
+    """Return whether the layout begins with a vector, because a dot before a vector would mean a scalar product."""
     first = first_of(layout)
     return isinstance(first, Array) or (isinstance(first, Name) and first.style != "scalar")

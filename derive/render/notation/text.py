@@ -1,6 +1,6 @@
-"""Layout to plain text for a terminal: one line where possible, a block of lines for vectors and tensors.
+"""Writes a layout as plain text for a terminal: one line if possible, a block of lines for vectors and tensors.
 
-These are the rules for reading a line; `tests/printed/from_text.py` follows them, and every printed line is compared:
+These are the rules for reading a line; `tests/printed/from_text.py` reads every printed line by these rules:
 
     a b, 2a      a product; it binds tighter than `·` and `×` between vectors, and those tighter than + and -
     1/2 M a²/b   from left to right: half of M a², over b; one factor follows the stroke, a product is in brackets
@@ -81,7 +81,7 @@ _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
 
 
 def columns(text: str) -> int:
-    """Return the width of a text: an arrow or a dot above a letter has no width."""
+    """Return the width of a text in columns; an arrow or a dot above a letter has no width."""
     return len(text) if text.isascii() else sum(not unicodedata.combining(character) for character in text)
 
 
@@ -91,7 +91,7 @@ def to_the_right(text: str, width: int) -> str:
 
 @dataclass(frozen=True)
 class TextBox:
-    """Lines of equal width; a line of text continues the one at `middle`."""
+    """Lines of equal width; text next to the box is on the line with the index `middle`."""
 
     lines: tuple[str, ...]
     middle: int = 0
@@ -115,7 +115,7 @@ class TextBox:
 
 
 def plain(layout: Layout) -> str:
-    """Return a layout as text, possibly of several lines."""
+    """Return a layout as text of one or more lines."""
     return "\n".join(line.rstrip() for line in text_box(layout).lines)
 
 
@@ -149,7 +149,7 @@ def _holds_matrix(layout: Any) -> bool:
 
 
 def _on_one_line(layout: Any) -> Any:
-    """Return the layout with every matrix row by row in brackets: a root or a fraction has one line only."""
+    """Return the layout with every matrix on one line, as needed within roots and fractions."""
     if isinstance(layout, Array) and len(layout.rows[0]) > 1:
         lines = [_in_brackets(line) for line in layout.rows]
         return _in_brackets([_on_one_line(line) for line in lines])
@@ -205,11 +205,11 @@ def _line(layout: Layout) -> str:
 
 
 def _tight(layout: Layout, *, is_above: bool = False) -> str:
-    """Return an operand of `/`, in brackets if it would be misread; a product before the stroke needs none."""
+    """Return an operand of `/`, in brackets if it would be misread; a product before `/` needs no brackets."""
     text = plain(layout)
     last = last_of(layout)
     if isinstance(last, Applied) and not isinstance(last.argument, Fenced):
-        return f"({text})"  # sin x/2 could be the sine of x/2
+        return f"({text})"  # sin x/2 could be read as the sine of x/2
     single = isinstance(layout, Digits | Name | Raised | RootSign | Fenced | Applied)
     product = is_above and isinstance(layout, Row) and not any(isinstance(item, Operator) for item in layout.items)
     return text if single or product or is_differential(first_of(layout)) else f"({text})"
@@ -229,13 +229,13 @@ def _row(items: tuple[Layout, ...]) -> TextBox:
 
 
 def _piece(before: Layout | None, item: Layout) -> TextBox:
-    """Return an item of a row, which depends on the item before it."""
+    """Return the text of an item in a row; it may depend on the item before."""
     leads = before is None or isinstance(before, Operator) and before.kind not in ("plus", "minus", "space", "close")
     return TextBox((LEADING_SIGNS[item],)) if leads and item in LEADING_SIGNS else text_box(item)
 
 
 def _gap(before: tuple[Layout, ...], item: Layout, piece: TextBox) -> str:
-    """Return the text between two factors: a dot if the second begins with a digit, except after a differential."""
+    """Return the text between two factors: a dot before a digit, except after a differential."""
     begins = len(piece.lines) == 1 and piece.lines[0][:1].isdigit() and not isinstance(first_of(item), Name)
     behind_differential = len(before) > 1 and is_differential(before[-2])
     return "·" if begins and not behind_differential else " "
@@ -258,7 +258,7 @@ def _array(rows: tuple[tuple[Layout, ...], ...]) -> TextBox:
     lines = ["  ".join(to_the_right(text, width) for text, width in zip(line, widths, strict=True)) for line in cells]
     if len(lines) == 1:
         return TextBox((f"({lines[0]})",))
-    if len(rows[0]) == 1:  # a column on one line, as vectors are written in running text
+    if len(rows[0]) == 1:  # a column is written on one line as a list of components
         return TextBox(("(" + ", ".join(line[0] for line in cells) + ")",))
     left = ["⎡"] + ["⎢"] * (len(lines) - 2) + ["⎣"]
     right = ["⎤"] + ["⎥"] * (len(lines) - 2) + ["⎦"]

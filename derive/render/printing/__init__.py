@@ -1,1 +1,1 @@
-"""A page in lines of text, of TeX and of JSON."""
+"""Prints a page as plain text, TeX, HTML, Markdown and JSON."""

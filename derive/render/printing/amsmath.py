@@ -1,4 +1,4 @@
-"""A display as standard LaTeX: amsmath in one piece, without custom commands."""
+"""Prints a display as standard LaTeX: one amsmath environment without custom commands."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from derive.render.printing.lines import LINE_WIDTH, Printed, framed_together, p
 
 @dataclass(frozen=True)
 class Row:
-    """The parts of a row before and after the alignment mark; both may have a matrix."""
+    """The parts of a row before and after the alignment mark; each part may contain a matrix."""
 
     left: str
     right: str
@@ -25,14 +25,14 @@ class Row:
 
 
 def display_latex(display: Display, notation: Notation, numbered: bool = False) -> str:
-    """Return the rows below each other, their relations aligned; answers are boxed."""
+    """Return the rows one below another with aligned relations; answers are boxed."""
     return aligned(display_rows(display, notation, ending=_number if numbered else None))
 
 
 def display_rows(
     display: Display, notation: Notation, limit: float = LINE_WIDTH, ending: Callable[[Printed], str] | None = None
 ) -> list[Row]:
-    """Return each row with its punctuation, followed by its `ending`."""
+    """Return each row with its punctuation and then its `ending`."""
     return [
         _row(lines, (stop if lines is rows[-1] else "") + (ending(lines[-1]) if ending else ""))
         for group, stop in zip(display.groups, display.stops, strict=True)
@@ -42,13 +42,13 @@ def display_rows(
 
 
 def equation_latex(line: ChainLine, notation: Notation) -> str:
-    """Return one equation within a line of text."""
+    """Return one equation for use within a line of text."""
     left = latex(notation.side(line.left), inline=True) if line.left is not None else ""
     return f"{left} {TEX_OPERATORS[line.relation]} {latex(notation.result(line.right), inline=True)}".strip()
 
 
 def aligned(rows: Sequence[Row]) -> str:
-    """Return rows in one piece; a single row is not aligned."""
+    """Return several rows in one aligned block, or a single row without alignment."""
     if len(rows) == 1:
         return _spaced(rows[0].left, rows[0].right)
     return "\\begin{aligned}\n" + " \\\\\n".join(map(str, rows)) + "\n\\end{aligned}"
@@ -59,7 +59,7 @@ def _number(line: Printed) -> str:
 
 
 def _row(lines: Sequence[Printed], end: str) -> Row:
-    """Return a line, or all lines in one frame, which begins after the relation if they continue another line."""
+    """Return the row for one line, or for lines in a common frame, which follows the relation."""
     first, *others = lines
     left = latex(first.left) if first.left else ""
     if not others:
@@ -77,7 +77,7 @@ def _going_on(lines: Sequence[Printed]) -> list[Row]:
 
 
 def _with_box(line: Printed) -> str:
-    """Return relations and right sides, with the result in a box after its relation."""
+    """Return the relations and right sides of a line; the result is in a box, and its relation is before the box."""
     at = len(line.sides) - line.framed
     if not line.framed:
         return _sides(line.sides)

@@ -1,8 +1,9 @@
-"""The names in the lines of a step: the meaning of each, and a text that SymPy alone can substitute.
+"""The names in the lines of a step: the value of each name, and its text as plain SymPy.
 
-The name of a symbol is its letter if that identifier is free in every chain that has it. Otherwise it is changed:
-`omega` becomes `omega_` where a letter omega occurs next to the vector. A formula such as dV/dtheta has the key of its
-step. Such a formula is written out, `Derivative(V, theta(t))`, if it has its value after its names are substituted.
+A symbol is written as its own name if that identifier is free in every chain that contains it. Otherwise the identifier
+is changed: the vector `omega` becomes `omega_` if a scalar omega also occurs. The identifier of a formula such as
+dV/dtheta is the key of its step. Such a formula is written out, `Derivative(V, theta(t))`, if it gives the right
+value after its names are substituted.
 """
 
 from __future__ import annotations
@@ -30,18 +31,18 @@ from derive.algebra.expressions import (
 from derive.render.printing.plain_sympy import Setting, Written, identifier, written
 from derive.steps.step import Step
 
-PerRoot = str | list[str]  # a list has one text for each of two roots
+PerRoot = str | list[str]  # a list contains one text for each of two roots
 
 
 @dataclass(frozen=True)
 class Page:
-    """The steps of a page, which decide the coordinates that move on it and the identifiers of its names."""
+    """The steps of a page; they determine which coordinates are functions of time and the identifiers of names."""
 
     steps: Sequence[Step]
 
     @cached_property
     def moving(self) -> frozenset[str]:
-        """Return the coordinates that are functions of time: those with a rate, or along which a rate is taken."""
+        """Return the coordinates that are functions of time: their rates or derivatives with respect to them occur."""
         coordinates = {q for step in self.steps for q, _ in step.coordinates}
         parts = {part for step in self.steps for expr in _exprs(step) for part in preorder_traversal(expr)}
         along = {
@@ -51,7 +52,7 @@ class Page:
 
     @cached_property
     def identifiers(self) -> dict[Any, str]:
-        """Return the identifier of each name, the same in every chain."""
+        """Return the identifier of each name; a name has the same identifier in every chain."""
         found = self._first_identifiers
         order = {name: place for place, name in enumerate(found)}
         clashes: dict[Any, set[str]] = {name: set() for name in found}
@@ -60,7 +61,7 @@ class Page:
             words = {word for line in lines for word in line.words}
             for name in sorted({name for line in lines for name in line.used}, key=order.__getitem__):
                 clashes[name] |= words
-                words.add(found[name])  # the first of two equal names keeps its letter
+                words.add(found[name])  # the first of two equal names is unchanged
         return {name: identifier(called, clashes[name]) for name, called in found.items()}
 
     @cached_property
@@ -94,10 +95,10 @@ def _exprs(step: Step) -> list[Any]:
 
 @dataclass(frozen=True)
 class StepNames:
-    """The lines of one step as SymPy reads them, with its names.
+    """The lines of one step as plain SymPy, with the names in them.
 
-    values        the names to substitute, with their values: symbols, and formulas that are not written out
-    has_formula   whether the left side is a formula of names that gives the beginning of the chain
+    values        the names to substitute, with their values: symbols, and formulas written as identifiers
+    has_formula   whether the left side is a formula of names whose value equals the first line of the chain
     """
 
     step: Step
@@ -107,16 +108,17 @@ class StepNames:
     has_formula: bool
 
     def text(self, expr: Any) -> PerRoot:
-        """Return the text of a line or of a part of it; two texts if the step has two roots."""
+        """Return the text of a line or of a part of a line; two texts if the step has two roots."""
         return _of_each_root(written(expr, setting).text for setting in self._with_names)
 
     def text_of_value(self, expr: Any) -> PerRoot:
-        """Return the text of an expression in symbols only."""
+        """Return the text of an expression without identifiers for results of other steps."""
         return _of_each_root(written(expr, setting).text for setting in self._in_letters)
 
     def factor(self, i: int) -> Any:
-        """Return the factor f in: residual of the line before = f times residual of line i, with names and motion
-        substituted.
+        """Return f in: residual of line i - 1 = f times residual of line i.
+
+        Names, and for `because: motion` also the rates, are substituted first.
         """
         puts = dict(self.step.names)
         before, here = (explicit(bound(self.step.chain[n].expr, puts)) for n in (i - 1, i))
@@ -126,7 +128,7 @@ class StepNames:
 
     @property
     def symbol(self) -> PerRoot:
-        """Return the left side: written out if it is a formula of names, else its identifier."""
+        """Return the left side of the chain: a formula of names is written out, any other symbol as its identifier."""
         symbol = self.step.symbol
         if isinstance(symbol, MatrixBase):
             return _of_each_root([written(symbol, Setting(self.identifiers)).text])
@@ -134,18 +136,18 @@ class StepNames:
 
     @property
     def names(self) -> dict[str, PerRoot]:
-        """Return each name that occurs in a line, and its value."""
+        """Return each name that occurs in a line, with its value."""
         used = {name: called for line in self.lines for name, called in line.used.items()}
         return {called: self.text_of_value(self.values[name]) for name, called in used.items()}
 
     @property
     def motion(self) -> dict[str, PerRoot]:
-        """Return the value of each rate by the equations of motion."""
+        """Return the value that the equations of motion give each rate."""
         return {written(rate, self._plain).text: self.text_of_value(value) for rate, value in self.step.motion}
 
     @cached_property
     def lines(self) -> list[Written]:
-        """Return every line, with the values of its names and its motion."""
+        """Return the texts of all lines, followed by the texts of the values of names and rates."""
         shown = [*(form.expr for form in self.step.chain), *([self.step.symbol] if self.has_formula else [])]
         lines = [written(expr, self._with_names[0]) for expr in shown]
         used = {name for line in lines for name in line.used}
@@ -154,7 +156,7 @@ class StepNames:
 
     @cached_property
     def _with_names(self) -> list[Setting]:
-        """Return the setting of the lines, for each of two roots."""
+        """Return the setting of the lines, one for each root if there are two."""
         own = {self.step.symbol} if self.has_formula else set()
         return self._for_each_root({name: self.identifiers[name] for name in self.values if name not in own})
 
@@ -177,7 +179,7 @@ class StepNames:
 
 
 def _put_in(step: Step) -> tuple[dict[Any, Any], bool]:
-    """Return the names to substitute, and whether the left side is a formula of them."""
+    """Return the names to substitute, and whether the left side is a formula of these names."""
     known = {name: value for name, value in step.names if isinstance(name, Symbol | MatrixSymbol)}
     formulas = [(name, value) for name, value in step.names if name not in known]
     for name, value in sorted(formulas, key=lambda pair: _size(pair[0])):
@@ -190,7 +192,7 @@ def _put_in(step: Step) -> tuple[dict[Any, Any], bool]:
 
 
 def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
-    """Return whether a formula of known names has that value once they are substituted."""
+    """Return whether a formula of known names equals `value` after the names are substituted."""
     whole = bound(formula, known)
     if isinstance(value, Relation) or whole == formula or whole.has(MatrixSymbol):
         return False
@@ -198,7 +200,7 @@ def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
 
 
 def factor_between(before: Any, here: Any) -> Any:
-    """Return the simplest factor f with before = f here."""
+    """Return the simplest factor f with before = f times here."""
     for sign in (Integer(1), Integer(-1)):
         if equal(before, sign * here):
             return sign

@@ -1,18 +1,18 @@
 """The JSON of `derive solve ID --format json`: the contract with other programs.
 
-Every step states the same as its page, in plain SymPy text (`derive.render.printing.plain_sympy`). `names` gives the
-value of each name in its chain. After SymPy has read the lines and these values are substituted, each line equals the
-one before:
+Every step contains the lines of the page in plain SymPy text (`derive.render.printing.plain_sympy`). `names` gives the
+value of each name in the chain. After SymPy has parsed the lines and these values are substituted, each line equals the
+one before, with these exceptions:
 
-    a number        of `because: rounded` is `within` of the last line before the numbers
-    a relation      has the residual, left minus right, of the one before it up to a `factor`, which does not vanish
-                    where the `nonzero` do not (in an inequality, where they are positive)
-    a series        of `because: series` is the line before it up to an `order` in its `variable`
-    the motion      of `because: motion` holds with `motion` substituted
+    a number        (`because: rounded`) differs from the last line before the numbers by at most `within`
+    a relation      has a residual, left minus right: the residual before is `factor` times this one, and the factor is
+                    not zero if no `nonzero` is zero (for an inequality: if each `nonzero` is positive)
+    a series        (`because: series`) equals the line before up to an `order` in its `variable`
+    the motion      (`because: motion`): the line equals the one before after `motion` is substituted
 
-A left side that is a formula (`symbol.formula`) equals the first line. A step that `approximates` a symbol is a limit
-or a series of it; a result derived from that is only `about` equal to its first line. A step with two roots has a list
-in place of each text.
+If the left side is a formula (`symbol.formula`), it equals the first line. A step that `approximates` a symbol is a
+limit or a series of that symbol; a result derived from such a step is only `about` equal to its first line. A step
+with two roots has a list in place of each text.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ from derive.steps.step import NUMBERS, Step
 
 
 def contract(solution: Solution) -> str:
-    """Return the JSON text."""
+    """Return the JSON text of a solution."""
     problem, derivation, values = solution.problem, solution.derivation, solution.values
     document, notation = solution.document, solution.notation
     answered = [derivation.answering(part.answers) for part in problem.parts]
@@ -107,7 +107,7 @@ def _points(points: Any) -> int | float | None:
 
 
 def _given(given: Any) -> Any:
-    """Return the value as SymPy text, with the number of each symbol."""
+    """Return the value of an input as SymPy text, with the numbers of its symbols."""
     if given.word is not None:
         return given.word
     value = given.value.components if isinstance(given.value, Direction) else given.value
@@ -134,12 +134,12 @@ def _answer(named: StepNames, value: Step | None, dimension: Dimension | None, n
 
 
 def _symbol(step: Step, notation: Notation) -> str:
-    """Return the symbol of a result in LaTeX; a relation has none."""
+    """Return the symbol of a result in LaTeX, or None for a relation, which has no symbol."""
     return "" if step.symbol is None else latex(notation.layout(step.symbol))
 
 
 def number_told(value: Any) -> dict[str, Any] | None:
-    """Return the rounded value, for a relation that of its right side, or None if symbols are left in it."""
+    """Return the rounded value (for a relation, of the right side), or None if it contains symbols."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
     if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
         return None  # a comparison of two numbers
@@ -180,7 +180,7 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
 
 
 def _whole(step: Step, notation: Notation) -> str | None:
-    """Return the symbol of the whole if the result is a limit or a series of it; for an equation its key."""
+    """Return the symbol of which the result is a limit or series; for an equation, which has no symbol, its key."""
     whole = step.approximates
     return None if whole is None else whole.name if isinstance(whole, Str) else latex(notation.layout(whole))
 
@@ -203,7 +203,7 @@ def _form(named: StepNames, i: int, notation: Notation) -> dict[str, Any]:
 
 
 def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
-    """Return how a line may differ from the one before it: a rounding, a factor of a relation, the rest of a series."""
+    """Return how a line may differ from the line before: a rounding, a factor of a relation, the rest of a series."""
     form = named.step.chain[i]
     if form.because == "rounded":
         return {"within": named.text_of_value(_half_units(form.expr))}
@@ -218,7 +218,7 @@ def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
 
 
 def _of_expansion(named: StepNames, i: int) -> dict[str, Any]:
-    """Return the variable of an expansion, its centre, and its order, which is in 1/x if x grows without bound."""
+    """Return the variable, centre and order of an expansion; if x tends to infinity, the order is in 1/x."""
     for node in named.step.chain[i - 1].expr.atoms(Expansion, SwingTime):
         x, place = (node.args[1], node.args[2]) if isinstance(node, Expansion) else (node.args[2], Integer(0))
         order = node.args[3]

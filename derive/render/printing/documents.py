@@ -1,6 +1,6 @@
-"""The documents that are made on request, in TeX and HTML: a problem's key, its hints and its rubric.
+"""Documents that are made only on request, in TeX and HTML: the key, the hints and the rubric of a problem.
 
-The sheet in HTML is made here too.
+This module also makes the sheet in HTML.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def document_fragments(
     folder: Path,
     drawings: Files,
 ) -> dict[str, str]:
-    """Return each document by its name, and as HTML by `name.html`; `pages` returns the page for a document."""
+    """Return each document in TeX by its name and in HTML by `name.html`; `pages` returns the page for a document."""
     found: dict[str, str] = {}
     for kind in wanted:
         if kind == SHEET:

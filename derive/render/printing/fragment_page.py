@@ -1,6 +1,6 @@
-"""A page as LaTeX for another document: amsmath, equation numbers of that document, and labels to refer to.
+"""A page as LaTeX for another document, in amsmath, with equation numbers of that document and with labels.
 
-A drawing appears where it is placed, so it does not float; it still has a figure number.
+A drawing does not float, but it has a figure number.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from derive.render.printing.lines import Printed
 from derive.render.printing.templates import filled_template
 from derive.render.rendered import Tex
 
-WIDTH = 46.0  # width of a line in characters, in the column of a plain article
-# The commands that need a package, in the order in which packages are loaded.
+WIDTH = 46.0  # characters in a line of the class `article`
+# Packages, in the order of loading, with the commands that need them.
 PACKAGES = {
     r"\usepackage[T1]{fontenc}": (r"\textquotedbl", r"\guill", r"\k{", r"\DJ", r"\dj"),
     r"\usepackage{amsmath}": ("",),
@@ -52,17 +52,17 @@ class FragmentPage(LatexPage):
         return Tex(escaped(self.words.worth(self.document.points)))
 
     def files(self) -> Sequence[Tex]:
-        """Return the drawings in the folder of the document."""
+        """Return the file names of the drawings, which are in the folder of the document."""
         return [Tex(f"{drawing.stem}.pdf") for drawing in self.document.illustrations]
 
     def labels(self) -> Sequence[Tex]:
-        """Return the labels of equations, and of drawings with a caption."""
+        """Return the labels of equations and of drawings with a caption."""
         equations = [self._label(number) for number in self._keys if number in self._labelled]
         figures = [drawing.key for drawing in self.document.illustrations if drawing.number is not None]
         return [Tex(label) for label in (*equations, *map(self._figure, figures))]
 
     def drawing(self, drawing: Illustration) -> Tex:
-        """Return the file, with its caption below and the next figure number of the surrounding document."""
+        """Return the drawing with its caption below, under the next figure number of the surrounding document."""
         shown = rf"\includegraphics{{{drawing.stem}.pdf}}"
         if drawing.number is None:
             return Tex(shown)
@@ -71,7 +71,7 @@ class FragmentPage(LatexPage):
         return Tex(rf"{shown}\par\smallskip{number}{{\small{label} {self.inline(drawing.caption)}}}")
 
     def display(self, display: Display) -> Tex:
-        """Return the rows, each numbered line with the next equation number of the surrounding document."""
+        """Return the rows of a display; each numbered line has the next equation number of the surrounding document."""
         *rows, last = display_rows(display, self.notation, WIDTH, self._ending)
         return Tex("".join(f"{row} \\\\\n" for row in rows) + str(last))
 

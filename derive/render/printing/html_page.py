@@ -30,14 +30,14 @@ from derive.render.printing.text_page import closing_title, inline_text
 from derive.render.printing.told_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
-LISTED = 3  # a page with this many parts has contents before them
-# Characters that fit a narrow window; a wider formula scrolls, and the keyboard can reach it.
+LISTED = 3  # a page with at least this many parts has a table of contents
+# Characters that fit into a narrow window; a wider formula can be scrolled, also by keyboard.
 WIDE, IN_TABLE = 24.0, 14.0
 
 
 @dataclass(frozen=True)
 class HtmlFragments:
-    """One problem for the pages that contain it; those pages add its number and its title."""
+    """One problem as HTML for several pages, which add the problem's number and title."""
 
     title: Html
     solution: Html
@@ -65,7 +65,7 @@ class HtmlPage:
         rubric: Mapping[str, Sequence[Credit]] | None = None,
         top: int = 1,
     ):
-        """Prepare a page whose parent heading has the level `top`."""
+        """Prepare a page below a heading of the level `top`."""
         self.standalone = top == 1
         self.document = standalone(document) if self.standalone else document
         self.words, self.notation, self.rubric = words, notation, rubric or {}
@@ -88,7 +88,7 @@ class HtmlPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Html:
-        """Return the sides of a result; a line may end between or within them."""
+        """Return the sides of a result; a line may end between two sides or within one."""
         line = credit.result
         sides = [("start", self.notation.side(line.left))] if line.left is not None else []
         sides.append((line.relation, self.notation.result(line.right)))
@@ -141,7 +141,7 @@ class HtmlPage:
         raise TypeError(f"nothing prints {type(node).__name__}")
 
     def _anchor(self, number: Number) -> str:
-        """Return the anchor of an equation; on a page of several problems each problem has separate anchors."""
+        """Return the anchor of an equation, which is unique on a page of several problems."""
         return f"{self._within}eq-{number}"
 
     def place(self, part: PartPage) -> str:
@@ -149,11 +149,11 @@ class HtmlPage:
         return f"{self._within}part-{part.label}" if part.label else f"{self._within}limits"
 
     def contents(self) -> Sequence[PartPage]:
-        """Return the contents at the head of a page of several parts."""
+        """Return the parts for the table of contents, which only a page of several parts has."""
         return self.sections() if self.standalone and len(self.document.parts_shown) >= LISTED else ()
 
     def listed(self, part: PartPage) -> Html:
-        """Return the question of a part for use in a link, without links of its formulas."""
+        """Return the question of a part for use as the text of a link, without links in its formulas."""
         return Html(re.sub(r"</?(?:a|span|wbr)\b[^>]*>", "", self.inline(part.ask)))
 
     # --- equations ---------------------------------------------------------------------------------------------------
@@ -172,7 +172,7 @@ class HtmlPage:
         return ", ".join(f"({number})" for number in dict.fromkeys(group.number for group in groups))
 
     def tex(self, display: Display) -> str:
-        """Return the display as LaTeX, to be copied."""
+        """Return the display as LaTeX that the reader can copy."""
         return display_latex(display, self.notation)
 
     def _row(self, line: Printed, stop: str) -> str:
@@ -187,7 +187,7 @@ class HtmlPage:
         return f'<div class="row"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
-        """Return whether a number appears for the first time: folded lines repeat it, but not its anchor."""
+        """Return whether a number appears for the first time; folded lines repeat numbers, but not their anchors."""
         known = number in self._placed
         self._placed.add(number)
         return not known
@@ -210,7 +210,7 @@ class HtmlPage:
 
 
 def _sides(line: Printed, stop: str) -> str:
-    """Return relations and right sides, each of which may begin a line; the result has a frame."""
+    """Return the relations and right sides of a line; the result is framed, and a new line may begin at each side."""
     at = len(line.sides) - (0 if line.frames_all else line.framed)
     shown: list[str] = []
     for relation, side in line.sides[:at]:
@@ -227,7 +227,7 @@ def _sides(line: Printed, stop: str) -> str:
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:
-    """Add punctuation, which never begins a line: if the last side scrolls, it is inside the scrolling element."""
+    """Add punctuation that never begins a line: if the last side scrolls, the punctuation is inside its element."""
     closed = CLOSED * (2 if sides[-1].endswith(CLOSED * 2) else 1)
     return "".join([*sides[:-1], sides[-1].removesuffix(closed), _stop(stop), closed])
 
@@ -240,7 +240,7 @@ CLOSED = "</span>"
 
 
 def _side(relation: str, side: Layout) -> str:
-    """Return a side of an equation; a line may end before each term of a wide side."""
+    """Return a side of an equation; in a wide side a line may end before each term."""
     if relation == "on":
         return f'<span class="side on">{_scrolling_pieces(in_pieces(side, goes_on=True))}</span>'
     sign = TEX_OPERATORS[relation]
@@ -250,7 +250,7 @@ def _side(relation: str, side: Layout) -> str:
 
 
 def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room: float = WIDE) -> str:
-    """Join pieces on a line while there is room; a piece that is too wide alone can be scrolled by keyboard."""
+    """Join pieces while they fit on a line; a single piece that is too wide can be scrolled, also by keyboard."""
     label = f' role="group" aria-label="{escape(said)}"' if said else ""
     return "<wbr>".join(
         f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > room else formula
@@ -268,7 +268,7 @@ def _numbers_of(blocks: Sequence[Block]) -> Iterator[Number]:
 
 
 class HtmlQuestions(HtmlPage):
-    """The questions alone: a reference to an equation names the part that asks for it."""
+    """The questions alone; a reference to an equation names the part that shows the equation."""
 
     def _node(self, node: Inline) -> str:
         if isinstance(node, Ref):

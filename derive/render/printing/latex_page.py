@@ -1,4 +1,4 @@
-"""A page or a set of pages as LaTeX: the templates of `templates/latex` filled with printed lines."""
+"""Fills the templates of `templates/latex` with printed lines: a page or a set of pages as LaTeX."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ from derive.render.rendered import Tex
 # Approximate heights on the page in points, and characters in a line of text and of a note.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
-FEW_ROWS = 4  # most rows that stay on one page
-NARROW = 26  # less than half of a line, in characters
+FEW_ROWS = 4  # a display with at most this many rows is not divided between pages
+NARROW = 26  # characters: less than half of a line
 
 
 @dataclass(frozen=True)
 class Fragments:
-    """One problem without preamble, for the documents that contain it; those documents add its number and its title."""
+    """One problem as LaTeX without preamble for several documents, which add the problem's number and title."""
 
     title: Tex
     solution: Tex
@@ -49,7 +49,7 @@ Blocks = tuple[Block, ...]
 
 @dataclass(frozen=True)
 class Passage:
-    """Drawings with the sentences and displays before and after them; a single drawing has some of them next to it."""
+    """Drawings with the sentences and displays before and after them; text can be set next to a single drawing."""
 
     before: tuple[Blocks, ...] = ()
     drawings: tuple[Illustration, ...] = ()
@@ -74,7 +74,7 @@ def problem_latex(document: Document, words: Phrases, notation: Notation, folder
 
 
 def whole_latex(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
-    """Return a complete document."""
+    """Return a complete LaTeX document."""
     return filled_template(folder, template, facts)
 
 
@@ -104,7 +104,7 @@ class LatexPage:
         return Tex(escaped(self.words.worth(part.points, part.extra)))
 
     def credits(self, part: PartPage) -> Sequence[Credit]:
-        """Return the points of the steps of a part, in documents that show them."""
+        """Return the points of the steps of a part; only documents that show points have any."""
         return self.rubric.get(part.label, ())
 
     def worth_of(self, credit: Credit) -> str:
@@ -128,7 +128,7 @@ class LatexPage:
         return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))
 
     def is_last(self, block: Block) -> bool:
-        """Return whether the closing note follows."""
+        """Return whether the block is the last one before the closing note."""
         last = self.sections()[-1].blocks[-1:]
         return any(block is each for each in last) and not self.document.note
 
@@ -174,9 +174,9 @@ class LatexPage:
         return passages_of(part.blocks)
 
     def display(self, display: Display) -> Tex:
-        """Return the rows of a chain; a page may end between steps, or within a step of more than two rows.
+        """Return the rows of a display; a page may end between steps, or within a step of more than two rows.
 
-        It does not end within a few equations of one row each, such as Euler's equations.
+        A page does not end within a few equations of one row each, such as Euler's equations.
         """
         steps: list[str] = []
         tall: list[bool] = []
@@ -198,9 +198,7 @@ class LatexPage:
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
-        """Return left side, right sides, punctuation, reason and number; the frame of a framed row includes the left
-        side.
-        """
+        """Return a row: left side, right sides, punctuation, reason and number; a framed row includes the left side."""
         first, last = lines[0], lines[-1]
         left = latex(first.left) if first.left else ""
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
@@ -224,13 +222,13 @@ class LatexPage:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
 
     def drawing(self, drawing: Illustration) -> Tex:
-        """Return the file, the text that replaces it if it is missing, and its caption."""
+        """Return the file of a drawing, the text that replaces a missing file, the figure number and the caption."""
         number = "" if drawing.number is None else escaped(f"{self.words.labels['figure']} {drawing.number}.")
         alt, caption = self.inline(drawing.alt), self.inline(drawing.caption)
         return Tex(rf"{{{drawing.stem}.pdf}}{{{alt}}}{{{number}}}{{{caption}}}")
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
-        """Return the note next to a display and the words before it: as many lines as end before the next note."""
+        """Return the note next to a display and its words: the grade, and the first route or check that fits there."""
         lines = [escaped(self.words.grades[display.grade])]
         said = second_ways(display, self.words)
         fitting = [route for route in said if _note_height(route) <= self._height(display, before)]
@@ -254,14 +252,14 @@ class LatexPage:
 
 
 class _Questions(LatexPage):
-    """The questions alone: a reference to an equation names the part that asks for it."""
+    """The questions alone; a reference to an equation names the part that shows the equation."""
 
     def _reference(self, key: str) -> str:
         return escaped(f"{self.words.labels['part']} ({self.document.shown_in.get(key, '')})")
 
 
 def passages_of(blocks: Sequence[Block]) -> list[Passage]:
-    """Split a part by drawings, with the sentences before and after each: at most half of those between two."""
+    """Split a part into drawings with sentences before and after; two drawings share the sentences between them."""
     passages = [Passage()]
     for sentence in sentences(blocks):
         first, last = sentence[0], passages[-1]
@@ -278,19 +276,19 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
 
 
 def _is_low(lines: Sequence[Printed]) -> bool:
-    """Return whether the lines are one row without a column or a tensor."""
+    """Return whether the lines are a single row that does not end in a vector or tensor."""
     return len(lines) == 1 and not any(isinstance(last_of(side), Array) for _, side in lines[0].sides)
 
 
 def _is_tall_and_narrow(lines: Sequence[Printed]) -> bool:
-    """Return whether the step is a narrow vector or tensor: two of them fit side by side, each with its number."""
+    """Return whether the step is a narrow vector or tensor, so that two such steps fit side by side."""
     (line, *others) = lines
     alone = not others and not line.reason and line.width < NARROW
     return alone and isinstance(last_of(line.sides[-1][1]), Array)
 
 
 def _sides(line: Printed) -> str:
-    """Return relations and right sides, with the result at the end in a frame after its relation."""
+    """Return relations and right sides; the result at the end is framed, and its relation is before the frame."""
     shown = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
     at = len(shown) - (0 if line.frames_all else line.framed)
     plain = [f"{sign} {side}" for sign, side in shown[:at]]

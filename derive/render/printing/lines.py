@@ -1,4 +1,4 @@
-"""The forms of a chain that share a line: as many as fit, a form with a reason ends its line, long ones are broken."""
+"""Packs the forms of a chain into lines: as many as fit, but a reason ends a line; forms too long are broken."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from derive.render.notation.text import plain
 
 LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
 LINE_INDENT = 4.0  # indent of a continuation line
-GAP = 5.0  # between two equations on one row
-MOST_SIDES = 4  # on one line
+GAP = 5.0  # width of the gap between two equations on one row
+MOST_SIDES = 4  # on one line of a chain
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 
 
 @dataclass(frozen=True)
 class Printed:
-    """One printed line: `left` if it begins the chain, then relations and right sides, then the reason.
+    """One printed line: the left side (if the line begins a chain), then relations and right sides, then the reason.
 
-    `framed` counts the right sides at its end in a frame; if all are framed, the frame includes the left side.
+    `framed` is the number of final right sides in a frame; if all are framed, the frame includes the left side.
     """
 
     left: Layout | None
@@ -36,7 +36,7 @@ class Printed:
 
     @property
     def frames_all(self) -> bool:
-        """Return whether the frame includes the left side: not if the line continues another line."""
+        """Return whether the frame includes the whole line: not if the line continues a chain with a relation."""
         stands_alone = self.left is not None or self.sides[0][0] in ("start", "on")
         return self.framed == len(self.sides) and stands_alone
 
@@ -45,11 +45,11 @@ class Printed:
         return (width(self.left) if self.left else 0) + sum(2 + width(side) for _, side in self.sides)
 
 
-@lru_cache(maxsize=1024)  # used by each format and by the height of a display
+@lru_cache(maxsize=1024)  # every format needs these lines, and so does the height of a display
 def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> tuple[Printed, ...]:
-    """Return the lines of one step, packed to a width in characters; the last carries the number."""
+    """Return the lines of one step, at most `limit` characters wide; the last line has the number."""
     packed: list[Printed] = []
-    begun: Layout | None = None  # the left side of the equation that continues
+    begun: Layout | None = None  # the left side of the current equation
     framed_from = len(equations.lines) - equations.framed
     for i, line in enumerate(equations.lines):
         framed = int(i >= framed_from)
@@ -66,7 +66,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed.append(Printed(left, (side,), line.reason, framed=framed))
             continue
         if last and line.relation == "equals" and _alike(last.sides[-1][1], side[1]):
-            # Equal layouts are one line to the reader.
+            # Two forms with equal layouts are shown once.
             packed[-1] = replace(last, sides=(*last.sides[:-1], side), framed=max(last.framed, framed))
             continue
         reason_room = max(reason_width(line.reason), reason_width(last.reason)) if last else 0
@@ -83,7 +83,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
 
 
 def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
-    """Return rows of one line each, except lines that share a frame."""
+    """Group lines into rows of one line each; lines in a common frame form one row."""
     rows: list[list[Printed]] = []
     for line in lines:
         goes_on = line.left is None and line.sides[0][0] == "on"
@@ -95,37 +95,37 @@ def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
 
 
 def _with_bare_number_framed(packed: list[Printed], begun: Layout | None) -> list[Printed]:
-    """Frame a complete equation that you can copy: repeat the left side of the chain before the 0."""
+    """Repeat the left side of the chain before a bare number such as 0, so that the frame has a complete equation."""
     *others, last = packed
     chain = [replace(last, sides=last.sides[:-1], reason=(), framed=0)] if len(last.sides) > 1 else []
     return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
 
 
 def _with_condition_framed(packed: list[Printed]) -> list[Printed]:
-    """Frame the whole row of an inequality: the number alone is not an answer."""
+    """Frame an inequality with its left side, because the number alone is not an answer."""
     *others, last = packed
     is_condition = last.left is not None and last.sides[0][0] in INEQUALITIES
     return [*others, replace(last, framed=len(last.sides))] if is_condition else packed
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
-    """Return whether another equation fits on the row, with a gap before it."""
+    """Return whether another equation fits on the row after a gap."""
     return last.width + GAP + width(left) + 2 + width(right) + reason_width(reason) <= limit
 
 
 def _alike(first: Layout, second: Layout) -> bool:
-    """Return whether two layouts read the same, or have the same terms in another order."""
+    """Return whether two layouts are equal or contain the same terms in another order."""
     terms, others = terms_of(first), terms_of(second)
     return first == second or len(terms) == len(others) and _as_read(terms) == _as_read(others)
 
 
 def _as_read(terms: list[Layout]) -> list[str]:
-    """Return the terms as sorted text without spaces: neither their order nor the spacing of factors matters."""
+    """Return the terms as sorted texts without spaces, so that order and spacing do not matter in a comparison."""
     return sorted("".join(plain(term).split()) for term in terms)
 
 
 def _fitted(line: Printed, limit: float) -> list[Printed]:
-    """Break a line that is too long into several, if possible; its reason and final sides stay at the end."""
+    """Break a line that is too long into several, if possible; the last of them has the reason."""
     if line.width <= limit or len(line.sides) > 1:
         return [line]
     ((relation, side),) = line.sides
@@ -145,5 +145,5 @@ def _fitted(line: Printed, limit: float) -> list[Printed]:
 
 
 def reason_width(reason: tuple[Inline, ...]) -> float:
-    """Return the width of a reason, which is set small, with a gap before it."""
+    """Return the width of a reason in small print with the gap before it."""
     return 3 + 0.75 * sum(len(node.text) if isinstance(node, Text) else 3 for node in reason) if reason else 0

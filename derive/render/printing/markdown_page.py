@@ -1,6 +1,6 @@
 """A page as Markdown with formulas between dollar signs, for GitHub, wikis and learning platforms.
 
-Markdown readers change formulas in different ways before they set them: some read `\\,` as a comma, `_` after a brace
+Programs that show Markdown change formulas before they print them: some treat `\\,` as a comma, `_` after a brace
 as the start of emphasis, `<b` as a tag. So formulas use TeX commands that have no meaning in Markdown.
 """
 
@@ -30,18 +30,18 @@ _IN_WORDS = {
     "<": r"\lt ",
     ">": r"\gt ",
 }
-_BREAK = re.compile(r"\\\\(?:\[[^\]]*\])?")  # the end of a row, with or without space below it
+_BREAK = re.compile(r"\\\\(?:\[[^\]]*\])?")  # the end of a row, with or without extra space
 _SIGNS = re.compile(r"\\[,!{} %]|[<>]")
 
 
 class MarkdownPage:
-    """A document piece by piece: a text, or a drawing in its place."""
+    """A document as a sequence of pieces, each a text or a drawing."""
 
     def __init__(self, document: Document, words: Phrases, notation: Notation):
         self.document, self.words, self.notation = document, words, notation
 
     def head(self) -> Iterator[str | Illustration]:
-        """Yield title, statement and strategy."""
+        """Yield the title, the statement and the strategy."""
         yield self._heading("#", self.inline(self.document.title), self.words.worth(self.document.points))
         yield self.paragraph(self.document.statement)
         yield from (drawing for drawing in self.document.illustrations if drawing.at == STATEMENT)
@@ -49,7 +49,7 @@ class MarkdownPage:
             yield f"**{text_markdown(self.words.labels['strategy'])}** {self.inline(self.document.strategy)}"
 
     def section(self, part: PartPage) -> Iterator[str | Illustration]:
-        """Yield a part, or the limiting cases."""
+        """Yield the pieces of a part or of the limiting cases."""
         label = f"({part.label}) " if part.label else ""
         yield self._heading("##", label + self.inline(part.ask), self.words.worth(part.points, part.extra))
         yield from self._blocks(part.blocks)
@@ -67,14 +67,14 @@ class MarkdownPage:
         return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))
 
     def pieces(self) -> Iterator[str | Illustration]:
-        """Yield the whole page."""
+        """Yield all pieces of the page."""
         yield from self.head()
         for part in self.sections():
             yield from self.section(part)
         yield from self.end()
 
     def drawing(self, drawing: Illustration) -> str:
-        """Return a link to the file in the same folder; if the file is missing, a reader shows the alternative text."""
+        """Return a link to the drawing in the same folder; if the file is missing, readers see the alternative text."""
         alt = text_markdown(inline_text(drawing.alt, self.notation, self.document.numbers))
         return "\n\n".join(filter(None, [f"![{alt}]({drawing.stem}.svg)", self.caption(drawing)]))
 
@@ -132,7 +132,7 @@ class MarkdownPage:
         return (rf"\quad{self.told_in_formula(reason)}" if reason else "") + number
 
     def told_in_formula(self, nodes: Sequence[Inline]) -> str:
-        """Return words within a formula, and the formulas in them."""
+        """Return words, which may contain formulas, for use within a formula."""
         return "".join(self._in_formula(node) for node in nodes).replace(r"}\text{", "")
 
     def _in_formula(self, node: Inline) -> str:
@@ -153,7 +153,7 @@ def formula_markdown(tex: str) -> str:
     """Return a formula without characters that have a meaning in Markdown."""
     tex = _SIGNS.sub(lambda sign: _IN_WORDS[sign[0]], _BREAK.sub(r"\\cr ", tex))
     tex = re.sub(r"\\bm(?=\W)", r"\\boldsymbol", tex)
-    # Emphasis begins neither within a word nor before a space.
+    # A character within a word or before a space does not begin emphasis.
     tex = re.sub(r"(?<!\w)_", "_ ", tex).replace("](", "] (")
     return re.sub(r" +\n", "\n", re.sub(r" {2,}", " ", tex)).strip()
 

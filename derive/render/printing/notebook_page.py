@@ -1,4 +1,4 @@
-"""The notebook of a page: its words and lines as Markdown, and code by `derive.notebook` for drawings and answers.
+"""The notebook of a page: its words and lines as Markdown, and code for drawings and answers.
 
 It uses version 4.5 of the notebook format (nbformat), in which every cell has an id.
 """
@@ -21,7 +21,7 @@ problem = open_problem({id})"""
 
 
 def notebook(solution: Solution) -> str:
-    """Return the JSON text."""
+    """Return the JSON text of the notebook."""
     data = {
         "cells": [_named(cell, i) for i, cell in enumerate(_cells(solution), 1)],
         "metadata": {
@@ -56,7 +56,7 @@ def _of(part: PartPage, answers: dict[str, list[str]]) -> list[str]:
 
 
 def _gathered(page: MarkdownPage, pieces: Iterable[str | Illustration]) -> Iterator[dict[str, Any]]:
-    """Put the text between two drawings in one cell; a code cell draws a drawing, with its caption below."""
+    """Put the text between two drawings in one cell; each drawing has a code cell, with the caption below."""
     said: list[str] = []
     for piece in pieces:
         if isinstance(piece, str):

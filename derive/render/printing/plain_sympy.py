@@ -2,7 +2,7 @@
 
 A symbol keeps its name; a name with another meaning in SymPy or Python (`I`, `S`, `beta`, `lambda`) is written
 `Symbol('I')`. A coordinate that moves is a function of time, `theta(t)`, and its rates are derivatives of it. A result
-that an earlier step named is written as an identifier, for which the reader substitutes its value.
+that an earlier step named is written as an identifier, for which the reading program substitutes the value.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Setting:
     names    expressions written as identifiers: expression -> identifier
     moving   the names of the coordinates that are functions of time
     sign     the sign of the root, if there are two
-    known    texts written before: several lines contain the same value, and a line is requested again
+    known    a cache of texts: several lines contain the same value, and a line is requested more than once
     """
 
     names: Mapping[Any, str] = field(default_factory=dict)
@@ -48,7 +48,7 @@ def sympy_text(expr: Any, setting: Setting | None = None) -> str:
 
 @dataclass(frozen=True)
 class Written:
-    """The text of an expression, the names that occur in it, and its other words: symbols and functions of time."""
+    """The text of an expression, the names in it, and all other words in it: symbols and functions of time."""
 
     text: str
     used: Mapping[Any, str]
@@ -79,13 +79,13 @@ def identifier(name: str, taken: Collection[str] = ()) -> str:
 
 
 def coordinate_of(symbol: Symbol) -> tuple[str, int]:
-    """Return the name of a coordinate and the order of its rate: theta_ddot -> theta, 2."""
+    """Return the name of the coordinate and the order of the derivative: theta_ddot -> theta, 2."""
     order = next(n for n in (3, 2, 1, 0) if symbol.name.endswith(RATES[n]))
     return symbol.name.removesuffix(RATES[order]), order
 
 
 class _PlainSymPy(StrPrinter):
-    """SymPy's printer, with unambiguous names and with our nodes lowered to SymPy's."""
+    """SymPy's printer, changed to write unambiguous names and to convert the engine's nodes to those of SymPy."""
 
     def __init__(self, setting: Setting):
         super().__init__({"order": None})
@@ -102,7 +102,7 @@ class _PlainSymPy(StrPrinter):
         return str(super()._print(expr, **options))
 
     def _factor(self, expr: Any, variables: tuple[Any, ...] = ()) -> str:
-        """Return the text of a part, in brackets if it would otherwise not be a single factor."""
+        """Return the text of a part of an expression, in brackets unless it is a single factor."""
         with self._within(variables):
             if self._is_name(expr):
                 return self._print(expr)

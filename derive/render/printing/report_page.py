@@ -1,4 +1,4 @@
-"""The data of a problem for the template of a report, in TeX: its steps in rows, and the source in its notation."""
+"""The data of one problem in TeX for the template of a report: its rows of steps, and quotations of the source."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from derive.render.notation.latex import escaped, latex
 from derive.render.notation.notation import Notation
 from derive.render.rendered import Tex
 
-LONG = 60  # more characters than this put a formula on a separate line
+LONG = 60  # a formula with more characters is on a separate line
 
 
 class ReportPage:
@@ -40,13 +40,13 @@ class ReportPage:
 
     @property
     def source(self) -> str:
-        """Return the name of the document whose lines are compared."""
+        """Return the name of the source document that was compared."""
         return self.document.checks.source
 
     def steps(self, row: Row) -> Tex:
-        """Return the steps of a row, each by its symbol and the number of its equation.
+        """Return the steps of a row, each named by its symbol and equation number.
 
-        Steps that have neither are described by their inputs.
+        A step that has neither is described by its inputs.
         """
         named = [name for key in row.steps if (name := self._step(key))]
         if len(named) < len(row.steps):
@@ -60,7 +60,7 @@ class ReportPage:
         return [f"{escaped(self.words.labels['report_page']['made_from'])} {', '.join(found)}"] if found else []
 
     def _step(self, key: str) -> str:
-        """Return the symbol and number of a step, or nothing if it has neither."""
+        """Return the symbol and number of a step, or "" if it has neither."""
         symbol, number = self.document.symbols.get(key), self.document.numbers.get(key)
         numbered = f"({number})" if number is not None else ""
         if symbol is None:
@@ -69,12 +69,12 @@ class ReportPage:
         return rf"{formula}~{numbered}" if numbered else formula
 
     def what(self, row: Row) -> str:
-        """Return a word or two for the steps."""
+        """Return a short description of the steps in a row."""
         name = row.rule.rpartition(".")[2].replace("_", " ")
         return str(self.words.labels["rules"].get(row.rule, name))
 
     def grade(self, row: Row) -> Tex:
-        """Return the grade as a word, which is bold if nothing was proved."""
+        """Return the word for the grade, in bold type if nothing was proved."""
         word = escaped(self.words.grades[row.grade])
         return Tex(word if row.grade is Grade.PROVED else rf"\textbf{{{word}}}")
 
@@ -85,10 +85,10 @@ class ReportPage:
         return self.quoted(erratum.instead) if erratum.instead else self._in_our_letters(erratum, erratum.right)
 
     def quoted(self, text: str) -> Tex:
-        """Return prose with formulas between dollar signs, these rewritten with known commands."""
+        """Return prose whose formulas between dollar signs are rewritten with known commands."""
         if "$" not in text:
             return Tex(escaped(text))
-        from derive.course.latex.quoting import quoted  # few documents need it
+        from derive.course.latex.quoting import quoted  # a late import, because few documents need it
 
         pieces = quoted(text)
         return Tex("".join(self._formula(p.text, len(pieces)) if p.is_formula else escaped(p.text) for p in pieces))
@@ -99,7 +99,7 @@ class ReportPage:
         return rf"\fitto{{\linewidth}}{{{tex}}}"
 
     def _in_our_letters(self, erratum: Erratum, value: Any) -> Tex:
-        """Return `L = (...)` if the source was not transcribed literally."""
+        """Return `L = (...)` in the notation of the page if the source was not transcribed literally."""
         if isinstance(value, MatrixBase) and value.shape[1] == 1:
             value = tuple(value)
         right = latex(self.notation.result(value), inline=True)

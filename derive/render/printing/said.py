@@ -1,6 +1,6 @@
 """The text of a page, block by block, for programs that read its JSON: docs/json.md.
 
-A sentence has the equation numbers of its page, and also the keys of the equations, because one more equation above
+A sentence has the equation numbers of its page and also the keys of the equations, because an additional equation above
 changes all numbers below.
 """
 
@@ -19,7 +19,7 @@ from derive.steps.step import Step
 
 
 def named_result(step: Step, notation: Notation) -> Layout:
-    """Return `T = 7/24 M a² ω²`; for a relation the whole relation."""
+    """Return a result with its symbol: `T = 7/24 M a² ω²`; a relation is returned unchanged."""
     result = notation.result(step.result)
     if step.symbol is None:
         return result
@@ -36,7 +36,7 @@ class Said:
         return inline_text(nodes, self.notation, self.document.numbers)
 
     def sentence(self, nodes: Sequence[Inline]) -> dict[str, Any]:
-        """Return running text, and the keys of the equations that it refers to, in the order of the text."""
+        """Return running text, and the keys of the equations to which it refers, in the order of the text."""
         return {"text": self.text(nodes), "refers_to": [node.key for node in nodes if isinstance(node, Ref)]}
 
     def blocks(self, blocks: Sequence[Block]) -> list[dict[str, Any]]:

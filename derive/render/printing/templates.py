@@ -1,4 +1,4 @@
-"""Filling the templates of TeX and of HTML: other text is escaped, and an error is reported at its line."""
+"""Fills the templates of TeX and HTML: plain text is escaped, and an error is reported with its line."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from derive.page.template import environment
 from derive.render.notation.latex import escaped
 from derive.render.rendered import Html, Tex
 
-LATEX, HTML = "latex", "html"  # folders of templates; printed text is of the kind of its folder, or is escaped for it
+LATEX, HTML = "latex", "html"  # folders of templates; each has one kind of text, `Tex` or `Html`
 ESCAPED: Mapping[str, tuple[type[str], Callable[[str], str]]] = {LATEX: (Tex, escaped), HTML: (Html, escape)}
 
 
@@ -54,7 +54,7 @@ def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) ->
 
 
 def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
-    """Fill the text above a line of a template; return nothing if the line is missing or needs more facts."""
+    """Fill the text of a template above a certain line; return nothing if the line or a fact is missing."""
     with suppress(TemplateError, OSError, UnicodeError):
         above, found, _ = (folder / "latex" / template).read_text(encoding="utf-8").partition(line)
         if found:
@@ -63,7 +63,7 @@ def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any
 
 
 def compile_templates(folder: Path) -> None:
-    """Compile the templates for the processes that fill them; an error in one is reported when it is filled."""
+    """Compile all templates before processes fill them; an error in a template is reported when it is filled."""
     for loaded in (_environment(folder, kind) for kind in ESCAPED):
         for name in loaded.list_templates(["j2"]):
             with suppress(TemplateError, OSError, UnicodeError):
@@ -71,7 +71,7 @@ def compile_templates(folder: Path) -> None:
 
 
 def _failing_line(error: Exception, folder: Path) -> Place | None:
-    """Return the line of a template that failed; None if the error is in our code that it calls."""
+    """Return the line of the template that raised the error; None if code that the template calls raised it."""
     files = {str(file): file for file in folder.glob("*.j2")}
     frames = traceback.extract_tb(error.__traceback__)
     theirs = [i for i, frame in enumerate(frames) if frame.filename in files]
@@ -83,7 +83,7 @@ def _failing_line(error: Exception, folder: Path) -> Place | None:
 
 
 def _line(file: Path, number: int) -> Place:
-    """Return a line of a template, by its path in the folder of templates."""
+    """Return the place of a line in a template, with the path of the template within its folder."""
     try:
         lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
@@ -94,7 +94,7 @@ def _line(file: Path, number: int) -> Place:
 
 
 def _shown(file: Path) -> str:
-    """Return `templates/latex/set.tex.j2`, wherever the templates are."""
+    """Return a path such as `templates/latex/set.tex.j2`, independent of where the folder of templates is."""
     parts = file.parts[::-1]
     return "/".join(file.parts[-parts.index("templates") - 1 :]) if "templates" in parts else file.name
 
@@ -104,7 +104,7 @@ def _environment(folder: Path, kind: str) -> Environment:
     ours, safe = ESCAPED[kind]
 
     def printed(value: Any) -> Any:
-        """Escape printed values except our kind of text; an undefined value raises an error when printed."""
+        """Escape a printed value unless it is `Tex` or `Html`; an undefined value raises an error when printed."""
         return value if isinstance(value, ours | Undefined) else ours(safe(str(value)))
 
     made = environment(
@@ -120,11 +120,11 @@ def _environment(folder: Path, kind: str) -> Environment:
 
 
 def bookmark_text(text: str) -> Tex:
-    """Return plain text for the title of a PDF or of a bookmark, without fonts and mathematics."""
+    """Return text for the title of a PDF or for a bookmark, which cannot contain fonts or formulas."""
     return Tex("".join(escaped(c) if c.isascii() else rf"\unichar{{{ord(c)}}}" for c in text))
 
 
 def _said(error: Exception) -> str:
-    """Return the error message on one line."""
+    """Return the message of an error on one line."""
     lines = str(error).strip().splitlines()
     return (lines[0] if lines else type(error).__name__).rstrip(".")

@@ -27,7 +27,7 @@ def page_text(document: Document, words: Phrases, notation: Notation) -> str:
 
 
 def inline_text(nodes: Sequence[Inline], notation: Notation, numbers: Mapping[str, Number] | None = None) -> str:
-    """Return running text; `numbers` are those of the equations to which it may refer."""
+    """Return running text; `numbers` are the numbers of equations to which the text may refer."""
     return " ".join("".join(_node(node, notation, numbers or {}) for node in nodes).split())
 
 
@@ -49,13 +49,13 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, Number]) -> st
 
 
 def second_ways(display: Display, words: Phrases) -> list[str]:
-    """Return the notes for the margin after the grade: the second routes, then the checks."""
+    """Return the notes that follow the grade in the margin: the second routes, then the checks."""
     routes, check = words.labels["second_route"], words.labels["check"]
     return [*(f"{routes}: {said}" for said in display.routes), *(f"{check}: {said}" for said in display.checks)]
 
 
 def closing_title(document: Document, words: Phrases) -> str:
-    """Return the beginning of the closing note: how the problem was checked, or only that it was."""
+    """Return the heading of the closing note."""
     return str(words.labels["checked_line" if document.evidence is EvidenceShown.NONE else "checked"])
 
 
@@ -85,7 +85,7 @@ class _Page:
         return "\n".join([*blocks, *self._blocks(part.blocks)])
 
     def _blocks(self, blocks: Sequence[Block]) -> list[str]:
-        """Return the blocks, each after an empty line."""
+        """Return the lines of the blocks, with an empty line before each block."""
         found: list[str] = []
         for block in blocks:
             match block:
@@ -100,7 +100,7 @@ class _Page:
         return found
 
     def _drawing(self, illustration: Illustration) -> str:
-        """Return a description of a drawing, and its caption below."""
+        """Return the description of a drawing with its caption below."""
         figure = self.words.labels["figure"]
         shown = self._wrapped((Text(f"[{figure.lower()}: "), *illustration.alt, Text("]")))
         if illustration.number is None:
@@ -133,12 +133,12 @@ class _Page:
         return "\n".join(lines)
 
     def _evidence(self, display: Display) -> str:
-        """Return the note that the margin of a typeset page has."""
+        """Return the note that is in the margin of a typeset page."""
         said = [self.words.grades[display.grade], *second_ways(display, self.words)[:1]]
         return textwrap.shorten(f"[{'; '.join(said)}]", PAGE_COLUMNS, placeholder="\u2026]")
 
     def _body(self, line: Printed, indent: int) -> tuple[list[str], int]:
-        """Return the formula, its relations below each other, and the index of the line on which they are."""
+        """Return the lines of text of a formula, and the index of the line on which its relations are."""
         items: list[Layout] = [item for relation, side in line.sides for item in (Operator(relation), side)]
         body = text_box(row(*items))
         left = plain(line.left) if line.left else ""

@@ -1,7 +1,6 @@
-"""Theorems on a page of several problems: the first problem that uses one states it, and later ones refer to that
-problem.
+"""Theorems on a page of several problems: the first problem that uses a theorem states it, and others refer to it.
 
-The problems of a page are printed separately, so each has the words for both, between marks that no page shows.
+The problems of a page are printed separately, so each contains both texts between marks, which are then removed.
 """
 
 from __future__ import annotations
@@ -20,17 +19,17 @@ MARKED = re.compile(
 
 
 def theorem(name: str, told: str, again: str) -> str:
-    """Return a theorem at the beginning of a paragraph: separate, or as a sentence before the others."""
+    """Return both texts of a theorem between marks: its statement, and the reference to an earlier problem."""
     return f"{FIRST.format(escape(name))}{told}{LATER}{again}{END}"
 
 
 def told_in(problem: str) -> str:
-    """Return the mark for the problem that has stated a theorem: the number follows `Problem`."""
+    """Return the mark for the problem that states a theorem, which is replaced by `Problem` and its number."""
     return TOLD_IN.format(escape(problem))
 
 
 def told_once(problems: Iterable[tuple[str, str, str]]) -> list[Html]:
-    """Return the problems of a page, each from a name and a number, with every theorem where it is first used."""
+    """Return the problems of a page with every theorem stated only where it is first used."""
     first: dict[str, tuple[str, str]] = {}
 
     def chosen(match: re.Match[str], name: str, number: str) -> str:
