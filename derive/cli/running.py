@@ -89,8 +89,8 @@ def _told(error: DeriveError) -> int:
 
 
 class Ending:
-    """The signal that asked this process to end, if any. No exception is raised, because a library may lose an exception
-    that a signal handler raises."""
+    """The signal that asked this process to end, if any. It raises no exception, because a library may lose an
+    exception that a signal handler raises."""
 
     number = 0
 

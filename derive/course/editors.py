@@ -44,7 +44,7 @@ SCHEMAS = {
 
 
 def schema_folder(root: Path) -> Path:
-    """Return the folder of a course's schemas: next to its templates if it has its own, else next to its problems."""
+    """Return the folder of a course's schemas: its `templates` folder if there is one, else `problems/schemas`."""
     return root / "templates" if (root / "templates").is_dir() else root / "problems" / "schemas"
 
 

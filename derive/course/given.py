@@ -97,7 +97,7 @@ def read_givens(
     """Return the givens in the order of `nodes`, and all symbols, including those that were introduced for numbers.
 
     `notes` states for each name where `solve()` asks for it; `used` are symbols that already have a number.
-    `numbers` are the numbers of these symbols in the SI: a value that must be positive is rejected if they make it negative.
+    `numbers` are the numbers of these symbols in the SI: they must not make a positive kind negative.
     """
     read: dict[str, tuple[Expr | Number, ...] | Direction] = {}
     for name, node in nodes.items():

@@ -101,7 +101,7 @@ def problem_ids(root: Path) -> list[str]:
 
 
 def ids_in_order(root: Path) -> list[str]:
-    """Return these ids set by set, as each set lists its problems; those that it does not list come last."""
+    """Return these ids set by set, in the order in which each set lists its problems; unlisted problems come last."""
     listed: list[str] = []
     for set_id in set_ids(root):
         with suppress(DeriveError):
@@ -150,7 +150,7 @@ def path_of(root: Path, problem_id: str) -> str:
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
-    """Return a help line with the nearest id, by the whole id or by the name after the set."""
+    """Return a help line with the nearest id, compared by the whole id or only by the name after the set."""
     by_name = {full.partition("/")[2]: full for full in reversed(known)}
     close = nearest(problem_id, known) or by_name.get(nearest(problem_id.rpartition("/")[2], by_name) or "")
     return f"did you mean `{close}`?" if close else "`derive list` shows the problems"

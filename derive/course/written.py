@@ -1,4 +1,4 @@
-"""The contents of a problem's file before its script is run and its expressions are read. No mathematics is needed."""
+"""The contents of a problem's file before its script is run and its expressions are read. SymPy is not needed."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ ANY_OUTCOME = ""
 POSITIVE = "positive"  # before a kind
 SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
-CHAIN = "chain"  # the name in a sentence for the lines of its step
+CHAIN = "chain"  # in a sentence, the placeholder for the lines of its step
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
 
 class SortOfLetter(str):
-    """The kind of a letter; `ends` is the text after `in`, the range in which it lies.
+    """The kind of a letter; `ends` is the text after `in`: the range of the letter.
 
     `positive` was written before the kind: the letter stands for a positive number. If the kind is not `known`, an
     error has been reported.
@@ -54,7 +54,7 @@ class SortOfLetter(str):
 
 
 def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] = tuple(KINDS)) -> SortOfLetter:
-    """Read a kind; in place of a mistyped one return another, from which nothing may be derived."""
+    """Read a kind; for a mistyped kind, report an error and return another kind, with which nothing may be derived."""
     text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
     positive, _, rest = text.strip().partition(" ")
     kind = rest.strip() if positive == POSITIVE else text.strip()
@@ -80,7 +80,7 @@ def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
 
 
 def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
-    """Read the words of a step, by outcome or for any outcome."""
+    """Read the words for a step: one text for each outcome, or one text for any outcome."""
     entries = [(o.text, n) for o, n in node.pairs] if isinstance(node, Mapping) else [(ANY_OUTCOME, node)]
     read = {outcome: read_prose(entry, name, faults) for outcome, entry in entries}
     found = {outcome: prose for outcome, prose in read.items() if prose}
@@ -139,7 +139,7 @@ class LimitKeys(Record):
 
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
-    """Read one of `limits:`, which must say in exactly one way what its limit is."""
+    """Read an entry of `limits:`, which must specify its limit in exactly one way."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None

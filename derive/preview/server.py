@@ -226,7 +226,8 @@ class _Prompt(RawIOBase):
 
 
 def policy_of(page: str) -> str:
-    """Return the security policy of a page: the page may run only its own scripts, and may request only changes."""
+    """Return the security policy of a page: the page may run only its own scripts, and may connect only to this
+    server."""
     found = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
     scripts = " ".join(f"'sha256-{b64encode(sha256(each.encode()).digest()).decode()}'" for each in found)
     own = "connect-src 'self'; style-src 'unsafe-inline'; font-src data:; img-src data:"

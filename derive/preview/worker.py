@@ -1,7 +1,7 @@
 """The process that derives the pages of a preview: it keeps running, and answers one question after another.
 
-The process remembers everything that it has loaded and laid out, so that an edit of words needs little work. You can kill
-the process at any instant, because it writes only into the cache of the builds.
+The process remembers everything that it has loaded and laid out, so that an edit of words needs little work. You can
+kill the process at any instant, because it writes only into the cache of the builds.
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 

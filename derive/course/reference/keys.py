@@ -96,7 +96,7 @@ class GroupKeys(Record):
 
 @dataclass(frozen=True)
 class DocumentKeys(Record):
-    """The first item of the list if it names the document; errata and remarks then show its lines."""
+    """The first item of the list, if it names the document; errata and remarks then show lines of the document."""
 
     document: Word | None = key("the document that the groups below are about", TEXT, required=True)
 
