@@ -137,7 +137,7 @@ def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterat
         if _document_of(manifest, name) in made:
             yield from _of_output(manifest, name)
     if not manifest.complete and any(name in manifest.document_files for name in documents):
-        yield f"the last build of `{asked.set_id}` was not of all its problems, was interrupted or found an error"
+        yield f"the last build of `{asked.set_id}` left out problems, was interrupted or found an error"
 
 
 def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
@@ -184,7 +184,7 @@ def _of_recipe(before: Recipe, now: Recipe) -> Iterator[str]:
         if was == is_now or name in (ONLY, ENGINE):
             continue
         if name in (DETAIL, EVIDENCE):
-            yield f"it was made with {_option(name, was)}, and would be with {_option(name, is_now)}"
+            yield f"it was made with {_option(name, was)}, but would now be made with {_option(name, is_now)}"
         elif name == MODULES:
             yield "derive itself has changed"
         elif name in PACKAGES:
@@ -205,7 +205,7 @@ def _of_engine(before: str, named: str | None) -> Iterator[str]:
         return
     was = before.partition(":")[0]
     if was != now.name:
-        yield f"it was typeset by {was}, and would be by {now.name}"
+        yield f"it was typeset by {was}, but would now be typeset by {now.name}"
     elif before != now.identity:
         yield f"the program of the TeX engine {was} has changed"
 
@@ -214,7 +214,7 @@ def _of_output(manifest: Manifest, name: str) -> Iterator[str]:
     if name not in manifest.outputs:
         yield f"`{name}` has not been made"
     elif not (manifest.folder / name).exists():
-        yield f"`{name}` is not there any more"
+        yield f"`{name}` does not exist any more"
     elif not manifest.holds(name):
         yield f"`{name}` has been edited since the build wrote it"
 

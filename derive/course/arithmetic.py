@@ -169,7 +169,7 @@ class Arithmetic:
 
     def bound(self, start: int, end: int, size: int, terms: int) -> None:
         if size > MAX_SIZE or terms > self.max_terms:
-            self.refuse("too-large", "this would be too large when worked out", start, end)
+            self.refuse("too-large", "this would be too large to evaluate", start, end)
 
     def real(self, term: Term) -> Term:
         if term.expr.has(zoo, nan, oo):

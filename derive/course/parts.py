@@ -162,7 +162,7 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
     if part and (said := sum(part.rubric.values(), Fraction(0))) > (part.points or 0):
         has = f"has {points_text(part.points)}" if part.points is not None else "has no points"
         message = f"the steps of `rubric` have {points_text(said)} points, but the part {has}"
-        faults.error("points", message, part.places["rubric"], help="lower them to at most those of the part")
+        faults.error("points", message, part.places["rubric"], help="lower them to at most the points of the part")
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "a part that is not `extra` is shown at every detail"
         faults.error("detail", message, part.places["detail"], help="leave `detail` out, or write `extra: true`")
@@ -177,7 +177,7 @@ def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):
-            message = f"this part is shown at the detail `{part.detail}`, but the next part at less"
+            message = f"this part is shown at the detail `{part.detail}`, but the next part is shown at less detail"
             faults.error("detail", message, part.places["detail"], help="put it after the others")
     return parts
 

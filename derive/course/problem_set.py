@@ -83,10 +83,10 @@ class SetKeys(Record):
     course: Word | None = key("the course", TEXT, required=True)
     title: Word | None = key("the heading of the set", TEXT, required=True)
     date: Word | None = key("the date as it is to be printed", TEXT)
-    instructor: Word | None = key("who teaches the course", TEXT)
-    evidence: str | None = key("how much the solutions show about how they were checked", one_of(tuple(EvidenceShown)))
+    instructor: Word | None = key("the instructor of the course", TEXT)
+    evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     documents: dict[Word, Word] = key(
-        "the documents that are made, or the name of each one's files",
+        "the documents to build, or a mapping from each document to the name of its files",
         Reader(DOCUMENTS_SCHEMA, _documents, dict),
         formerly="papers",
     )

@@ -177,7 +177,13 @@ class Formula(Brackets):
         if following and not self.is_differential(cursor, signs):
             if self.begins_factor(cursor) or cursor.written in (*_TIMES, "/", "\\int"):
                 help_line = "write `\\frac{...}{...}`"
-                self.refuse("ambiguous", "it is not clear how far this `/` reaches", slash.start, slash.end, help_line)
+                self.refuse(
+                    "ambiguous",
+                    "it is not clear where the denominator of this `/` ends",
+                    slash.start,
+                    slash.end,
+                    help_line,
+                )
         return self.quotient_of(above, below)
 
     def check_side_by_side(self, before: Token | None, token: Token, factor: TermOrGrid) -> None:

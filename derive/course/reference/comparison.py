@@ -141,7 +141,7 @@ def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
         return with_ancestors(returned_quantities(returned, pinned.script.returns), pinned.script.returns)
     except DeriveError as error:
         place = pinned.place_of("given")
-        note = f"this is for what is given at {place.path}:{place.line}"
+        note = f"this error is for the input at {place.path}:{place.line}"
         raise type(error)(replace(c, notes=(*c.notes, note)) for c in error.complaints) from error
 
 
