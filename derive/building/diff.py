@@ -115,7 +115,7 @@ def _derived_at(
 
 
 def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
-    """Return an error in the files of a revision, with a note that names the revision."""
+    """Return the same error with a note that names the revision in whose files it occurred."""
     if isinstance(error, Bug):
         return error
     note = f"this is the state at `{revision}`, derived with the present derive"

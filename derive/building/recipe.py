@@ -27,8 +27,7 @@ def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
-    """Return the recipe of a document of the set: it includes this engine, and does not depend on the other
-    documents."""
+    """Return the recipe of a document of the set: it includes the engine, but not the choice of other documents."""
     return {**recipe, ONLY: "", ENGINE: engine}
 
 

@@ -56,8 +56,7 @@ def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> li
 
 
 def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[bytes]:
-    """Yield the content of each object, in the order of `names`; git prints before it a line that ends with its
-    size."""
+    """Yield the content of each object, in the order of `names`; git prints its size at the end of a line before it."""
     found = _git(root, "cat-file", "--batch", told=b"".join(name + b"\n" for name in names))
     said = BytesIO(found.stdout)
     for name in names:

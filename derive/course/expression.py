@@ -9,7 +9,7 @@ A number may be followed by the unit of an angle, `sin(30 deg)`. A number with a
 the reader of the file has letters for numbers.
 
 The grammar reads every character; no text ever reaches Python or SymPy as code. Every value is bounded
-before it is constructed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
+before it is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
 """
 
 from __future__ import annotations

@@ -113,7 +113,7 @@ def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
 
 
 def _axes(given: Mapping | None) -> Iterator[Complaint]:
-    """Warn of axes along which no position is given and with which no body rotates."""
+    """Warn of axes that no position and no body uses."""
     axes = given.get("axes") if given is not None else None
     if given is None or not isinstance(axes, Mapping):
         return
