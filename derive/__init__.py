@@ -9,8 +9,8 @@ if sys.argv[:1] == ["-m"] and not sys.flags.safe_path and sys.path:
     if os.path.realpath(sys.path[0]) != os.path.dirname(os.path.dirname(os.path.realpath(__file__))):
         del sys.path[0]
 
-# SymPy forgets all but the last 1,000 results of each of its functions; a derivation of ours has more. It reads this
-# when it is first imported.
+# By default SymPy caches only the last 1,000 results of each of its functions; a derivation needs more. SymPy reads
+# this variable when it is first imported.
 os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
 
-FOLDER = os.path.dirname(__file__)  # a text, because `derive --help` does without pathlib
+FOLDER = os.path.dirname(__file__)  # a string, because `derive --help` does not import pathlib

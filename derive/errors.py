@@ -20,9 +20,9 @@ from typing import NoReturn
 
 @dataclass(frozen=True)
 class Place:
-    """A place in a file: 1-based line and column, the line itself, and how many columns to underline.
+    """A place in a file: the line and column (counted from 1), the text of the line, and how many columns to underline.
 
-    `text` is only a piece of a long line; `cut` columns were left out before it.
+    Of a long line, `text` is only a piece; `cut` is the number of columns left out before it.
     """
 
     path: str
@@ -34,7 +34,7 @@ class Place:
 
 
 class Spelled(str):
-    """A help line for a script; `in_file` is the same help for a YAML file that calls the verb by its keys."""
+    """A help line for a script; `in_file` is the same help for a YAML file whose keys call the verb."""
 
     in_file: str | None
 
@@ -116,13 +116,13 @@ class Misused(DeriveError):
 
 
 class OutOfTime(BaseException):
-    """The time limit, raised in the middle of the work, with a description of that work.
+    """Raised inside the work when the time limit is reached, with a description of the work.
 
-    waited    whether the work only waited
+    waited    whether the work was only waiting, without using the processor
     doing     what the work was doing, innermost first
-    answers   the names of the answers that it was deriving, innermost first
+    answers   the names of the answers that the work was deriving, innermost first
     finished  the keys of the steps that are established
-    kept      whether these steps are kept for the next attempt
+    kept      whether these steps are stored for the next attempt
     """
 
     def __init__(self, waited: bool = False):
@@ -148,7 +148,7 @@ def during(what: Callable[[], str]) -> Iterator[None]:
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate that was probably meant, if one is close: one letter in three may be wrong."""
+    """Return the candidate that was probably meant, if there is one: at most one letter in three may be wrong."""
     import difflib  # only where something is wrong
 
     written, known = name.casefold(), {c.casefold(): c for c in reversed((*candidates,))}
@@ -171,13 +171,13 @@ def _slips(written: str, meant: str) -> int:
 
 
 def with_article(id: str) -> str:
-    """Return the words of a message for an id: `a thick shell` for `thick_shell`, `a half-disc` for `half_disc`."""
+    """Return an id as words for a message: `a thick shell` for `thick_shell`, `a half-disc` for `half_disc`."""
     words = id.replace("half_", "half-").replace("_", " ")
     return f"{'an' if words[0] in 'aeiou' else 'a'} {words}"
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:
-    """Return a help line, or nothing."""
+    """Return a help line with the nearest candidate, or None if no candidate is close."""
     close = nearest(name, tuple(candidates))
     return f"did you mean `{close}`?" if close else None
 
@@ -215,7 +215,7 @@ class Faults:
         return False
 
     def stop(self) -> None:
-        """Raise everything collected, in the order of the file; do nothing if there is nothing."""
+        """Raise all collected errors, in the order of the file; do nothing if there are none."""
         if self._complaints:
             raise Rejected(sorted(self._complaints, key=_reading_order))
 
@@ -226,5 +226,5 @@ def _reading_order(complaint: Complaint) -> tuple[str, int, int]:
 
 
 def rejected(code: str, message: str, place: Place | None, help: str | None = None, *notes: str) -> NoReturn:
-    """Stop reading one value with one error, which `with faults:` collects."""
+    """Stop reading a value: raise an error, which `with faults:` collects."""
     raise Rejected(Complaint(code, message, place, notes, help))

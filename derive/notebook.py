@@ -1,4 +1,4 @@
-"""A problem in a notebook or at Python's prompt: derived again, with its answers and drawings as on its page.
+"""A problem in a notebook or at Python's prompt: it is derived again, and shows the answers and drawings of its page.
 
 problem = open_problem("hw9/block")
 problem.answer("torque")       # shown as a formula; .value is the SymPy expression
@@ -32,7 +32,7 @@ __all__ = ["open_problem"]
 
 
 def open_problem(problem_id: str, root: str | Path | None = None) -> Opened:
-    """Open the problem of that id, as `hw9/block`, of the course in `root`; the default is the course here or above."""
+    """Open a problem by its id, such as `hw9/block`; default `root`: the course in the working folder or above it."""
     folder = found_root(None if root is None else str(root))
     if folder is None:
         help_line = "run it in the course's folder, or name the folder: `open_problem(..., root=...)`"
@@ -45,9 +45,9 @@ class Answer:
     """One result, derived now.
 
     value   the SymPy expression that the page prints; for a relation, the whole relation
-    sympy   the same as plain SymPy text, which can be read without derive; for two roots, a list of both
-    number  its number with a unit, if it has one
-    grade   its evidence: proved, sampled, definition or approximation
+    sympy   the expression as plain SymPy text, which can be read without derive; for two roots, a list of both
+    number  the numerical value with its unit, if there is one
+    grade   the grade of its evidence: proved, sampled, definition or approximation
     """
 
     key: str
@@ -91,7 +91,7 @@ class Opened:
         return tuple(dict.fromkeys(step.key for step in steps))
 
     def answer(self, key: str) -> Answer:
-        """Return an answer of a part, or any other step of the page, by its key."""
+        """Return the answer to a part, or any other step of the page, by its key."""
         derivation, values = self._solved.derivation, self._solved.values
         steps = {step.key: step for step in derivation.steps}
         if key not in steps:

@@ -86,7 +86,7 @@ def _values(found: tuple[Quantity, ...] | DeriveError, notation: Notation) -> st
 
 
 def _value(step: Step, notation: Notation) -> str:
-    """Show the value in one line; a value that takes several lines, as a tensor does, is shown by its symbol alone."""
+    """Show the value in one line; if the value takes several lines, as a tensor does, show only its symbol."""
     told = plain(named_result(step, notation))
     if "\n" in told:
         return plain(notation.layout(step.symbol)) if step.symbol is not None else ""

@@ -28,7 +28,7 @@ NOT_KEPT = "not-kept"
 
 
 def digest(*parts: str | bytes) -> str:
-    """Return the digest of the parts; the same text divided in another way has another digest."""
+    """Return the digest of the parts; it also depends on where one part ends and the next begins."""
     sha = sha256()
     for part in parts:
         raw = part.encode() if isinstance(part, str) else part
@@ -37,7 +37,7 @@ def digest(*parts: str | bytes) -> str:
 
 
 def file_digest(path: Path) -> str:
-    """Return the digest of the file's content; empty for a missing file, so that a new file counts as a change."""
+    """Return the digest of the file's content; empty if the file is missing, so that creating it is a change."""
     try:
         return digest(signed.regular_content(path))
     except OSError:
@@ -46,7 +46,7 @@ def file_digest(path: Path) -> str:
 
 @functools.cache
 def engine_digest(*packages: str) -> str:
-    """Return the digest of derive's own modules and of the versions of these packages."""
+    """Return the digest of derive's own modules and of the versions of the given packages."""
     versions = [f"{name}=={package_version(name)}" for name in packages]
     return digest(_own_modules(), *versions)
 
@@ -57,7 +57,7 @@ def _own_modules() -> str:
 
 
 def folder_digest(folder: Path, pattern: str = "*") -> str:
-    """Return the digest of the files below the folder, with their names."""
+    """Return the digest of the names and contents of the files below the folder."""
     files = sorted(p for p in folder.rglob(pattern) if p.is_file() and "__pycache__" not in p.parts)
     return digest(*(part for p in files for part in (str(p.relative_to(folder)), p.read_bytes())))
 
@@ -78,7 +78,8 @@ def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
 
 @dataclass(frozen=True)
 class Cache:
-    """The values kept in a folder, if there is one; with `fresh` none is read, but new ones are kept."""
+    """The values stored in a folder, if a folder is given; with `fresh`, no stored value is read, but new ones are
+    stored."""
 
     folder: Path | None = None
     fresh: bool = False
@@ -88,7 +89,7 @@ class Cache:
     )  # warnings about values that could not be written
 
     def get(self, key: str) -> bytes | None:
-        """Return the content kept under that digest; None if it is missing or was changed."""
+        """Return the content stored under that digest; None if the content is missing or was altered."""
         if self.folder is None or self.fresh:
             return None
         content = signed.read_signed(self.folder / key, key)
@@ -98,18 +99,19 @@ class Cache:
         return content
 
     def get_data(self, key: str) -> Any:
-        """Return the JSON data kept under that digest; None as in `get`."""
+        """Return the JSON data stored under that digest; None if they are missing or were altered."""
         return signed.data_of(self.get(key))
 
     def keep(self, key: str, content: bytes) -> None:
         if self.folder is not None:
             try:
                 signed.write_signed(self.folder / key, key, content)
-            except BuildFailed as refused:  # the next build has more to do, but this one succeeds
+            except BuildFailed as refused:  # the next build must do this work again, but this build succeeds
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def evict(self) -> None:
-        """Remove the values used longest ago, if there is too much; once in a build, since it lists the folder."""
+        """Remove the least recently used values if the folder is too large; once per build, because the folder is
+        listed."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit
@@ -133,7 +135,7 @@ NO_CACHE = Cache()
 
 @dataclass(frozen=True)
 class Kept:
-    """One value of a cache that is replaced by the next of its kind, such as the page numbers of a document."""
+    """A cached value that the next value of the same kind replaces, such as the page numbers of a document."""
 
     cache: Cache
     key: str
@@ -146,7 +148,7 @@ class Kept:
 
 
 def _facts(file: Path) -> tuple[int, int, Path]:
-    """Return when a file was used last, and its size; zeros for a file that another build has just removed."""
+    """Return when a file was last used, and its size; zeros if another build has just removed the file."""
     try:
         facts = file.lstat()
     except OSError:

@@ -1,7 +1,7 @@
-"""The calls of verbs that builds keep for a problem: many small texts in one value, which each build replaces.
+"""The calls of verbs that builds store for a problem: many small texts in one value, which each build replaces.
 
-Only a build that derives reads it. It holds the calls of the last build, and as many earlier ones as there is room for,
-so that the calls from before an edit are still there if you undo the edit.
+Only a build that derives the problem reads this value. The value holds the calls of the last build, and as many earlier
+calls as there is room for, so that the calls from before an edit are still there if you undo the edit.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from functools import cached_property
 from derive.building.cache import Cache, digest, engine_digest
 from derive.steps.memory import Memory
 
-BETWEEN = "\n\n"  # between calls, whose texts have no empty line
-ROOM = 2 * 1024 * 1024  # characters of calls that were not used last
+BETWEEN = "\n\n"  # separates calls: their texts contain no empty line
+ROOM = 2 * 1024 * 1024  # the most characters of calls that the last build did not use
 
 
 @dataclass
 class Calls:
-    """The texts of calls by their keys: those kept before, and those used now."""
+    """The texts of calls by their keys: the calls stored by earlier builds, and the calls used by this build."""
 
     cache: Cache
     key: str
@@ -29,7 +29,7 @@ class Calls:
 
     @cached_property
     def earlier(self) -> dict[str, str]:
-        """The calls kept by earlier builds, those that were used last first."""
+        """The calls stored by earlier builds, the most recently used first."""
         blocks = (self.cache.get(self.key) or b"").decode().split(BETWEEN)
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 

@@ -1,4 +1,4 @@
-"""The differences between two solutions of a problem, each given by its JSON (docs/json.md), as data without words."""
+"""The differences, as data, between two solutions of a problem, both read as JSON (docs/json.md)."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ class Change:
     of       the sort: problem (of a set), given, points, asked, part, answer, step, order, sentence, drawing,
              number, reference, warning
     where    which one: a key, the label of a part, a place on the page
-    before   the text before; empty if it was not there
-    after    the text now; empty if it is gone
-    words    for a sentence, its words in runs: equal, removed, added
-    facets   for a step, its differences: which facet, the text before, the text now
+    before   the old text; empty if there was none
+    after    the new text; empty if the text was removed
+    words    for a sentence: its words in runs that are equal, removed or added
+    facets   for a step: each facet that differs, with its old and its new text
     """
 
     of: str
@@ -46,7 +46,7 @@ class Change:
 
 
 def changes(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Change]:
-    """Return every difference, in the order in which a reader asks: input, questions, results, words."""
+    """Return every difference, in the order of interest to a reader: input, questions, results, words."""
     parts = list(_paired(before["parts"], after["parts"]))
     return [
         *_table("given", _given(before), _given(after)),
@@ -123,7 +123,8 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
-    """Pair each part with its earlier form, by what it asks for: its letter changes if a part is added before it."""
+    """Pair each part with its earlier form by the answers that it asks for: its letter changes if a part is added
+    before it."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
     )
@@ -158,7 +159,7 @@ def _worth(page: Mapping[str, Any]) -> str:
 
 
 def _asked(parts: Iterable[tuple[Any, Any]]) -> Iterator[Change]:
-    """Return the parts that are new, gone or have another letter, and changes in what a part asks for."""
+    """Return the parts that are new, removed or relettered, and the parts that ask for other answers."""
     for old, new in parts:
         name = _name(old, new)
         if old is _NO_PART or new is _NO_PART:
@@ -195,7 +196,7 @@ def _result(step: Mapping[str, Any]) -> str:
 
 
 def _facets(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
-    """Return the facets in which a step differs, each with its text before and now."""
+    """Return the facets in which two versions of a step differ, each with its old and its new text."""
     if _left_side(old) != _left_side(new):
         yield "name", _left_side(old), _left_side(new)
     if _result(old) != _result(new):
@@ -218,7 +219,7 @@ def _left_side(step: Mapping[str, Any]) -> str:
 
 
 def _grades(step: Mapping[str, Any]) -> str:
-    """Return the grades of its claims, but not how many claims have each: this depends on the number of lines."""
+    """Return the grades of a step's claims without their frequencies, which depend on the number of lines."""
     return ", ".join(Counter(each["grade"] for each in step["evidence"]))
 
 
@@ -226,7 +227,7 @@ def _grades(step: Mapping[str, Any]) -> str:
 
 
 def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Iterable[tuple[Any, Any]]) -> list[Change]:
-    """Compare the page from its title on; a sentence in which only an equation's number has changed is the same."""
+    """Compare all text of a page, beginning with the title; a change of equation numbers alone is no difference."""
     places: list[tuple[str, Blocks, Blocks]] = [
         *((name, _plain(before[name]), _plain(after[name])) for name in ("title", "statement", "strategy")),
         *(place for old, new in parts for place in _of_part(old, new)),
@@ -238,7 +239,7 @@ def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Itera
 
 
 def _of_part(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, Blocks, Blocks]]:
-    """Return the question of a part, unless the part itself is new or gone, and its solution."""
+    """Return the question and the solution of a part; omit the question if the part itself is new or removed."""
     if old is not _NO_PART and new is not _NO_PART:
         yield f"{_name(old, new)}, question", _plain(old["ask"]), _plain(new["ask"])
     yield f"{_name(old, new)}, solution", old["says"], new["says"]
@@ -257,7 +258,7 @@ def _plain(text: str) -> Blocks:
 
 @dataclass(frozen=True)
 class _Sentence:
-    """Its words, and the keys that are compared: an equation's number is replaced by the key of the equation."""
+    """The words of a sentence, and the keys for comparison: the key of an equation replaces its number."""
 
     words: tuple[str, ...]
     keys: tuple[str, ...]
@@ -289,7 +290,7 @@ def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> I
             if known is None:
                 left.append(sentence)
                 continue
-            # The old sentences before it, and the new ones, have no counterpart.
+            # The old and new sentences before this pair have no counterpart.
             yield from (_sentence(where, each, None) for each in was[:known])
             yield from (_sentence(where, None, each) for each in left)
             yield _sentence(where, was[known], sentence)

@@ -1,4 +1,4 @@
-"""Removal of what builds made: the folders of sets, or only what is kept there from one build to the next."""
+"""Removal of files that builds wrote: the folders of sets, or only the data stored there for later builds."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from derive.errors import Complaint, Misused, did_you_mean
 
 
 def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str], None]) -> list[tuple[Path, int]]:
-    """Remove folders and return them, each with its size in bytes; wait for a set that is being built.
+    """Remove folders and return each with its size in bytes; if a set is being built, wait for the end of its build.
 
-    sets    the sets whose folders are meant; every folder below `build` if none is named
-    cache   keep the documents, and remove only what is kept for the next build
+    sets    the sets whose folders are removed; if empty, every folder below `build`
+    cache   keep the documents, and remove only the data stored for later builds
     """
     build = root / "build"
     folders = [path for path in sorted(build.glob("*")) if path.is_dir() and not path.is_symlink()]

@@ -26,7 +26,7 @@ Page = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Diff:
-    """The changes, the state since which they are listed, and warnings about the comparison itself."""
+    """The changes, the earlier state that is compared, and warnings about the comparison itself."""
 
     since: str
     changes: tuple[Change, ...]
@@ -34,7 +34,7 @@ class Diff:
 
 
 def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -> Diff:
-    """Return what has changed since the last build, at the level of detail of that build."""
+    """Return the changes since the last build, at the level of detail of that build."""
     path_of(root, problem_id)
     before = built_page(root, problem_id)
     if detail and detail != before["detail"]:
@@ -81,7 +81,7 @@ def built_page(root: Path, problem_id: str) -> Page:
 
 
 def _job(root: Path, of: Path, problem_id: str, detail: str | None, limit: float) -> Job:
-    """Return the job for a page of the course in `of`; its derivations are kept with the builds of `root`."""
+    """Return the job for a page of the course in `of`; its derivations are stored with the builds of `root`."""
     return job_of(of, problem_id, partial(_page, root, of, problem_id, detail), limit)
 
 
@@ -115,7 +115,7 @@ def _derived_at(
 
 
 def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
-    """Return an error in the files of a revision, with a note that names the revision."""
+    """Return the same error with a note that names the revision in whose files it occurred."""
     if isinstance(error, Bug):
         return error
     note = f"this is the state at `{revision}`, derived with the present derive"

@@ -1,4 +1,4 @@
-"""`derive doctor`: what a build needs, what is missing, and how to fix that."""
+"""`derive doctor`: what a build needs, what is missing, and how to supply it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ $E = \frac{1}{2} \omega^T I \omega$
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that a build needs: whether it is there, what was found, and the fix if it is not there."""
+    """One requirement of a build: whether it is satisfied, what was found, and the fix if it is not satisfied."""
 
     what: str
     good: bool
@@ -69,7 +69,7 @@ def _tex(name: str | None) -> list[Finding]:
 
 
 def _test_page(name: str | None) -> Finding:
-    """Check that the engine makes a PDF here: a program may be installed and still not run."""
+    """Check that the engine can make a PDF on this machine: an installed program may fail to run."""
     started = time.monotonic()
     try:
         with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,6 @@
-"""The documents of a set: those that its file names, and those that `--only` has asked for.
+"""The documents of a set: those listed in the set's file, and those requested with `--only`.
 
-A document that was asked for once is made again by each later build of the whole set, so that it is never older than
+A document that was requested once is made again by each later build of the whole set, so that it is never older than
 the problems. To stop this, remove its PDF.
 """
 
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
 
 
 def with_asked(documents: Documents, asked: Collection[str]) -> list[list[str]]:
-    """Return these documents, and also those that are asked for."""
+    """Return these documents and the requested ones."""
     named = [kind for kind, _ in documents]
     return [*map(list, documents), *([kind, kind] for kind in asked if kind not in named)]
 
 
 def still_there(documents: Documents, record: Manifest, asked: Collection[str]) -> list[list[str]]:
-    """Return the documents without those that an earlier `--only` asked for and whose PDF was removed since."""
+    """Return the documents, except those that an earlier `--only` requested and whose PDF has since been removed."""
     earlier = {*record.asked} - {*asked}
     return [list(pair) for pair in documents if pair[0] not in earlier or (record.folder / f"{pair[1]}.pdf").exists()]
 
 
 def named_documents(heading: ProblemSet, record: Manifest, asked: Collection[str]) -> list[list[str]]:
-    """Return the documents of the set from now on; remove the files of those that it no longer has."""
+    """Update and return the documents of the set; remove the files of documents that the set no longer has."""
     own = [kind for kind, _ in heading.documents]
     requested = [kind for kind in dict.fromkeys([*record.asked, *asked]) if kind not in own]
     named = with_asked(heading.documents, requested)

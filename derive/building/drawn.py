@@ -1,6 +1,6 @@
 """The drawings of a page as files, drawn again only if something in them has changed.
 
-The bytes of a drawing depend on its description, what is known about the letters in it, its size, its words,
+The bytes of a drawing depend on its description, the known properties of its letters, its size, its words,
 derive's modules and matplotlib.
 """
 
@@ -61,7 +61,7 @@ def drawing_files(
 def _files(
     problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, cache: Cache
 ) -> tuple[bytes, bytes]:
-    """Return the kept files, or draw them now. A zero byte, which no SVG has, separates the two in one value."""
+    """Return the stored PDF and SVG, or draw them now. Both are stored as one value, separated by a zero byte."""
     placement = placement_of(problem, drawing.key)
     width = placement.width if placement else None
     alt = inline_text(shown.alt, notation)
@@ -80,7 +80,7 @@ def _files(
     if not zero:
         try:
             sheet = _drawn(drawing, known, notation, words, width, alt, partial(_letters, cache))
-        except Rejected as error:  # a mark does not know the file
+        except Rejected as error:  # a mark has no place in the file
             place = placement.place if placement else problem.place_of("solve")
             raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
         pdf, svg = sheet.pdf, sheet.svg
@@ -89,7 +89,7 @@ def _files(
 
 
 def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
-    """Return the data of the letters that occur in a drawing, so that other letters do not change its digest."""
+    """Return the data of the letters in a drawing, so that letters outside the drawing do not change its digest."""
     return [
         (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
     ]
@@ -121,7 +121,7 @@ def _drawn(
 
 
 def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
-    """Return letters as they were kept for this drawing or for another one; the others are typeset now."""
+    """Return typeset letters: those stored for this or another drawing, and the rest typeset now."""
     keys = {text: digest("letters", engine_digest("matplotlib"), text) for text in texts}
     known = {text: kept for text, key in keys.items() if (kept := cache.get_data(key)) is not None}
     if new := keys.keys() - known:
@@ -134,7 +134,7 @@ def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
-    """Return the number of each letter in a drawing: that of the problem for this drawing, its own, or a stand-in."""
+    """Return a number for each letter in a drawing: from the drawing's entry, from the problem, or a stand-in."""
     said = dict(placement.values) if placement else {}
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}

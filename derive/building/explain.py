@@ -28,7 +28,7 @@ Rows = list[tuple[str, ...]]
 
 
 def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
-    """Return the explanation of the step with that key; without a key, a heading and a row for each step, or JSON."""
+    """Return the explanation of the step with that key, or of all steps: a table with one row for each, or JSON."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
@@ -45,7 +45,7 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Return all steps, or one: with that key, standing for that key, or the first of the verb of that name."""
+    """Return the keys of all steps, or of one: with that key, replacing that key, or the first step of that verb."""
     if key is None:
         return steps
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}
@@ -57,7 +57,7 @@ def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
 
 
 def _row(explanation: Explanation, words: Phrases, notation: Notation) -> tuple[str, ...]:
-    """Show a step in one line; a step that takes several lines, as a tensor does, is shown by its name alone."""
+    """Show a step in one line; if its value takes several lines, as a tensor does, show only the symbol."""
     step, value = explanation.step, _value(explanation.step, notation)
     shown = plain(notation.layout(step.symbol)) if "\n" in value and step.symbol is not None else abridged(value, 60)
     return step.key, explanation.part, words.grades[step.grade], shown

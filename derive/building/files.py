@@ -1,4 +1,4 @@
-"""Files that derive writes: whole or not at all, and only when their content has changed.
+"""Files that derive writes: each is written completely or not at all, and only when its content has changed.
 
 A file gets its name by one rename, so a reader, a second build and a kill at any instant find the old content or the
 new content. If the disk refuses, the user sees one error.
@@ -57,14 +57,14 @@ def cannot_write(path: Path, error: OSError) -> BuildFailed:
 
 
 def of_system(error: OSError, what: str = "the system refuses") -> BuildFailed | None:
-    """Return the error that the system lacks a resource; None for any other error."""
+    """Return an error that says which resource the system lacks; None if `error` has another cause."""
     reason = _SHORT.get(error.errno or 0)
     return BuildFailed(Complaint("system", f"{what}: {reason}")) if reason else None
 
 
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
-    """Turn a refusal of the system to write `path` into an error."""
+    """If the system refuses to write `path`, raise an error for the user."""
     try:
         yield
     except OSError as error:
@@ -78,7 +78,7 @@ def folder(path: Path) -> Path:
 
 
 def write(path: Path, content: str | bytes) -> bool:
-    """Put `content` at `path`, and return whether that changed anything."""
+    """Write `content` to `path`, and return whether the file changed."""
     raw = content.encode() if isinstance(content, str) else content
     folder(path.parent)
     with writing(path):
@@ -99,7 +99,7 @@ def write(path: Path, content: str | bytes) -> bool:
 
 
 def _unfinished(path: Path) -> tuple[int, str]:
-    """Return a file next to `path` that this process holds."""
+    """Open a temporary file next to `path`, locked by this process."""
     while True:
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=UNFINISHED, dir=path.parent)
         if is_held(handle, Path(name)):
@@ -108,8 +108,8 @@ def _unfinished(path: Path) -> tuple[int, str]:
 
 
 def is_held(handle: int, path: Path) -> bool:
-    """Lock an open file until it is closed or the process ends; return whether it is still the file of that path."""
-    with suppress(OSError):  # where the disk has no locks
+    """Lock an open file until it is closed or the process ends; return whether `path` still refers to this file."""
+    with suppress(OSError):  # the disk does not support locks
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     try:
         return os.path.samestat(os.fstat(handle), os.lstat(path))

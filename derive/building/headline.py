@@ -1,4 +1,4 @@
-"""The points and the title of a problem for a list of problems, without deriving it."""
+"""The points and the title of a problem, for a list of problems, without deriving the problem."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ _OF_POINTS = ("points", "extra", "rubric")
 def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     """Return a problem's points and title; a step that the title mentions is named by its key.
 
-    If the file is at that path and has both keys, only these are read. The rest of the file is read, and mathematics is
-    loaded, only if the title mentions something or the file has an error.
+    If the file is at that path and has both keys, only the two keys are read. The rest of the file is read, and the
+    modules for mathematics are loaded, only if the title mentions a step or the file has an error.
     """
     return _at_a_glance(root, path or path_of(root, problem_id)) or _in_full(root, problem_id)
 
@@ -45,7 +45,7 @@ def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
 
 
 def _glanced(node: Tree, faults: Faults) -> Question:
-    """Read a part, but only its points."""
+    """Read only the points of a part."""
     if not isinstance(node, Mapping):
         return Question({}, {})
     keys = keys_of(Question)

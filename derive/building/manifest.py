@@ -1,4 +1,4 @@
-"""The record of what each output of a set was made from; it decides which outputs must be made again.
+"""The record of the inputs of each output of a set; the record decides which outputs must be made again.
 
 A problem is current while the content of every file it was derived from, the engine and the options are unchanged; an
 output is current while its own content is unchanged. Only content is compared, never times.
@@ -33,12 +33,12 @@ class Manifest:
     complete: bool = False  # whether the last build ended without an error
     engine: str = ""  # digest of the modules that derived its problems
     set_inputs: dict[str, str] = field(default_factory=dict)
-    inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> digests of what it was derived from
-    pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all that its page was made from
+    inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> digests of its input files
+    pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all inputs of its page
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
     documents: list[list[str]] = field(default_factory=list)  # each document with the name of its files
-    asked: list[str] = field(default_factory=list)  # documents that the set does not name, but `--only` did
+    asked: list[str] = field(default_factory=list)  # documents that only `--only` requested
     evidence: str = ""  # how much solutions show of their checks, as the file of the set says
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
     typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its files
@@ -47,7 +47,7 @@ class Manifest:
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
-        """Return the record of this folder; an empty one if there is none, or if it was altered."""
+        """Return the record of this folder; an empty record if there is none, or if the record was altered."""
         recorded = signed.data_of(signed.read_signed(folder / ".manifest.json", _record_of(folder)))
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 
@@ -58,7 +58,7 @@ class Manifest:
         signed.write_signed(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
 
     def remove(self, output: str) -> None:
-        """Remove an output if it is a file of this folder and unchanged since the build wrote it."""
+        """Remove an output if it is a file of this folder and has not changed since the build wrote it."""
         file = self.folder / output
         if _is_plain(output) and not file.is_symlink() and self.holds(output):
             file.unlink(missing_ok=True)
@@ -85,7 +85,7 @@ class Manifest:
         return digest("page", problem, recipe, *(part for path in inputs for part in (path, read(path))))
 
     def made(self, problem: str, recipe: Recipe, read: Callable[[str], str]) -> str:
-        """Record what a page was made from, and return the key under which the page is kept."""
+        """Record the inputs of a page, and return the key under which the page is stored."""
         made_by = recipe_digest(recipe)
         self.recipes[made_by] = {**recipe}
         self.made_by[problem] = made_by
@@ -94,7 +94,7 @@ class Manifest:
         return self.pages[problem]
 
     def was_typeset(self, name: str, recipe: Recipe, engine: str) -> None:
-        """Record what the document of a problem, or of the whole set, was made from: its recipe and its files."""
+        """Record the inputs of the document of a problem or of the whole set: its recipe and its files."""
         recipe = of_documents(recipe, engine)
         self.typeset_by[name] = recipe_digest(recipe)
         self.recipes[self.typeset_by[name]] = recipe
@@ -116,13 +116,13 @@ class Manifest:
         )
 
     def _reads_so(self, document: str, read: Callable[[str], str]) -> bool:
-        """Return whether every file that a document was made from is unchanged since then."""
+        """Return whether no input file of a document has changed since the document was made."""
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether a document exists that was made from files, words or modules that have changed since.
+        """Return whether a document exists but some file, phrase or module that it was made from has changed since.
 
-        Its options are not compared.
+        The options of the document are not compared.
         """
         before = self.recipes.get(self.typeset_by.get(document, ""), {})
         was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
@@ -142,7 +142,7 @@ class Manifest:
         return [output for name in self.problems for output in self.outputs_of(name)]
 
     def outputs_of(self, name: str) -> list[str]:
-        """Return all outputs of a problem, with its drawings; or of a document of the set, by the name of its files."""
+        """Return all outputs of a problem, including its drawings, or of the set's document of that file name."""
         if name == INDEX:
             return [f"{INDEX}.html"]
         if kind := next((kind for kind, file in self.documents if file == name), None):
@@ -159,7 +159,8 @@ def _record_of(folder: Path) -> str:
 
 
 def _is_record(recorded: Any) -> bool:
-    """Return whether data are a record: the fields of a manifest and no others, of its types, with plain file names."""
+    """Return whether data are a valid record: exactly the fields of a manifest, of the right types, with plain file
+    names."""
     empty = Manifest(Path())
     names = {field.name for field in fields(Manifest)} - {"folder"}
     if not isinstance(recorded, dict) or set(recorded) != names:
@@ -181,7 +182,7 @@ def _is_record(recorded: Any) -> bool:
 
 
 def _is_plain(output: str) -> bool:
-    """Return whether this is the name of a file that a build may have written."""
+    """Return whether this is a file name that a build may have written."""
     parts = _PLAIN_NAME.fullmatch(output)
     return parts is not None and parts[1] in {
         "html",

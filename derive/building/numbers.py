@@ -20,7 +20,8 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class _Answer:
-    """An answer as a part asks for it, the value that takes a number, the known numbers, whether it has a number."""
+    """An answer in the form that a part asks for: the value to be evaluated, the known numbers, whether a number was
+    found."""
 
     key: str
     asked: Word
@@ -39,12 +40,12 @@ class _Answer:
 
     @property
     def is_halfway(self) -> bool:
-        """Whether some of its letters have numbers, although it has no number itself."""
+        """Whether some of the answer's letters have numbers although the answer itself has none."""
         return not self.has_number and not self.letters.isdisjoint(self.numbers)
 
     @property
     def why(self) -> str:
-        """The reason why it has no number."""
+        """The reason why the answer has no number."""
         if self.missing:
             return f"{_listed(self.missing)} {'has' if len(self.missing) == 1 else 'have'} no value"
         at = {letter: explicit(self.numbers[letter]) for letter in self.letters}
@@ -53,7 +54,7 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place where a form asks for its number; `figures` alone ask only if some letter has a number."""
+        """The place where a form asks for a number; `figures` alone ask for one only if a letter has a number."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place
@@ -97,7 +98,7 @@ def _answers(problem: Problem, derivation: Derivation, values: Mapping[str, Step
 
 
 def _taking_a_number(result: Any) -> Any | None:
-    """Return the part of a result that takes a number: of R > a/2 the right side, of other conditions nothing."""
+    """Return what is evaluated numerically: for a condition R > a/2 its right side, for other conditions nothing."""
     if isinstance(result, Relation):
         solved = isinstance(result.left, Symbol) and not result.right.has(result.left)
         result = result.right if solved else None
@@ -109,7 +110,8 @@ def _plotted(drawings: Iterable[Recorded]) -> set[Symbol]:
 
 
 def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of answers without a number; coordinates and named values need none, but a letter may be forgotten."""
+    """Warn of answers without a number, in case a letter was forgotten; an answer in coordinates or named values needs
+    none."""
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
     used = plotted.union(*(answer.letters for answer in answers if answer.has_number))
     found: dict[str, list[_Answer]] = {}
@@ -126,7 +128,7 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
 
 
 def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of numbers that answers need, of letters that neither the statement nor a question mentions."""
+    """Warn of letters whose numbers the answers need, but which neither the statement nor a question mentions."""
     texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
     mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
     told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}

@@ -1,8 +1,8 @@
-"""The common beginning of all documents of a set as a TeX format: its classes, packages and commands are read once.
+"""The common beginning of all documents of a set as a TeX format, so that TeX reads classes and packages only once.
 
 A line of the template marks where documents begin to differ; the lines above it depend on nothing but the level of
-`detail`. TeX loads them and dumps a format, which is kept with everything else that a build keeps. It is kept unpacked,
-because TeX then reads it in half the time. A source then has these lines as comments, so that its line numbers do not
+`detail`. TeX loads them and dumps a format, which is stored in the cache of the builds. The format is not compressed,
+because TeX then reads it in half the time. The source then has these lines as comments, so that its line numbers do not
 change. Without such a line, or if TeX cannot dump a format, a document is typeset unchanged.
 
 Source: *The TeXbook*, ch. 27 (formats), and the package mylatexformat.
@@ -28,14 +28,15 @@ __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 DIFFERS = "%% derive: from here on documents differ\n"
 NAME = "preamble"  # the format's name in the folder where TeX runs
 PACKED = b"\x1f\x8b"
-ROOM = 64 * 1024 * 1024  # bytes free on the disk; a format takes a third of this
-CANNOT = b""  # kept in place of a format if the engine cannot dump this preamble, so that it is not tried again
+ROOM = 64 * 1024 * 1024  # required free bytes on the disk; a format takes a third of this
+CANNOT = b""  # stored in place of a format if the engine cannot dump this preamble, so that it is not tried again
 
 Environment = Mapping[str, str]
 
 
 def beginning(templates: Path, detail: str | None) -> str:
-    """Return the beginning of all documents of that level, before any exists; nothing if the template needs more."""
+    """Return the common beginning of all documents of that level, before any document exists; empty if the template
+    needs more."""
     from derive.render.printing.templates import filled_above
     from derive.steps.level import Level
 
@@ -45,16 +46,16 @@ def beginning(templates: Path, detail: str | None) -> str:
 
 @functools.cache
 def at_hand() -> Scratch:
-    """Return the folder of the formats that this process and its workers used, removed when this process ends."""
+    """Return the folder of the formats that this process and its workers use; it is removed when this process ends."""
     return Scratch()
 
 
 def without_preamble(
     tex: str, engine: str, identity: str, options: Sequence[str], cache: Cache, place: Path, environment: Environment
 ) -> str | None:
-    """Return a source without its preamble, whose format is then in that folder; otherwise nothing.
+    """Return a source without its preamble, and put the preamble's format into `place`; None if there is no format.
 
-    The engine makes the format there, unless it is at hand or in the cache.
+    The engine makes the format, unless this process or the cache has it already.
     """
     above, differs, below = tex.partition(DIFFERS)
     if not differs or cache.folder is None:

@@ -1,4 +1,4 @@
-"""What the workers of a build need, loaded once before they are forked, and not in each of them."""
+"""Modules and data that the workers of a build need, loaded once before the workers are forked."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 
 
 def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
-    """Load the modules that print a problem, its phrases and templates; those that derive it; and those that draw.
+    """Load the phrases, the templates and the modules that print; if needed, also the modules that derive or draw.
 
     The reference of a set is read once for all of its problems.
     """
@@ -40,7 +40,7 @@ def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
 
         with suppress(DeriveError):  # each problem shows the error itself
             reference_of_set(root, set_id)
-    with suppress(DeriveError):  # each problem shows errors in them itself
+    with suppress(DeriveError):  # each problem reports such errors itself
         phrases(template_folder(root))
         compile_templates(template_folder(root))
     if draws:

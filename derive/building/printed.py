@@ -1,6 +1,6 @@
-"""The page of a derived problem, in every format and document that is wanted.
+"""The page of a derived problem, in every requested format and document.
 
-Everything that leaves this module is plain text and numbers, so that it can cross from a worker to its parent.
+The functions of this module return only text and numbers, so that a worker can send them to its parent.
 """
 
 from __future__ import annotations
@@ -47,10 +47,10 @@ from derive.steps.step import Level
 
 @dataclass(frozen=True)
 class Wanted:
-    """The formats and documents that are wanted of a problem, and how detailed they are.
+    """The requested formats and documents of a problem, and their level of detail.
 
     detail      how much algebra the page shows; default `standard`
-    draws       whether the files of the drawings are wanted too
+    draws       whether the files of the drawings are also requested
     only        the formats; default: all formats of a build
     evidence    how much the page shows about its checks
     documents   other documents: the key, hints, a rubric
@@ -87,7 +87,7 @@ def printed(
 
 
 class _Printing:
-    """The printing of one problem; what several formats share is made once, when it is first needed."""
+    """The printing of one problem; objects that several formats share are made once, when they are first needed."""
 
     def __init__(
         self, problem: Problem, solved: Solved, wanted: Wanted, cache: Cache, failures: tuple[Complaint, ...]
@@ -172,7 +172,7 @@ class _Printing:
 
     @cached_property
     def files(self) -> Files:
-        """The files of the drawings, if they are wanted."""
+        """The files of the drawings, if they are requested."""
         if not self.wanted.draws:
             return ()
         drawings = self.solved.drawings
@@ -180,7 +180,7 @@ class _Printing:
 
     @cached_property
     def rubric(self) -> Mapping[str, Mapping[Word, Fraction]]:
-        """The points of steps that the author specifies, by the label of the part."""
+        """The points that the author specifies for steps, by the label of the part."""
         rubric = {chr(ord("a") + i): part.rubric for i, part in enumerate(self.problem.parts)}
         Faults(faults_of_rubric(self.document, rubric)).stop()
         return rubric
@@ -226,7 +226,8 @@ class _Printing:
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
 
     def _page_for(self, kind: str) -> Document:
-        """Return the page that a document shows: the key shows every line, hints replace the derivation."""
+        """Return the page in the form of a document: the key shows every line; in the hints, hints replace the
+        derivation."""
         solved = self.solved
         if kind == HINTS:
             return with_hints(self.document, self.problem, solved.derivation, solved.values, self.words)
@@ -235,7 +236,7 @@ class _Printing:
 
 @lru_cache(maxsize=4)
 def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
-    """Return the notation with everything that it has laid out before."""
+    """Return the notation, which remembers every expression that it has laid out."""
     return Notation(dict(dimensions), flat=flat)
 
 

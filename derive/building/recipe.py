@@ -1,4 +1,4 @@
-"""How pages are made, in addition to their own files: with which modules, packages, words, templates and options.
+"""The inputs of pages other than the files of the problem: modules, packages, phrases, templates and options.
 
 Each ingredient has a name that the author recognizes, and a digest or a value.
 """
@@ -27,7 +27,7 @@ def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
-    """Return the recipe of a document of the set: with this engine, and whatever other documents are made."""
+    """Return the recipe of a document of the set: it includes the engine, but not the choice of other documents."""
     return {**recipe, ONLY: "", ENGINE: engine}
 
 
@@ -43,7 +43,7 @@ def edited_since(root: Path, time: int) -> bool:
 
 
 def _has_changed(folder: str, time: int) -> bool:
-    """Return whether a file in the folder, or in one within it, was written since that time."""
+    """Return whether a file in the folder or in a subfolder was written since that time."""
     try:
         with os.scandir(folder) as entries:
             return any(
@@ -51,17 +51,18 @@ def _has_changed(folder: str, time: int) -> bool:
                 for entry in entries
                 if entry.name != "__pycache__"
             )
-    except FileNotFoundError:  # an editor has just replaced a file by another
+    except FileNotFoundError:  # an editor has just replaced the file
         return True
 
 
 def _folders(root: Path) -> list[Path]:
-    """Return the folders that may have templates: the course, the package, and the checkout that it is in."""
+    """Return the folders that may contain templates: the course, the package, and the checkout that contains the
+    package."""
     return list(dict.fromkeys(each.resolve() for each in (root, Path(FOLDER), Path(FOLDER).parent)))
 
 
 def _templates(root: Path) -> dict[str, str]:
-    """Return the digest of each template and file of phrases, of the course and of derive itself."""
+    """Return the digest of each template and each file of phrases in the course and in derive itself."""
     found: dict[str, str] = {}
     for folder in _folders(root):
         for file in sorted((folder / "templates").rglob("*")):

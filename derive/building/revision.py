@@ -24,7 +24,7 @@ _TIME_LIMIT = 60
 
 @contextmanager
 def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
-    """Provide the root of that course while it is in use; no other machine is contacted."""
+    """Provide the root of the course at that revision inside the `with` block; no other machine is contacted."""
     commit = _commit(root, revision)
     wanted = (f"problems/{set_id}", TEMPLATES)
     there = _git(root, "ls-tree", "--name-only", commit, "--", *wanted).stdout.decode().splitlines()
@@ -45,7 +45,8 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
 
 
 def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> list[tuple[bytes, bytes]]:
-    """Return the name and the path of each object that is a plain file: a link would lead out of the revision."""
+    """Return the object name and the path of each plain file; links are left out, because they can lead out of the
+    revision."""
     found = _git(root, "ls-tree", "-r", "-z", commit, "--", *folders)
     if found.returncode:
         raise Misused(_unreadable(revision, found.stderr))
@@ -55,7 +56,7 @@ def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> li
 
 
 def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[bytes]:
-    """Yield the content of each object, in their order; it follows a line that ends with its size."""
+    """Yield the content of each object, in the order of `names`; git prints its size at the end of a line before it."""
     found = _git(root, "cat-file", "--batch", told=b"".join(name + b"\n" for name in names))
     said = BytesIO(found.stdout)
     for name in names:
@@ -68,7 +69,7 @@ def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[byt
 
 
 def _commit(root: Path, revision: str) -> str:
-    """Return the full name of a revision, or raise what is wrong."""
+    """Return the full name of the commit of a revision; raise an error if there is none."""
     if not shutil.which("git"):
         message = "`--rev` compares with a revision of git, but git is not installed"
         raise Misused(

@@ -1,6 +1,6 @@
-"""Temporary folders that leave nothing behind; the next build removes those that a killed process left.
+"""Temporary folders that are always removed; the next build removes the folders of a killed process.
 
-A lock ends with its process, so a locked folder is in use and a folder without a lock was left behind.
+A lock is released when its process ends, so a locked folder is in use, and an unlocked folder can be removed.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _NAME = re.compile(rf"{PREFIX}\w{{8}}")
 
 
 class Scratch:
-    """A folder of its own, with its `name`; it is removed after a `with` block, and when its process ends."""
+    """A new temporary folder with the path `name`; it is removed after a `with` block, or when its process ends."""
 
     def __init__(self) -> None:
         with writing(Path(tempfile.gettempdir())):
@@ -29,7 +29,7 @@ class Scratch:
             whole = Path(self._folder.name)
             self._lock = os.open(whole / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
             is_held(self._lock, whole / "lock")
-            os.rename(whole / "lock", whole / HELD)  # under this name it is always locked
+            os.rename(whole / "lock", whole / HELD)  # a file of this name is always locked
             self.name = str(whole / "work")
             os.mkdir(self.name)
 
@@ -61,7 +61,7 @@ def sweep(*folders: Path) -> None:
 
 
 def _is_left(file: Path) -> bool:
-    """Return whether there is such a file, and no process holds it."""
+    """Return whether the file exists and no process has locked it."""
     try:
         handle = os.open(file, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError:

@@ -18,12 +18,12 @@ from derive.course.problem_set import problem_set
 from derive.course.written import written_problem
 from derive.errors import Complaint, Faults, Misused
 
-Points = Mapping[str, Fraction | None]  # of each problem of a set, in their order
+Points = Mapping[str, Fraction | None]  # points of each problem of a set, in order
 
 
 @dataclass(frozen=True)
 class SetDiff:
-    """The changes of the set itself, and of each problem that was there and still is."""
+    """The changes of the set itself, and the changes of each problem that was and still is in the set."""
 
     own: Diff
     problems: Mapping[str, Diff]
@@ -77,6 +77,6 @@ def _changes(before: Points, after: Points) -> list[Change]:
 
 
 def _worth(points: Points) -> str:
-    """Return the sum, as the cover of the set has it; "no points" if one of the problems has no points."""
+    """Return the sum of the points, as on the cover of the set; "no points" if one of the problems has no points."""
     known = [each for each in points.values() if each is not None]
     return points_text(sum(known, Fraction(0))) if len(known) == len(points) else "no points"

@@ -22,7 +22,7 @@ from derive.render.printing.told_once import told_once
 from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 
-FONT = "math.woff"  # of formulas, see tools/webfont.py
+FONT = "math.woff"  # fonts for formulas, see tools/webfont.py
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
     "routes", "routes_proved", "checks", "witnesses", "agree", "agree_to_figures", "errata", "remarks",
@@ -31,7 +31,7 @@ COUNTED = (
 
 @dataclass(frozen=True)
 class Listed:
-    """A problem as a document of its set shows it."""
+    """A problem in the form that a document of its set shows."""
 
     number: str
     problem: Rendered
@@ -79,7 +79,7 @@ def document_on_request(root: Path, heading: ProblemSet, problems: Sequence[Rend
 
 
 def document_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], kind: str) -> str:
-    """Return the same for a browser, on one page; the sheet has such a page too."""
+    """Return one of these documents, or the sheet, as one page for a browser."""
     label = phrases(template_folder(root)).labels["documents"][kind]
     listed = _listed(problems, kind)
     bodies = told_once([(each.name, each.number, each.problem.documents.get(f"{kind}.html", "")) for each in listed])
@@ -87,13 +87,13 @@ def document_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered],
 
 
 def the_document(kind: str) -> Callable[[Path, ProblemSet, Sequence[Rendered]], str]:
-    """Return the function that makes the .tex of a document."""
+    """Return the function that makes the .tex of that kind of document."""
     known = {SOLUTIONS: set_document, SHEET: sheet_document, REPORT: report_document}
     return known.get(kind) or partial(document_on_request, kind=kind)
 
 
 def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """Return a complete .tex, for the instructor, of how the set was checked and where its source is wrong."""
+    """Return a complete .tex for the instructor: how the set was checked, and where its source is wrong."""
     numbers = heading.numbers
     listed = [Listed(str(numbers.get(each.id.rpartition("/")[2], "")), each) for each in problems]
     return _document(root, "report.tex.j2", heading, listed)
@@ -167,7 +167,7 @@ def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[st
 
 
 def _total(problems: Sequence[Listed]) -> str:
-    """Return the points of all problems; nothing if one of them has none."""
+    """Return the sum of the points of all problems; empty if one problem has no points."""
     if not all(listed.problem.points for listed in problems):
         return ""
     total = sum((Fraction(listed.problem.points) for listed in problems), Fraction(0))

@@ -8,7 +8,7 @@ from pathlib import Path
 from derive.course.names import NAME
 from derive.errors import Complaint, Misused
 
-# The names for which the Makefile has other rules, as targets or as folders.
+# Names of sets that the Makefile already uses for other targets or folders.
 TARGETS = frozenset(
     [
         "all",
@@ -35,20 +35,21 @@ def set_folder(root: Path, set_id: str) -> Path:
 
 
 def set_names(root: Path) -> list[str]:
-    """Return the sets below the root, without reading them; folders whose name no set can have are left out."""
+    """Return the sets below the root, without reading them; folders whose names are not valid for a set are left
+    out."""
     folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
     return [name for name in folders if not wrong_set_name(name)]
 
 
 def wrong_set_name(name: str) -> str:
-    """Return why a set cannot have that name; empty if it can."""
+    """Return why a set cannot have that name; empty if the name is valid."""
     if not NAME.fullmatch(name):
         return "the name of a set has letters, digits, `-` and `_` only"
     return "`make` has a target of that name" if name in TARGETS else ""
 
 
 def misnamed_sets(root: Path) -> list[Complaint]:
-    """Return a warning about each folder that has a set.yaml, but a name that no set can have."""
+    """Return a warning about each folder that contains a set.yaml but whose name is not valid for a set."""
     folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
     return [
         Complaint("set-name", f"the set {name!r} is left out: {why}", help="rename its folder", severity="warning")
@@ -64,7 +65,7 @@ def check_asked(root: Path, set_id: str, problems: Collection[str] = ()) -> None
 
         if (root / "problems" / set_id / "set.yaml").is_file() and (why := wrong_set_name(set_id)):
             raise Misused(Complaint("set-name", f"a set cannot be called {set_id!r}: {why}", help="rename its folder"))
-        problem_set(root, set_id)  # this raises the error, with the nearest name
+        problem_set(root, set_id)  # raises the error, which suggests the nearest name
     for name in problems:
         from derive.course.problem_set import path_of
 

@@ -38,7 +38,7 @@ from derive.render.rendered import Files, Rendered
 if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
 
-CACHE = ".derived"  # where a set keeps the work of its builds
+CACHE = ".derived"  # the folder in which a set stores data between builds
 FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs, before and after the derivations
 
 
@@ -51,26 +51,26 @@ class Options:
     force: bool = False
     jobs: int = 0  # 0: as many as there are processors
     limit: float = TIME_LIMIT
-    only: tuple[str, ...] = ()  # problems of the set, if not all of them
-    documents: tuple[str, ...] = ()  # these documents alone, if not those that the set itself names
-    evidence: str | None = None  # how much solutions show of their checks, if not what the set says
+    only: tuple[str, ...] = ()  # problems to build; empty: all problems of the set
+    documents: tuple[str, ...] = ()  # documents to make; empty: those that the set lists
+    evidence: str | None = None  # how much solutions show of their checks; default: what the set says
 
 
 class Superseded(Exception):
-    """Files were edited during their build, so its unfinished work is useless."""
+    """Files were edited during their build, so the unfinished work of that build is useless."""
 
 
 @dataclass(frozen=True)
 class Edits:
-    """An author who edits the set while it is built again and again, and waits for edited problems before all else."""
+    """An author who edits the set while it is rebuilt after each edit; edited problems are built first."""
 
     edited: Callable[[], bool]  # whether there were edits since this build began
-    wrote: Callable[[Path], None]  # is called with the PDF of a problem as soon as it has changed
+    wrote: Callable[[Path], None]  # called with the PDF of a problem as soon as the PDF has changed
 
 
 @dataclass(frozen=True)
 class Ended:
-    """A piece of work that has ended: how (`derived`, `kept`, `typeset` or `failed`), which, and after how long."""
+    """A finished piece of work: how it ended (`derived`, `kept`, `typeset` or `failed`), its name, and its time."""
 
     how: str
     of: str
@@ -79,7 +79,7 @@ class Ended:
 
 @dataclass
 class Report:
-    """What a build did: how many problems it derived, which files changed, what went wrong."""
+    """The results of a build: the number of problems that it derived, the files that changed, the errors."""
 
     set_id: str
     problems: int = 0
@@ -103,7 +103,7 @@ def built_set(
     edits: Edits | None = None,
     ended: Callable[[Ended], None] = lambda _: None,
 ) -> Report:
-    """Build one set. `tell` shows the user what is under way, and `ended` is called for each piece that is done;
+    """Build one set. `tell` shows the user the work under way, and `ended` is called for each finished piece of work;
     with `edits` it may raise `Superseded`."""
     engine = chosen_engine(options.engine)
     check_asked(root, set_id, options.only)
@@ -162,7 +162,7 @@ class _Build:
         return result
 
     def _keep(self, saved: Callable[[], None]) -> None:
-        """Save data that only the next build uses; if that fails, this build is still good."""
+        """Save data that only the next build uses; if saving fails, this build still succeeds."""
         try:
             saved()
         except DeriveError as error:
@@ -208,13 +208,13 @@ class _Build:
                 self._pages({name: key for name, key in keys.items() if name not in edited})
                 self._whole()
                 self._finish()
-                if self.whole_failed and not self.result.failed:  # otherwise a problem's own document reported the same
+                if self.whole_failed and not self.result.failed:  # otherwise a problem's document reported it
                     self._took(self.whole_failed)
                 if not self.result.failed:
                     self.manifest.engine = engine_digest(*PACKAGES)
                     self.manifest.complete = len(self.derived) == len(self.names)
             finally:
-                # An interrupted build saves what it has finished, and is not complete.
+                # An interrupted build saves its finished work, and is marked as incomplete.
                 self._keep(self.manifest.save)
                 self.cache.evict()
 
@@ -223,11 +223,11 @@ class _Build:
         return ",".join(sorted(kind for kind, _ in self.documents if kind in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:
-        """Return the documents that are made now: all that the set has, or those that are asked for."""
+        """Return the documents that this build makes: all documents of the set, or the requested ones."""
         return [pair for pair in self.documents if not self.options.documents or pair[0] in self.options.documents]
 
     def _finish(self) -> None:
-        """Finish everything that is under way, and what follows from it."""
+        """Finish all work under way, and the work that follows from its results."""
         for outcome in self.crew.outcomes():
             self.then.pop(outcome.job)(outcome)
 
@@ -250,7 +250,8 @@ class _Build:
         return outcome.error is None
 
     def _pages(self, keys: Mapping[str, str]) -> None:
-        """Take the pages of problems, by name and key: use those that an earlier build kept, and derive the others."""
+        """Take the pages of problems, given by name and key: use pages that an earlier build stored, and derive the
+        rest."""
         kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.get_data(key)))}
         self._derive([name for name in keys if name not in kept])
         for name, page in kept.items():
@@ -280,7 +281,7 @@ class _Build:
         self.crew.start()
 
     def _prepare(self) -> None:
-        """Let a worker have TeX read the common beginning of all documents, if none has before."""
+        """Start a job in which TeX reads the common beginning of all documents, if no job has done this before."""
         from derive.page.template import template_folder
 
         if self.prepares:
@@ -304,14 +305,14 @@ class _Build:
         self._whole()
 
     def _take(self, name: str, page: Rendered, warnings: Sequence[Complaint]) -> None:
-        """Take a page of the set, derived now or before, and everything that belongs to it."""
+        """Add a page, derived now or by an earlier build, to the set, with its warnings and outputs."""
         self.result.warnings += warnings
         self.derived[name] = page
         self._check_files(name, page)
         self._document(name)
 
     def _check_files(self, name: str, derived: Rendered) -> None:
-        """Remove drawings that the problem no longer has; report a name that two outputs would have."""
+        """Remove drawings that the problem no longer has; report an error if two outputs would have the same name."""
         files = [file for file, _ in derived.files]
         of_documents = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
         others = {*(output for other in self.names for output in outputs_of(other)), *of_documents, f"{INDEX}.html"}
@@ -324,7 +325,7 @@ class _Build:
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _recipe(self) -> Recipe:
-        """Return the recipe of pages, marked if a module or a template was edited since the build began."""
+        """Return the recipe of pages; mark it if a module or a template has been edited since the build began."""
         if edited_since(self.root, self.started):
             self.made_by[MODULES] = EDITED
         return self.made_by
@@ -333,7 +334,8 @@ class _Build:
         return file_digest(self.root / path)
 
     def _input_digest(self, path: str) -> str:
-        """Return the digest of a file as it was when the build began; a later edit must be read again next time."""
+        """Return the digest of a file, or `EDITED` after an edit since the build began: the next build must read that
+        file again."""
         file = self.root / path
         is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # a file that is moved here may be old
         return EDITED if is_edited else self._digest(path)
@@ -368,7 +370,7 @@ class _Build:
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
-        """Return a page for a browser, which accompanies a PDF."""
+        """Return the page for a browser that accompanies a PDF."""
         try:
             return {f"{name}.html": page()}
         except DeriveError as error:
@@ -407,7 +409,7 @@ class _Build:
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
-        """Write the text and the source after their PDF, so that files next to each other belong together."""
+        """Write the text and the source after their PDF, so that the files of one name always match."""
         self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
         name = pdf.removesuffix(".pdf")
         if name in [file for _, file in self.documents] and outcome.error:
@@ -417,7 +419,7 @@ class _Build:
             return
         if outcome.value:
             self._changed(pdf)
-        with suppress(OSError):  # another process may remove it just now
+        with suppress(OSError):  # another process may have just removed it
             self.cache.keep(source, regular_content(self.outputs / pdf))
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
         if self._record(texts):
@@ -444,8 +446,8 @@ class _Build:
         return True
 
     def _stamp(self) -> None:
-        """Record for `make` the outputs, the options, the files of other sets that they use, and that all of them are
-        as new as this build's beginning."""
+        """Record for `make` the outputs, the options and the input files from other sets; set the time of `.built` to
+        the beginning of this build."""
         outputs = [f"build/{self.set_id}/{name}" for name in self.manifest.all_outputs()]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         read = {path for inputs in self.manifest.inputs.values() for path in inputs}

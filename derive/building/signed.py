@@ -1,8 +1,8 @@
-"""Data kept between builds, signed with a key of this machine: only data that derive itself wrote are trusted.
+"""Data stored between builds, signed with a key of this machine: only data that derive itself wrote are trusted.
 
-Everything kept is read as data. The key is in the user's state folder, outside every course: a person who can only
-write in the `build` folder of a course cannot sign. If no key can be kept, each process has a key of its own. Then
-nothing that another process kept is trusted, and everything is derived.
+Everything stored is read as data. The key is in the user's state folder, outside every course: a person who can only
+write in the `build` folder of a course cannot sign. If no key can be stored, each process has a key of its own. Then
+nothing that another process stored is trusted, and everything is derived.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ MAX_BYTES = 64 * 1024 * 1024
 
 
 def write_signed(file: Path, what: str, content: bytes) -> None:
-    """Write content after a signature, which states that derive wrote this content as `what`."""
+    """Write a signature and then the content; the signature states that derive wrote this content as `what`."""
     write(file, _signature(what, content) + content)
 
 
@@ -48,7 +48,8 @@ def data_of(content: bytes | None) -> Any:
 
 
 def regular_content(file: Path, limit: int = MAX_BYTES) -> bytes:
-    """Return the content of a file within a size limit; a node that is not a file, such as a pipe, never blocks."""
+    """Return the content of a file within a size limit; reject anything that is not a file, such as a pipe, without
+    blocking."""
     with open(os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as opened:
         facts = os.fstat(opened.fileno())
         if not stat.S_ISREG(facts.st_mode) or facts.st_size > limit:
@@ -61,7 +62,7 @@ def _signature(what: str, content: bytes) -> bytes:
 
 
 def key_file() -> Path | None:
-    """Return the path of this machine's key; nothing if the user has no folder of their own."""
+    """Return the path of this machine's key; None if the user has no folder of their own."""
     state = os.environ.get("XDG_STATE_HOME", "")
     try:
         folder = Path(state) if os.path.isabs(state) else Path.home() / ".local" / "state"
@@ -82,7 +83,7 @@ def _key() -> bytes:
 
 
 def _read_key(file: Path) -> bytes | None:
-    """Return the key, if it is whole and no other user could have read or written it."""
+    """Return the key if it is complete and no other user could have read or written it."""
     try:
         facts = os.lstat(file)
         private = stat.S_ISREG(facts.st_mode) and facts.st_uid == os.getuid() and not facts.st_mode & 0o077
@@ -93,12 +94,12 @@ def _read_key(file: Path) -> bytes | None:
 
 
 def _make_key(file: Path) -> None:
-    """Put a new key there, whole or not at all; if another process was first, its key stays."""
-    with suppress(OSError):  # no key is kept, or another process was first
+    """Write a new key, completely or not at all; if another process has already written one, that key stays."""
+    with suppress(OSError):  # no key can be stored, or another process was first
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if os.path.lexists(file):  # damaged, or open to others: whatever it signed is derived again
+        if os.path.lexists(file):  # damaged or readable by others: whatever this key signed is derived again
             file.unlink()
-        with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # for its owner alone
+        with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # only for its owner
             temporary.write(secrets.token_bytes(KEY_BYTES))
             temporary.flush()
             os.fsync(temporary.fileno())

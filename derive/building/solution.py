@@ -62,7 +62,7 @@ def rendered(
     """Derive a problem and print it; raise `DeriveError` with every error found.
 
     cache   the steps and drawings of earlier builds, which are used and extended
-    The others are those of `Wanted`.
+    The other parameters are fields of `Wanted`.
     """
     begun = time.time_ns()
     problem = load_problem(root, problem_id)
@@ -74,9 +74,9 @@ def rendered(
 
 
 def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[Complaint, ...]]:
-    """Return the steps, as they were kept or derived now, and what disagrees with the reference.
+    """Return the steps, stored or derived now, and the disagreements with the reference.
 
-    They are kept under a digest of the problem's files, unless one of these was edited after it was read.
+    Steps are stored under a digest of the problem's files, unless a file was edited after it was read.
     """
     key = steps_key(problem)
     with suppress(KeyError):
@@ -98,9 +98,9 @@ def _edited(problem: Problem, begun: int) -> bool:
     return any(file.exists() and file.stat().st_ctime_ns > begun for file in files)
 
 
-@lru_cache(maxsize=4)  # for a process that asks more than once
+@lru_cache(maxsize=4)  # for a process that needs them more than once
 def _kept(cache: Cache, key: str) -> Solved:
-    """Return what was kept under a key."""
+    """Return the steps stored under a key."""
     kept = Solved.from_data(cache.get_data(key))
     if kept is None:
         raise KeyError(key)
@@ -108,7 +108,7 @@ def _kept(cache: Cache, key: str) -> Solved:
 
 
 def _check_characters(problem: Problem) -> None:
-    """Check that prose has only characters that can be printed."""
+    """Check that prose contains only printable characters."""
     faults = []
     for prose in problem.texts:
         at = unprintable(prose.text)
@@ -123,7 +123,8 @@ def _check_characters(problem: Problem) -> None:
 def derived(
     problem: Problem, memory: Memory | None = None
 ) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
-    """Return the steps behind all answers, the steps that give them numbers, all steps by key, and the record."""
+    """Return the derivation of all answers, the steps that evaluate answers numerically, all steps by key, and the
+    record."""
     run = record.Run(memory=memory)
     try:
         returned = run_solve(problem, run)
@@ -158,7 +159,7 @@ def derived(
 
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
-    """Return whether another answer is the same condition: one comparison with the numbers is enough."""
+    """Return whether another answer is the same comparison with numbers, because printing it once is enough."""
     return step.rule == COMPARISON.name and step.chain in [other.chain for other in others]
 
 
@@ -196,9 +197,9 @@ def _value(
     amounts: Mapping[Symbol, Amount] | None = None,
     case: str = "",
 ) -> Quantity | None:
-    """Return the number of an answer, in the unit and to the figures that the part asks for.
+    """Return the number of an answer, in the unit and to the significant figures that the part asks for.
 
-    amounts, case   the numbers of one case of the part, and its label; by default the numbers of the problem
+    amounts, case   the numbers of one case of the part, and the label of the case; default: the numbers of the problem
     """
     key = f"{answer.key}_in_case_{case}" if case else None
     numbers = problem.amounts if amounts is None else amounts
@@ -232,7 +233,8 @@ def _value(
 def _kind_of(
     problem: Problem, answer: Quantity, dimensions: Mapping[Any, Dimension | None]
 ) -> tuple[str | None, Dimension]:
-    """Return the kind, if any, and the dimension of what takes a number: in a relation such as R > a/2, of R."""
+    """Return the kind, if any, and the dimension of the evaluated quantity: in a relation such as R > a/2, that is
+    R."""
     kind, symbol = answer.step.kind, answer.symbol
     if isinstance(answer.value, Relation):
         symbol = answer.value.left

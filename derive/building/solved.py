@@ -1,7 +1,7 @@
-"""A derivation as it is kept from one build to the next, so that a reworded page is not derived again.
+"""A derivation as stored between builds, so that a page with new wording is not derived again.
 
-It depends on derive's own modules and SymPy, on the script and its modules, the given values, the answers that parts
-ask for with their forms, and the reference. It does not depend on words, points and templates.
+A stored derivation depends on derive's own modules and SymPy, on the script and its modules, the given values, the
+answers that parts ask for with their forms, and the reference. It does not depend on words, points and templates.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Solved:
-    """A problem's steps, the steps that give its answers their numbers, the results of its reference, its drawings."""
+    """A problem's steps, the steps that evaluate its answers numerically, the results of its reference, its
+    drawings."""
 
     derivation: Derivation
     values: Mapping[str, Step]
@@ -46,7 +47,7 @@ class Solved:
 
     @classmethod
     def from_data(cls, data: Any) -> Solved | None:
-        """Return what `to_data` encoded; nothing if the data have any other shape."""
+        """Return the derivation that `to_data` encoded; None if the data have any other shape."""
         try:
             values = from_json(data["values"])
             told = tuple(

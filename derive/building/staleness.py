@@ -1,6 +1,6 @@
-"""The reasons why an output would be made again: each of its inputs is compared with its state at the last build.
+"""The reasons why an output would be made again: each input of the output is compared with its state at the last build.
 
-For this, nothing is derived, and nothing that derives is loaded.
+The comparison derives nothing, and loads no module that derives.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from derive.building.tex import chosen_engine
 from derive.course.names import DOCUMENTS, INDEX, NAME
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
-SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # of files that builds write
-MOST = 8  # reasons that are shown for one output
+SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # suffixes of files that builds write
+MOST = 8  # the most reasons shown for one output
 _SUCH_AS = "name a page such as `build/hw9/block.pdf`, a problem or a set"
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What a user asks about: outputs of a set, and how they would be built now."""
+    """The outputs of a set that a user asks about, and the options with which they would be built now."""
 
     root: Path
     set_id: str
-    outputs: tuple[str, ...]  # names of files; empty: all of the set
+    outputs: tuple[str, ...]  # names of files; empty: all outputs of the set
     detail: str | None = None
     evidence: str | None = None
     engine: str | None = None
@@ -39,7 +39,8 @@ class Asked:
 
 @dataclass(frozen=True)
 class Staleness:
-    """The reasons why outputs would be made again, in words, and the commands for it; empty if they are up to date."""
+    """The reasons why outputs would be made again, in words, and the commands that make them; empty if they are up to
+    date."""
 
     of: str
     reasons: tuple[str, ...]
@@ -55,7 +56,7 @@ class Staleness:
 def left_older(
     record: Manifest, set_id: str, documents: Sequence[str], recipe: Recipe, read: Callable[[str], str]
 ) -> list[Complaint]:
-    """Warn of documents that are older than their problems, because the last build was not asked for them."""
+    """Warn of documents that are older than their problems because the last build was not asked to make them."""
     older = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
     if not older:
         return []
@@ -64,7 +65,7 @@ def left_older(
 
 
 def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
-    """Return the set and the outputs that a path below build/, a problem's id or a set's name means."""
+    """Return the set and the outputs to which a path below build/, a problem's id or a set's name refers."""
     built = _below_build(root, what)
     set_id, _, name = built or what.partition("/")
     if not NAME.fullmatch(set_id):
@@ -114,7 +115,7 @@ def staleness(asked: Asked) -> Staleness:
 
 
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
-    """Yield reasons in files first, because users edit these; then the rarer ones."""
+    """Yield first the reasons in files, because users edit files, then the rarer reasons."""
     read: Callable[[str], str] = cache(lambda path: file_digest(asked.root / path))
     now = recipe_of(asked.root, asked.detail, asked.evidence or manifest.evidence)
     documents = _documents(manifest, outputs)
@@ -136,7 +137,7 @@ def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterat
         if _document_of(manifest, name) in made:
             yield from _of_output(manifest, name)
     if not manifest.complete and any(name in manifest.document_files for name in documents):
-        yield f"the last build of `{asked.set_id}` was not of all its problems, was interrupted or found an error"
+        yield f"the last build of `{asked.set_id}` left out problems, was interrupted or found an error"
 
 
 def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
@@ -148,13 +149,14 @@ def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
 
 
 def _is_unlisted(asked: Asked, manifest: Manifest, name: str) -> bool:
-    """Return whether the present set lacks this problem; unknown after an edit, as the set is not read again."""
+    """Return whether the set no longer lists this problem; False if its file was edited, because it is not read
+    again."""
     edited = any(file_digest(asked.root / path) != before for path, before in manifest.set_inputs.items())
     return not edited and name not in [*manifest.problems, *manifest.document_files, *DOCUMENTS]
 
 
 def _documents(manifest: Manifest, outputs: Sequence[str]) -> list[str]:
-    """Return the problems and documents of the set whose outputs these are."""
+    """Return the problems and the documents of the set to which these outputs belong."""
     return list(dict.fromkeys(_document_of(manifest, name) for name in outputs))
 
 
@@ -182,7 +184,7 @@ def _of_recipe(before: Recipe, now: Recipe) -> Iterator[str]:
         if was == is_now or name in (ONLY, ENGINE):
             continue
         if name in (DETAIL, EVIDENCE):
-            yield f"it was made with {_option(name, was)}, and would be with {_option(name, is_now)}"
+            yield f"it was made with {_option(name, was)}, but would now be made with {_option(name, is_now)}"
         elif name == MODULES:
             yield "derive itself has changed"
         elif name in PACKAGES:
@@ -203,7 +205,7 @@ def _of_engine(before: str, named: str | None) -> Iterator[str]:
         return
     was = before.partition(":")[0]
     if was != now.name:
-        yield f"it was typeset by {was}, and would be by {now.name}"
+        yield f"it was typeset by {was}, but would now be typeset by {now.name}"
     elif before != now.identity:
         yield f"the program of the TeX engine {was} has changed"
 
@@ -212,7 +214,7 @@ def _of_output(manifest: Manifest, name: str) -> Iterator[str]:
     if name not in manifest.outputs:
         yield f"`{name}` has not been made"
     elif not (manifest.folder / name).exists():
-        yield f"`{name}` is not there any more"
+        yield f"`{name}` does not exist any more"
     elif not manifest.holds(name):
         yield f"`{name}` has been edited since the build wrote it"
 
@@ -230,7 +232,7 @@ def _fixes(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator
 
 
 def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
-    """Return the command that makes these outputs, among all that a build of their problem or their set makes."""
+    """Return the command that makes these outputs: a build of their problem or of their set."""
     documents = _documents(manifest, outputs)
     kinds = [name for name in documents if name in DOCUMENTS and name not in manifest.document_files]
     only = ",".join(kinds) if kinds and manifest.pages else ""

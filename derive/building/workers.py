@@ -1,8 +1,8 @@
 """Forked workers: each job runs in a child of one warm process, with a time limit, and can be killed at any moment.
 
-What a job returns or raises comes back to the parent. A child leads a process group of its own, so that killing it
-also kills its TeX, and it ends by itself if the parent is gone. The parent starts no threads, so forking is safe. The
-limits of a child, and the errors when it gives no answer, are the same for the worker of a preview. The time limit is
+The result or the error of a job is sent to the parent. A child leads a process group of its own, so that killing it
+also kills its TeX, and the child ends itself if the parent is gone. The parent has no threads, so forking is safe. The
+limits of a child, and the errors if it gives no answer, are the same for the worker of a preview. The time limit is
 that of `derive.building.time_limit`.
 """
 
@@ -39,9 +39,9 @@ from derive.errors import BuildFailed, Complaint, DeriveError, Misused, OutOfTim
 TIME_LIMIT = 120.0
 GIB = 2**30
 MEMORY_LIMIT, SMALLEST_MEMORY = 4.0, 0.25  # GiB
-TIME, MEMORY, TOO_DEEP = "time-limit", "memory-limit", "too-deep"  # codes of the errors at a limit
+TIME, MEMORY, TOO_DEEP = "time-limit", "memory-limit", "too-deep"  # error codes of the limits
 _TICK = 0.1
-_NAMED = 5  # at most so many steps are named
+_NAMED = 5  # the most steps that a message names
 
 
 class Bug(Exception):
@@ -60,9 +60,9 @@ class Bug(Exception):
 
 @dataclass(frozen=True)
 class Job:
-    """A piece of work, named as the user knows it; `file` is its subject, `shown_as` the path of that in messages.
+    """A piece of work, with a name that the user knows; `file` is its subject, `shown_as` the file's path in messages.
 
-    Of the waiting jobs, one of the least `rank` begins first.
+    Among waiting jobs, a job of the lowest `rank` begins first.
     """
 
     name: str
@@ -74,7 +74,8 @@ class Job:
 
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
-    """Return a job for a problem; an error without an answer names its file; the longest files begin first."""
+    """Return a job for a problem; if its worker dies, the error names the problem's file; the longest files begin
+    first."""
     from derive.course.problem_set import found_path
 
     path = found_path(root, problem_id) or f"problems/{problem_id}.yaml"
@@ -98,7 +99,7 @@ class _Worker:
     job: Job
     child: ForkProcess
     pipe: Connection
-    trace: int  # where a worker that is stopped or dies writes the lines that it is in
+    trace: int  # where a worker that is stopped or dies writes the lines that were running
     started: float = field(default_factory=time.monotonic)
 
     @property
@@ -107,7 +108,8 @@ class _Worker:
 
 
 class Crew:
-    """At most `size` workers at a time; leaving the `with` block kills running workers and removes what they left."""
+    """At most `size` workers at a time; leaving the `with` block kills running workers and removes their temporary
+    files."""
 
     def __init__(self, size: int, tick: Callable[[Mapping[str, float]], None] | None = None):
         """`tick` is called again and again with the running jobs and their seconds."""
@@ -135,12 +137,12 @@ class Crew:
         heapq.heappush(self._waiting, (job.rank, self._put, job))
 
     def start(self) -> None:
-        """Start as many workers as allowed, without waiting for any."""
+        """Start waiting jobs while workers are free; do not wait for any result."""
         while self._waiting and len(self._running) < self._size:
             self._running.append(self._started(heapq.heappop(self._waiting)[2]))
 
     def outcomes(self) -> Iterator[Outcome]:
-        """Yield each job's outcome as it ends; more jobs may be put meanwhile."""
+        """Yield the outcome of each job as soon as the job ends; jobs may be added meanwhile."""
         while self._waiting or self._running:
             self.start()
             self._tick({worker.job.name: worker.seconds for worker in self._running})
@@ -163,7 +165,7 @@ class Crew:
                 child.start()
         except OSError as error:
             raise of_system(error, f"cannot start a process for {job.name}") or error from None
-        with contextlib.suppress(OSError):  # the child does the same; either may be first
+        with contextlib.suppress(OSError):  # the child makes the same call; either call may come first
             os.setpgid(child.pid or 0, child.pid or 0)
         theirs.close()
         os.close(traced)
@@ -171,7 +173,7 @@ class Crew:
 
 
 def under_way(running: Mapping[str, float], set_id: str = "") -> str:
-    """Return `block 2 s, pages of top 1 s`: the longest-running first; problems of that set by name alone."""
+    """Return `block 2 s, pages of top 1 s`: the longest-running job first; problems of that set without its name."""
     longest = sorted(running.items(), key=lambda each: -each[1])
     named = [(job.removeprefix("the ").replace(f"`{set_id}/", "`").replace("`", ""), s) for job, s in longest]
     return ", ".join(f"{name} {seconds:.0f} s" for name, seconds in named)
@@ -186,7 +188,7 @@ def _pipe() -> tuple[int, int]:
 
 @contextlib.contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Delay signals during a fork: Python would lose a signal that arrives in its own code around the fork."""
+    """Delay signals during a fork: Python would lose a signal that arrives in its internal code around the fork."""
     signals = (signal.SIGINT, signal.SIGTERM)
     before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
     try:
@@ -196,7 +198,7 @@ def _undisturbed() -> Iterator[None]:
 
 
 def memory_limit() -> int:
-    """Return how many bytes a worker may take, from DERIVE_MEMORY in GiB."""
+    """Return how many bytes of memory a worker may use; DERIVE_MEMORY gives the limit in GiB."""
     text = os.environ.get("DERIVE_MEMORY", "").strip()
     if not text:
         return round(MEMORY_LIMIT * GIB)
@@ -224,7 +226,7 @@ def _outcome(worker: _Worker) -> Outcome | None:
         except EOFError:
             worker.child.join()
             value, error = None, died(job, worker.child.exitcode or 0, lines_told(worker.trace))
-        except Exception as unread:  # a value that only its own process can read
+        except Exception as unread:  # a value that only the worker's process can read
             value, error = None, Bug(f"{type(unread).__name__}: {unread}", traceback.format_exc())
         if isinstance(error, str):
             error = overtaxed(job, error, lines_told(worker.trace))
@@ -235,7 +237,7 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker that gave no answer, at the line of the script that was running."""
+    """Return the error about a worker without an answer; its place is the line of the script that was running."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what it states about {job.name}"
@@ -243,7 +245,7 @@ def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: I
 
 
 def _reference_in(trace: str, job: Job) -> str:
-    """Return the file of what a document states, if the worker was reading it or comparing with it."""
+    """Return the path of the reference file, if the worker was reading it or comparing steps with it."""
     path = f"{'/'.join(job.shown_as.split('/')[:2])}/reference.yaml"
     compares = re.search(r'^  File ".+/derive/course/reference/', trace, re.MULTILINE)
     there = compares and job.file and (job.file.parents[job.shown_as.count("/")] / path).is_file()
@@ -251,7 +253,8 @@ def _reference_in(trace: str, job: Job) -> str:
 
 
 def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed:
-    """Return the error of a worker at its time limit: where it was, what it was doing if known, what is finished."""
+    """Return the error of a worker at its time limit: the running line, the work under way if known, the finished
+    steps."""
     late = late or OutOfTime()
     asked = f", at last for `{late.answers[-1]}`" if late.answers else ""
     took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
@@ -268,7 +271,7 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
 
 
 def died(job: Job, code: int, trace: str) -> BuildFailed:
-    """Return the error of a worker that ended by itself, with that exit code, or by a signal."""
+    """Return the error of a worker that ended unexpectedly, with that exit code or by a signal."""
     if ended_by_limit(code, trace):
         return too_long(job, trace)
     why = f"signal {-code}" if code < 0 else f"exit code {code}"
@@ -278,7 +281,7 @@ def died(job: Job, code: int, trace: str) -> BuildFailed:
 
 
 def overtaxed(job: Job, what: str, trace: str) -> BuildFailed:
-    """Return the error of a worker that came to the limit of its memory or of its stack."""
+    """Return the error of a worker that reached the limit of its memory or of its stack."""
     if what == TOO_DEEP:
         help_ = "look for an endless recursion in its script, or for an expression with very many brackets"
         return _stopped(job, TOO_DEEP, f"{job.name} is nested deeper than Python allows", help_, trace)
@@ -288,7 +291,7 @@ def overtaxed(job: Job, what: str, trace: str) -> BuildFailed:
 
 
 def lines_told(trace: int) -> str:
-    """Return what a worker has written there, without waiting for more."""
+    """Return the lines that a worker has written to `trace`, without waiting for more."""
     try:
         return os.read(trace, 1 << 16).decode(errors="replace")
     except OSError:
@@ -296,7 +299,7 @@ def lines_told(trace: int) -> str:
 
 
 def _line_in(trace: str, job: Job) -> Place | None:
-    """Return the innermost line of a script next to the problem's file."""
+    """Return the innermost running line that belongs to a script in the folder of the problem's file."""
     for name, line in re.findall(r'^  File "(.+)", line (\d+) in ', trace, re.MULTILINE):
         file = Path(name)
         if job.file and file.parent == job.file.parent:
@@ -328,7 +331,7 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
     # A worker is short-lived: collecting garbage in it often costs more than the garbage.
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
-    # What a script prints is for the person at the terminal, not part of the answer.
+    # Output of a script is shown to the user at the terminal; it is not part of the answer.
     os.dup2(2, 1)
     sys.stdout = sys.stderr
     value, error = attempt(job, trace)
@@ -344,10 +347,10 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
 
 
 def attempt(job: Job, trace: int) -> tuple[Any, DeriveError | Bug | str | None]:
-    """Do the work of a job within its time, and return its value or its error.
+    """Do the work of a job within its time limit, and return its value or its error.
 
-    At the limit of memory or of nesting the error is only the code of that limit: the parent process makes the error
-    from it, and from what was written to `trace`.
+    At the limit of memory or of nesting, the error is only the code of that limit: the parent process makes the error
+    message from the code and from the lines written to `trace`.
     """
     try:
         with limited(job.limit, trace):
@@ -360,7 +363,7 @@ def attempt(job: Job, trace: int) -> tuple[Any, DeriveError | Bug | str | None]:
         return None, _limit_reached(trace, short)
     except OSError as refused:
         return None, of_system(refused) or _bug(refused)
-    except BaseException as bug:  # also of a script, which may end its program
+    except BaseException as bug:  # also SystemExit, which a script may raise
         return None, _bug(bug)
 
 
@@ -369,11 +372,12 @@ def _bug(error: BaseException) -> Bug:
 
 
 def confine(lifeline: int, trace: int, limit: int) -> None:
-    """Make this process a worker: it ends with its parent, has a memory limit, and says where it is if asked."""
+    """Make this process a worker: it ends with its parent, has a memory limit, and writes its running lines on
+    request."""
     for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(signum, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
-    with contextlib.suppress(OSError, AttributeError):  # Linux does it, in the middle of a long multiplication too
+    with contextlib.suppress(OSError, AttributeError):  # Linux ends it even during a long multiplication
         own = os.open(f"/proc/self/fd/{lifeline}", os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         fcntl.fcntl(own, fcntl.F_SETSIG, signal.SIGKILL)
         fcntl.fcntl(own, fcntl.F_SETOWN, -os.getpgrp())
@@ -384,7 +388,7 @@ def confine(lifeline: int, trace: int, limit: int) -> None:
 
 
 def _limit_memory(limit: int) -> None:
-    """Limit the data of this process and of each program that it starts, where the system counts them."""
+    """Limit the memory of this process and of each program that it starts, if the system supports this."""
     with contextlib.suppress(OSError, ValueError):
         soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
         known = [each for each in (limit, soft, hard) if each != resource.RLIM_INFINITY]
@@ -392,14 +396,15 @@ def _limit_memory(limit: int) -> None:
 
 
 def _limit_reached(trace: int, error: MemoryError | RecursionError) -> str:
-    """Write the lines that the error came through, and return the code of the limit."""
+    """Write the lines through which the error propagated, and return the code of the limit."""
     with contextlib.suppress(OSError):
         os.write(trace, _trail(error).encode()[: select.PIPE_BUF * 8])
     return MEMORY if isinstance(error, MemoryError) else TOO_DEEP
 
 
 def _trail(error: BaseException) -> str:
-    """Return the lines that an error came through, innermost first, as `faulthandler` does; of many only the ends."""
+    """Return the lines through which an error propagated, innermost first, as `faulthandler` does; of many, only both
+    ends."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')
@@ -408,7 +413,7 @@ def _trail(error: BaseException) -> str:
 
 
 def _short_trace(error: BaseException) -> str:
-    """Return the traceback of an error, which is cut for a deep recursion."""
+    """Return the traceback of an error; the traceback of a deep recursion is shortened."""
     return "".join(traceback.format_exception(type(error), error, error.__traceback__, limit=-60))
 
 

@@ -13,7 +13,8 @@ from derive.errors import Complaint, Misused
 
 
 def found_root(named: str | None) -> Path | None:
-    """Return the folder with `problems`: the named one; else the present one, one above it, or derive's checkout."""
+    """Return the folder that contains `problems`: the named one; default: the working folder, one above it, or derive's
+    checkout."""
     asked = named or os.environ.get("DERIVE_ROOT")
     try:
         here = Path.cwd()
@@ -27,7 +28,7 @@ def found_root(named: str | None) -> Path | None:
 def _has_problems(folder: Path) -> bool:
     try:
         return (folder / "problems").is_dir()
-    except (OSError, ValueError):  # a name that no folder can have
+    except (OSError, ValueError):  # not a valid name of a folder
         return False
 
 
@@ -42,12 +43,12 @@ def root_of(arguments: argparse.Namespace) -> Path:
 
 
 def problem_id_of(text: str) -> str:
-    """Return the id of a problem, also from a path such as problems/hw9/block.yaml, with or without a topic."""
+    """Return the id of a problem from an id or a path such as problems/hw9/block.yaml; leave out the topic, if any."""
     return re.sub(r"^([^/]+)/[^/]+/([^/]+)$", r"\1/\2", new_id_of(text))
 
 
 def new_id_of(text: str) -> str:
-    """Return the id of a problem that does not exist yet, which has no topic."""
+    """Return the id of a new problem from the id or path that the user wrote; a new problem has no topic."""
     return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
 
 

@@ -43,11 +43,11 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # most lines that are shown before the result of a step
+_MOST_LINES = 3  # the most lines that are shown before the result of a step
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
-    """Return every change under the heading of its sort, after the number of changes."""
+    """Return the number of changes, then all changes under the headings of their sorts."""
     found = diff.changes
     if not found:
         return f"{problem_id}: nothing has changed since {diff.since}"
@@ -59,14 +59,14 @@ def told(problem_id: str, diff: Diff, coloured: bool) -> str:
 
 
 def told_of_set(set_id: str, diff: SetDiff, coloured: bool) -> str:
-    """Return the changes of the set itself, and of each problem that has changed."""
+    """Return the changes of the set itself, and those of each problem that has changed."""
     each = {set_id: diff.own, **diff.problems}
     changed = [told(name, one, coloured) for name, one in each.items() if one.changes]
     return "\n\n".join(changed) or told(set_id, diff.own, coloured)
 
 
 def as_json(problem_id: str, diff: Diff) -> str:
-    """Return the same for programs."""
+    """Return the changes as JSON for programs."""
     return _json(_data("problem", problem_id, diff))
 
 
@@ -85,7 +85,7 @@ def _json(data: Any) -> str:
 
 
 class _Shown:
-    """The changes as lines of the terminal."""
+    """The changes as lines for the terminal."""
 
     def __init__(self, coloured: bool):
         self.coloured = coloured
@@ -108,7 +108,7 @@ class _Shown:
         return self._painted(f"  {_SIGNS[change.how]} {change.where}", change.how) + text
 
     def _pair(self, head: str, before: str, after: str, indent: str) -> list[str]:
-        """Show the text before and after: in one line if there is room, else one below the other."""
+        """Show the old and the new text: in one line if there is room, else on separate lines."""
         line = f"{head}: {before} -> {after}"
         if before and after and columns(line) <= WIDTH and "\n" not in line:
             return [f"{head}: {self._painted(before, REMOVED)} -> {self._painted(after, ADDED)}"]
@@ -142,7 +142,7 @@ class _Shown:
                 yield from self._pair(self._head(change), *result, "      ")
             else:
                 yield self._head(change)
-            if result and "lines" in facets:  # the result shows enough
+            if result and "lines" in facets:  # the result alone is enough
                 del facets["lines"]
             for facet, (before, after) in facets.items():
                 cut = _few if facet == "lines" else str
@@ -155,7 +155,7 @@ class _Shown:
                 yield from self._filled([w for run, *ends in _ended(change.words) for w in _marked(*run, *ends)])
 
     def _filled(self, words: Sequence[tuple[str, str]]) -> Iterable[str]:
-        """Fill lines with words by their width, without counting their colours."""
+        """Fill lines with words up to the width; colour codes do not count."""
         indent, line, room = " " * 6, list[str](), WIDTH - 6
         for how, word in words:
             if columns(word) > room and line:
@@ -179,20 +179,20 @@ def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], b
 
 
 def _marked(how: str, words: str, first: bool, last: bool) -> list[tuple[str, str]]:
-    """Return the words of a run one by one, in the marks of `git diff --word-diff`."""
+    """Return the words of a run, each with the marks of `git diff --word-diff`."""
     marked = {EQUAL: _abridged(words, first, last), REMOVED: f"[-{words}-]", ADDED: f"{{+{words}+}}"}[how]
     return [(how, word) for word in marked.split(" ")]
 
 
 def _abridged(words: str, first: bool, last: bool) -> str:
-    """Return only the unchanged words next to a change, if there are many."""
+    """Return the unchanged words; of many, only those next to a change."""
     listed = words.split(" ")
     before, after = ([] if first else listed[:_AROUND]), ([] if last else listed[-_AROUND:])
     return words if len(listed) <= len(before) + len(after) + 1 else " ".join([*before, "…", *after])
 
 
 def _few(lines: str) -> str:
-    """Return the first of many lines, and how many others there are."""
+    """Return the lines; of many, only the first and the number of the rest."""
     listed = lines.splitlines()
     more = len(listed) - _MOST_LINES
     return lines if more <= 1 else "\n".join([*listed[:_MOST_LINES], f"and {more} more"])

@@ -1,4 +1,4 @@
-"""The table of `derive check`: the steps of each problem, the claims that were checked for them, and the grades."""
+"""The table of `derive check`: for each problem its steps, their checked claims, and the grades."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _OF_CLAIMS = ("lines", "routes", "checks")
 
 
 def check_table(outcomes: Iterable[tuple[str, Outcome]]) -> str:
-    """Return a line for each problem, and what its columns count."""
+    """Return a line for each problem, with headings that say what each column counts."""
     return f"{table([HEADING, *(_row(problem, outcome) for problem, outcome in outcomes)])}\n\n{LEGEND}"
 
 

@@ -176,7 +176,7 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
 
 
 def named(action: argparse.Action, names: str) -> None:
-    """Let the shell complete an operand with names of the course, which `derive/cli/completing.py` finds."""
+    """Let the shell complete an operand with names from the course; `derive/cli/completing.py` finds these names."""
 
     def completer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> Iterable[str]:
         from derive.cli.completing import offered
@@ -213,6 +213,6 @@ def _port(text: str) -> int:
     return int(text)
 
 
-# argparse names the type in its message
+# argparse shows this name in its message
 _positive.__name__, _port.__name__ = "time limit", "port"
 _count.__name__ = "count"

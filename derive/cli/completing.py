@@ -1,7 +1,7 @@
 """The names that a shell completes: sets, problems, topics and pages from file names, and steps from the last build.
 
-A shell asks each time that you press Tab. So no module that derives is loaded here, and only the page whose steps are
-wanted is read.
+The shell runs this code each time that you press Tab. So this module loads no module that derives, and reads a page
+only if its steps are needed.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ def offer(parser: argparse.ArgumentParser) -> None:
 
 
 def offered(names: str, prefix: str, root: str | None, problem: str = "") -> list[str]:
-    """Return the names of a sort that begin with a prefix; nothing without a course. Steps are those of a problem."""
+    """Return the names of a sort that begin with a prefix; nothing without a course. Steps are looked up in
+    `problem`."""
     try:
         folder = found_root(root)
     except DeriveError:
@@ -42,7 +43,7 @@ def _steps(root: Path, problem_id: str) -> list[str]:
     try:
         page = json.loads((root / "build" / f"{problem_id}.json").read_bytes())
         return [str(step["key"]) for step in page["steps"]]
-    except (OSError, ValueError, LookupError, TypeError):  # it is not built, or not by derive
+    except (OSError, ValueError, LookupError, TypeError):  # the page is not built, or not written by derive
         return []
 
 
@@ -51,7 +52,7 @@ def _sets(root: Path) -> list[str]:
 
 
 def _files(root: Path) -> list[tuple[str, ...]]:
-    """Return the parts of the path of each problem: set, topic if it has one, file."""
+    """Return the parts of each problem's path: set, topic if it has one, file."""
     top = root / "problems"
     files = [file for depth in ("*/*.yaml", "*/*/*.yaml") for file in top.glob(depth)]
     return [file.relative_to(top).parts for file in files if file.stem not in _NOT_PROBLEMS]

@@ -39,7 +39,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         from derive.cli.completing import offer
 
         offer(parser_of_commands())
-    gc.set_threshold(300_000)  # searching the loaded modules for garbage would take an eighth of their loading time
+    gc.set_threshold(300_000)  # collecting garbage would take an eighth of the time in which modules are loaded
     try:
         from derive.cli.streams import read
 
@@ -66,7 +66,7 @@ class _Screen(argparse.RawDescriptionHelpFormatter):
 
 
 def parser_of_commands(words: Container[str] | None = None) -> argparse.ArgumentParser:
-    """Return every command; if `words` are given, commands that are not among them have only a name and a help."""
+    """Return the parser of all commands; if `words` are given, commands that are not among them get no options."""
     parser = argparse.ArgumentParser(
         prog="derive",
         usage="%(prog)s [--root FOLDER] COMMAND ...   (derive COMMAND --help explains one)",

@@ -15,7 +15,7 @@ _WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
 
 
 def check_output(output: str | None, root: Path) -> None:
-    """Refuse, before any work, what `-o` must not write to: a file written by hand, or the target of a link."""
+    """Reject a target of `-o` before any work if it is a file written by hand or a link."""
     if output in (None, "-"):
         return
     path = Path(output or "")
@@ -38,7 +38,7 @@ def _kept_from(path: Path, root: Path) -> str:
 
 
 def _is_ours(path: Path) -> bool:
-    """Return whether the first line says that derive has written it."""
+    """Return whether the first line of the file says that derive wrote the file."""
     with suppress(OSError), path.open("rb") as file:
         return WRITTEN.encode() in file.readline(200)
     return False
@@ -51,12 +51,12 @@ def _belongs_to(path: Path, root: Path) -> bool:
 
 
 def deliver(content: bytes, output: str | None) -> None:
-    """Write what was asked for; a file is written whole or not at all."""
+    """Write the requested output; a file is written completely or not at all."""
     from derive.building.files import write
 
     path = Path(output or "-")
     if output in (None, "-"):
-        # Not sys.stdout.buffer, which under PYTHONUNBUFFERED may write a part and report no error.
+        # Not sys.stdout.buffer: with PYTHONUNBUFFERED it may write only a part and report no error.
         with open(1, "wb", closefd=False) as out:
             out.write(content)
     elif os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):

@@ -1,4 +1,4 @@
-"""The run of a command: an error that stops it is reported in a few lines and without a traceback."""
+"""The run of a command: an error that stops the command is reported in a few lines and without a traceback."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def exit_code(arguments: argparse.Namespace) -> int:
     """Run a command and return its exit code; report an error in a few lines, without a traceback."""
     try:
         for number in (signal.SIGTERM, signal.SIGHUP):
-            if signal.getsignal(number) != signal.SIG_IGN:  # as `nohup` sets it
+            if signal.getsignal(number) != signal.SIG_IGN:  # ignored, as under `nohup`
                 signal.signal(number, _terminated)
         code = _command(arguments.command)(arguments)
         sys.stdout.flush()
@@ -71,7 +71,7 @@ def exit_code(arguments: argparse.Namespace) -> int:
         if known:
             return _told(known)
         tell("")
-        trace = getattr(error, "trace", None)  # a worker's own
+        trace = getattr(error, "trace", None)  # an error inside a worker
         internal(str(error) if trace else f"{type(error).__name__}: {error}", trace or traceback.format_exc())
         return 1
 
@@ -89,8 +89,8 @@ def _told(error: DeriveError) -> int:
 
 
 class Ending:
-    """Whether a signal asked this process to end, and which one: an exception raised in a signal handler may be lost in
-    the code of a library."""
+    """The signal that asked this process to end, if any. It raises no exception, because a library may lose an
+    exception that a signal handler raises."""
 
     number = 0
 

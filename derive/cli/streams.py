@@ -48,15 +48,15 @@ def silence(descriptor: int) -> None:
 
 
 def _open_streams() -> None:
-    """Keep a closed standard stream closed, so that no other file takes its place and is written to."""
+    """Occupy the descriptor of a closed standard stream, so that no other file gets it and is written to by mistake."""
     for descriptor, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
         try:
             os.fstat(descriptor)
         except OSError:
-            os.open(os.devnull, mode)  # writing to descriptor 1 fails, as it should
+            os.open(os.devnull, mode)  # opened for reading, so that writing to descriptor 1 fails
     sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):  # pages are UTF-8 too, whatever a terminal without a language shows
+        if isinstance(stream, TextIOWrapper):  # UTF-8, like the pages, even on a terminal without a language setting
             ascii_only = codecs.lookup(stream.encoding).name == "ascii"
             stream.reconfigure(encoding="utf-8" if ascii_only else None, errors="backslashreplace")

@@ -12,14 +12,15 @@ from collections.abc import Iterable, Sequence
 from derive.errors import Complaint
 
 _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
-MOST = 50  # most errors that are shown
+MOST = 50  # the most errors that are shown
 WIDTH = 98
 _INDENT = 22  # indent of the lines about an error of the source
 _PAINT = {"error": "1;31", "warning": "1;33", "done": "32"}
 
 
 def complain(complaints: Iterable[Complaint]) -> None:
-    """Print each error once, in order, on standard error; of very many the first ones and the number of others."""
+    """Print each error once, in order, on standard error; of very many, print the first ones and the number of the
+    rest."""
     coloured = in_colour()
     found = list(dict.fromkeys(complaints))
     for text in dict.fromkeys(complaint.shown() for complaint in found[:MOST]):
@@ -30,14 +31,14 @@ def complain(complaints: Iterable[Complaint]) -> None:
 
 
 def in_colour() -> bool:
-    """Return whether standard error has colours: on a terminal that supports them, unless the user forbids it."""
+    """Return whether to colour standard error: on a terminal that supports colours, unless the user forbids them."""
     return sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
 def tell(text: str) -> None:
-    """Show the work under way in place of the last such line; an empty text clears the line. Print nothing in a pipe.
+    """Replace the line about the work under way; an empty text clears the line. Print nothing into a pipe.
 
-    If a list is too long for the line, only its first items are shown, each of them whole.
+    If a list is too long for the line, only its first items are shown; no item is cut.
     """
     if sys.stderr.isatty():
         width = shutil.get_terminal_size().columns - 1
@@ -47,7 +48,7 @@ def tell(text: str) -> None:
 
 
 def note(how: str, of: str, seconds: float) -> None:
-    """Print a line that stays: a piece of work that is done, and its time if it took any."""
+    """Print a permanent line about a finished piece of work, with its time if it is not zero."""
     tell("")
     colour = _PAINT["error"] if how == "failed" else _PAINT["done"]
     painted = f"\x1b[{colour}m{how}\x1b[0m" if in_colour() else how

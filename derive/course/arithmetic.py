@@ -1,8 +1,7 @@
-"""Values under construction: the data that a reader of mathematics has of each part, and its checks when it combines
-parts.
+"""Values under construction: the data of each part of an expression, and the checks when parts are combined.
 
 Both readers, of plain expressions and of LaTeX, build their values here. Dimensions must agree, nothing is divided by
-zero, and a value that would be too large is refused before it is computed. `size` bounds digits and degrees; `terms`
+zero, and a value that would be too large is rejected before it is computed. `size` bounds digits and degrees; `terms`
 bounds the number of terms after multiplying out.
 """
 
@@ -31,7 +30,7 @@ MAX_EXP_ARGUMENT = 100
 
 @dataclass(frozen=True)
 class Declared:
-    """A symbol that the file declares, its kind, and the range in which it lies."""
+    """A symbol that the file declares, its kind, and its range."""
 
     name: str
     symbol: Symbol
@@ -65,7 +64,8 @@ class Term:
 
 
 class Arithmetic:
-    """The operations of a reader on terms of one text; each refuses, at its place, what has no meaning."""
+    """The operations of a reader on terms of one text; each rejects, at its place in the text, operands without a
+    meaning."""
 
     max_terms = MAX_TERMS
 
@@ -113,7 +113,7 @@ class Arithmetic:
         return replace(term, expr=1 / term.expr, dimension=NUMBER / term.dimension)
 
     def raised(self, base: Term, exponent: Term) -> Term:
-        """Return the power, after a check that it is small; `9**9**9` is refused here before it is computed."""
+        """Return the power, after a check that it is small; `9**9**9` is rejected here before it is computed."""
         number = exponent.expr
         if not number.is_number and exponent.dimension == NUMBER:
             return self._raised_to_letters(base, exponent)
@@ -169,7 +169,7 @@ class Arithmetic:
 
     def bound(self, start: int, end: int, size: int, terms: int) -> None:
         if size > MAX_SIZE or terms > self.max_terms:
-            self.refuse("too-large", "this would be too large when worked out", start, end)
+            self.refuse("too-large", "this would be too large to evaluate", start, end)
 
     def real(self, term: Term) -> Term:
         if term.expr.has(zoo, nan, oo):

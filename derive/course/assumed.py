@@ -35,7 +35,7 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
     """Return the relations of one entry; a chain gives one relation for each pair of neighbours.
 
     constant   the letters that a relation may contain
-    moving     coordinates and rates: a relation about them would not hold at all times
+    moving     coordinates and rates, which a relation may not contain, because it would not hold at all times
     """
     if not isinstance(node, Scalar) or node.empty:
         rejected("wrong-type", "`assume` needs a list of relations between letters", node.place, EXAMPLE)
@@ -73,7 +73,7 @@ def _side(piece: Scalar, constant: Mapping[str, Declared], moving: set[str]) -> 
 
 
 def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict[Symbol, Range]:
-    """Return the ranges of letters, narrowed by those relations that bound a letter by a number."""
+    """Return the ranges of letters, narrowed by the relations that bound a letter by a number."""
     found = dict(ranges)
     for each in assumed:
         bound = _bound(each.relation)
@@ -84,7 +84,7 @@ def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict
 
 
 def _bound(relation: Relation) -> tuple[Symbol, Expr, bool, bool] | None:
-    """Return a letter, the number that bounds it, whether from above, and whether the letter may equal it."""
+    """Return a letter, its numerical bound, whether this is an upper bound, and whether the letter may equal it."""
     (left, right), less = relation.sides, relation.operator[0] == "<"
     closed = relation.operator.endswith("=")
     if isinstance(left, Symbol) and right.is_number:
@@ -104,7 +104,7 @@ def _cut(known: Range, number: Expr, above: bool, closed: bool) -> Range:
 def order_of(
     assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], wrong: Callable[[Assumed], None] = lambda each: None
 ) -> Order:
-    """Combine all relations into one order; call `wrong` with each relation that contradicts those before it."""
+    """Combine all relations into one order; call `wrong` with each relation that contradicts an earlier one."""
     order = Order()
     with within(ranges):
         for each in assumed:
@@ -121,7 +121,7 @@ def order_of(
 def check_assumed(
     assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], numbers: Mapping[Symbol, Expr], faults: Faults
 ) -> None:
-    """Check that the relations can hold together, within the ranges of their letters and for their numbers."""
+    """Check that all relations can hold together, within the ranges of their letters and for the given numbers."""
 
     def contradicts(each: Assumed) -> None:
         message = f"`{each.written}` contradicts what is known about these letters"

@@ -1,4 +1,4 @@
-"""The files of a new problem, which build at once, made from a pattern or from an existing problem.
+"""The files of a new problem, made from a pattern or from an existing problem; the new problem builds without changes.
 
 No work of the author is lost: an existing file is never overwritten, and an existing set's file only gains one line in
 its list of problems.
@@ -27,7 +27,7 @@ def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str
     """Return the files of a new problem, by path from the root; raise `Misused` if they cannot be written.
 
     templates   the folder of patterns
-    schemas     the folder of schemas for editors
+    schemas     the folder of the schemas for editors
     like        a pattern by its name, or the id of a problem
     """
     set_id, _, name = problem_id.partition("/")

@@ -1,4 +1,4 @@
-"""Letters as a file declares them: a kind, and the range in which the letter lies."""
+"""The letters that a file declares, each with its kind and its range."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _RANGE = re.compile(r"\s*([\[(])([^,]+),([^,]+)([\])])\s*")
 def read_range(name: str, node: Scalar, kind: str, signed: bool = False) -> Range:
     """Read the range in which a letter lies: `(0, pi/2)`, `[0, 90 deg]`, `(0, infinity)`.
 
-    `signed` means that the letter may be negative although its kind is otherwise positive, as for a coordinate.
+    If `signed`, the letter may be negative even if its kind is otherwise positive; an example is a coordinate.
     """
     found = _RANGE.fullmatch(node.text)
     if not found:
@@ -76,7 +76,7 @@ def declared_letters(kinds: Table[Word, SortOfLetter], faults: Faults) -> dict[s
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that a declaration states in addition to its kind."""
+    """Return the range that a declaration states after the kind."""
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort)

@@ -13,7 +13,8 @@ from derive.course.written import SCRIPT, ProblemKeys
 
 
 def problem_schema() -> str:
-    """Return the schema of a problem's file; the keys allowed under `given:` depend on the engine's script it names."""
+    """Return the schema of a problem's file; the keys allowed under `given:` depend on the engine's script named in the
+    file."""
     schema = object_schema(ProblemKeys)
     schema["properties"]["solve"] |= {"anyOf": [{"enum": list(stock_names())}, {"pattern": f"^{SCRIPT.pattern}$"}]}
     schema["properties"]["reference"] |= {**object_schema(OwnKeys), "type": ["object", LEFT_EMPTY]}
@@ -29,7 +30,7 @@ def set_schema() -> str:
 
 
 def reference_schema() -> str:
-    """Return the schema of what a document states about the problems of a set."""
+    """Return the schema of `reference.yaml`: the statements of a document about the problems of a set."""
     items = {"anyOf": [object_schema(DocumentKeys), object_schema(GroupKeys)]}
     groups = {"type": "array", "items": items, "minItems": 1}
     return schema_for_editors("What a document states", groups)
@@ -43,7 +44,7 @@ SCHEMAS = {
 
 
 def schema_folder(root: Path) -> Path:
-    """Return the folder of a course's schemas: with its templates if it has its own, else with its problems."""
+    """Return the folder of a course's schemas: its `templates` folder if there is one, else `problems/schemas`."""
     return root / "templates" if (root / "templates").is_dir() else root / "problems" / "schemas"
 
 

@@ -9,7 +9,7 @@ A number may be followed by the unit of an angle, `sin(30 deg)`. A number with a
 the reader of the file has letters for numbers.
 
 The grammar reads every character; no text ever reaches Python or SymPy as code. Every value is bounded
-before it is built: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
+before it is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class _Token:
 def read_expression(
     scalar: Scalar, symbols: Mapping[str, Declared], letter_for: LetterFor | None = None
 ) -> tuple[Expr, Dimension]:
-    """Return the value and dimension of an expression in the declared symbols, or raise `Rejected` with what is wrong.
+    """Return the value and dimension of an expression in the declared symbols; raise `Rejected` if it has an error.
 
     letter_for   finds the letter that replaces a number with its unit
     """
@@ -90,7 +90,7 @@ def read_expression(
 
 
 def names_in(scalar: Scalar) -> list[Word]:
-    """Return the names in an expression that are not reserved, each with its place, before anything is read."""
+    """Return the names in an expression that are not reserved, each with its place, without parsing the expression."""
     names = (m for m in _TOKEN.finditer(scalar.text) if m.lastgroup == "name" and m[0] not in RESERVED)
     return [scalar.piece(m.start(), m.end() - m.start()).word for m in names]
 
@@ -114,7 +114,7 @@ class _Parser(Arithmetic):
     # -- words ----------------------------------------------------------------------------------------------------
 
     def check_vocabulary(self) -> None:
-        """Report every undeclared name at once; stop at a character or call that has no meaning here."""
+        """Report all undeclared names together; stop at a character or call that has no meaning here."""
         faults = Faults()
         pairs = zip(self.tokens, self.tokens[1:], strict=False)
         measured = {unit.start for number, unit in pairs if self.is_measured(number, unit)}
@@ -166,7 +166,7 @@ class _Parser(Arithmetic):
         return self.tokens[self.at]
 
     def taken(self, *texts: str) -> str | None:
-        """Return the operator at this position if it is one of these, and step past it."""
+        """If one of these operators is at the current position, return it and step past it."""
         if self.token.text not in texts:
             return None
         self.at += 1

@@ -1,7 +1,7 @@
 """Given values: each becomes a checked value of the kind that the script's `solve()` asks for.
 
 A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. To a type checker `Mass` is a SymPy `Expr`. A number
-with a unit becomes a symbol that remembers its number (`Measured`), so the derivation stays symbolic to its end.
+with a unit becomes a symbol with a stored number (`Measured`), so the derivation stays symbolic until its end.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Measured:
 
     @property
     def factor(self) -> Expr:
-        """The size of its unit in the SI; unlike `si / number` it also exists for zero."""
+        """The size of the unit in the SI; unlike `si / number`, it is also defined if the number is zero."""
         return read_unit(self.unit).factor if self.unit else Integer(1)
 
 
@@ -57,7 +57,7 @@ class Measured:
 class Given:
     """One key of `given:`: the argument for `solve()`, the numbers of its letters, and its word if it is a word.
 
-    For a value that is used exactly, such as pi/4, `written` is the form in which it was given, 45 deg.
+    For a value that is used exactly, such as pi/4, `written` is the original form, such as 45 deg.
     """
 
     name: str
@@ -69,14 +69,14 @@ class Given:
 
     @property
     def letters(self) -> list[Symbol]:
-        """The letters of its value, in the order of its entries."""
+        """The letters of the given value, in the order of its entries."""
         value = self.value.components or () if isinstance(self.value, Direction) else self.value
         entries = value if isinstance(value, tuple) else (value,)
         return [s for entry in entries for s in sorted(entry.free_symbols, key=str) if isinstance(s, Symbol)]
 
 
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
-    """Return the symbol of a declared letter: `t` is the time itself, any other letter of its kind a duration."""
+    """Return the symbol of a declared letter: `t` is time itself; any other letter of that kind is a duration."""
     if name == TIME.name and kind == "time":
         return TIME
     if about_kind(kind).positive or lies is not None and lies.is_above_zero:
@@ -97,7 +97,7 @@ def read_givens(
     """Return the givens in the order of `nodes`, and all symbols, including those that were introduced for numbers.
 
     `notes` states for each name where `solve()` asks for it; `used` are symbols that already have a number.
-    `numbers` are those numbers, in the SI: a value that must be positive is refused if they make it negative.
+    `numbers` are the numbers of these symbols in the SI: they must not make a positive kind negative.
     """
     read: dict[str, tuple[Expr | Number, ...] | Direction] = {}
     for name, node in nodes.items():
@@ -191,7 +191,7 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
 
 
 def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
-    """Read a scalar as an expression, or as a number with its unit; check its kind and its sign."""
+    """Read a scalar as an expression or as a number with its unit; check the kind and the sign."""
     if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
         point = f"{comma[1]}.{comma[2]}{comma[3]}"
         wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
@@ -217,7 +217,8 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
 
 
 def _check_sign(value: Expr, scalar: Scalar, wanted: Wanted) -> None:
-    """Reject a value whose sign is known to be wrong, from its letters or their numbers; `a - b` may be positive."""
+    """Reject a value if its letters or their numbers show that its sign is wrong; `a - b` is allowed: it may be
+    positive."""
     text = " ".join(scalar.text.split())
     value = value.xreplace(dict(wanted.numbers))
     if about_kind(wanted.kind).positive and not about_kind(wanted.kind).signed and value.is_nonpositive:
@@ -287,7 +288,8 @@ class NumbersAsLetters:
         self.measured: list[Measured] = []
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
-        """Return the letter or exact angle for a number with a unit, one of `of` numbers; None for an expression."""
+        """Return the letter or exact angle for a number with a unit, which is one of `of` numbers; None for an
+        expression."""
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
@@ -301,14 +303,15 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """Return the kind of a script's parameter, with its usual letters, for one value or for that many."""
+    """Return the kind of a script's parameter, with its usual letters, for `count` values."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))
 
 
 class _LettersForNumbers:
-    """Finds a letter for a number: an unused one that is declared for its kind, else a usual one that is free."""
+    """Finds a letter for a number: an unused declared letter of its kind, else a free one among the kind's usual
+    letters."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
         self.symbols = dict(symbols)
@@ -351,7 +354,7 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
             # Zero is exact in every unit: a letter would only hide it.
             exprs.append(Integer(0))
             continue
-        # A letter that is assumed positive takes the size; the sign stays outside.
+        # A letter that is assumed positive stands for the absolute value; the sign is a factor.
         sign = -1 if about_kind(kind.each).positive and entry.number < 0 else 1
         size = entry.si * sign
         # Equal numbers share a letter, so that a cube stays a cube; 2 cm, 4 cm, 6 cm are a, 2a, 3a.
@@ -366,13 +369,13 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
 
 
 def _is_exact_angle(angle: Expr) -> bool:
-    """Return whether the angle is a multiple of 30 or 45 degrees: its sine is a single root. 0 has no unit to show."""
+    """Return whether the angle is a nonzero multiple of 30 or 45 degrees, whose sine has at most one square root."""
     parts = angle / pi
     return bool(parts.is_Rational and parts != 0 and (4 * parts).is_Integer | (6 * parts).is_Integer)
 
 
 def _common_measure(value: tuple[Expr | Number, ...]) -> Number | None:
-    """Return the smallest of several positive numbers, if all of them are small whole multiples of it."""
+    """Return the smallest of several positive numbers, if all numbers are small integer multiples of it."""
     numbers = [entry for entry in value if isinstance(entry, Number) and entry.number > 0]
     if len(numbers) < len(value):
         return None

@@ -1,4 +1,4 @@
-"""Numbers with units as written in a file, and the value for which each is read."""
+"""Numbers with units as written in a file, and the value that each of them specifies."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NUMBER_UNIT = re.compile(
 
 @dataclass(frozen=True)
 class Number:
-    """A number with its unit, before it has a letter, and its text in the file."""
+    """A number with its unit, before a letter replaces it, and its text in the file."""
 
     number: Rational
     unit: str
@@ -35,7 +35,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Wanted:
-    """The value that is being read, for messages: its name, its kind, and where `solve()` asks for it."""
+    """The value that is being read, as messages need it: its name, its kind, and where `solve()` asks for it."""
 
     name: str
     kind: str
@@ -85,7 +85,7 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
 
 
 def is_more_than_unit(text: str, symbols: Mapping[str, Declared]) -> bool:
-    """Return whether a number continues as an expression: `3 cm*sin(phi)`, `2 m + a`."""
+    """Return whether a number with its unit is only the beginning of an expression: `3 cm*sin(phi)`, `2 m + a`."""
     names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first is the unit
     return any(name in RESERVED or name in symbols and name not in UNIT_NAMES for name in names)
 
@@ -96,7 +96,7 @@ def _ten_power(number: str) -> int:
 
 
 def check_range(declared: Declared, size: Expr, scalar: Scalar) -> None:
-    """Check that a number for a letter, as written, lies in the declared range of the letter."""
+    """Check that a number given for a letter lies in the declared range of the letter."""
     if declared.lies and not declared.lies.holds(size):
         text = " ".join(scalar.text.split())
         message = f"`{declared.name}` is declared to lie in {declared.lies.written}, but `{text}` does not"

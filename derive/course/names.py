@@ -1,6 +1,6 @@
 """The names of sets and problems, and the documents of a whole set, whose names no problem can have.
 
-The solutions are for students, the sheet has their questions alone, and the report is for the instructor.
+The solutions are for students, the sheet has only the questions, and the report is for the instructor.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ SOLUTIONS, SHEET, REPORT = OF_EVERY_SET = ("solutions", "problems", "report")
 # points alone.
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 DOCUMENTS = (*OF_EVERY_SET, *MORE)
-ON_A_PAGE = (SHEET, *MORE)  # those that a browser shows too, each on one page
+ON_A_PAGE = (SHEET, *MORE)  # documents that a browser also shows, each on one page
 INDEX = "index"  # the page of a set for a browser
 
 
 class EvidenceShown(StrEnum):
-    """How much a solution shows about its verification; the report of its set shows all of it in any case."""
+    """How much a solution shows about its verification; the report of its set always shows everything."""
 
-    NONE = "none"  # that it was checked, and where the evidence is
+    NONE = "none"  # says that it was checked, and where the evidence is
     END = "end"  # counts, in a note at its end
-    MARGIN = "margin"  # the same, and next to each display how sure it is and by which second route
+    MARGIN = "margin"  # counts, and next to each display its grade and its second route

@@ -1,5 +1,5 @@
-"""The modules that a script imports from its own folder: they can be imported while it runs, and are read again each
-time."""
+"""The modules that a script imports from its own folder: they can be imported while the script runs, and are read again
+each time."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
 
 
 def _imported(file: Path) -> set[str]:
-    """Return the top-level names that a file imports; none if it is not Python, which is reported where it is run."""
+    """Return the top-level names that a file imports; none if the file is not Python: running it reports the error."""
     try:
         nodes = [*ast.walk(ast.parse(file.read_bytes()))]
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):

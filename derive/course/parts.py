@@ -1,4 +1,4 @@
-"""The parts of a problem: what is asked, which steps answer it, for how many points, in what form."""
+"""The parts of a problem: the question, the steps that answer it, the points, and the form of the answers."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ UNIT = {"type": "string", "pattern": r"\S", "examples": list(UNIT_NAMES)}
 def _points(node: Tree, name: str, faults: Faults) -> Fraction | None:
     if isinstance(node, Scalar) and _POINTS.fullmatch(node.text):
         return Fraction(node.text)
-    wrong_type(faults, f"`{name}`", "a whole number or one with a half, such as 3 or 2.5", node)
+    wrong_type(faults, f"`{name}`", "a whole number or a half-integer, such as 3 or 2.5", node)
     return None
 
 
@@ -87,7 +87,8 @@ KEY_OF_STEP = {"type": ["string", "boolean"], "pattern": f"^{_STEP_KEY.pattern}$
 
 @dataclass(frozen=True)
 class AnswerForm(Record):
-    """The required form of a number, in one unit or in several; both keys have defaults of the problem."""
+    """The required form of a number, in one unit or in several; a key that is left out has the default of the
+    problem."""
 
     units: tuple[Word, ...] = key(
         "unit of the number, such as `degree` or `N m`, or a list of units",
@@ -102,7 +103,7 @@ _FORM_BY_ANSWER = mapping_of(_FORM, _FORM_IS)
 
 
 def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm]:
-    """Return the form of every answer, under `None`, or forms by the answer's key."""
+    """Return forms by the answer's key; a form for all answers has the key `None`."""
     if not isinstance(node, Mapping):
         wrong_type(faults, f"`{name}`", _FORM_IS, node)
         return {}
@@ -113,7 +114,7 @@ def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm
 
 @dataclass(frozen=True)
 class Question(Record):
-    """One question; `forms` is keyed by answer, or has one entry for `None`."""
+    """One question; `forms` has an entry for each answer's key, or one entry under `None` for all answers."""
 
     ask: Prose = key("the question, in prose", PROSE, required=True)
     answers: tuple[Word, ...] = key(
@@ -127,17 +128,17 @@ class Question(Record):
         "`true` if the part asks for more than the source does; it carries no points and is marked", YES_OR_NO
     )
     detail: Level = key(
-        "`full` or `standard`: an extra part that only pages of that detail show; its steps are always derived",
+        "`full` or `standard`: an extra part, shown only on pages of that detail or more; its steps are always derived",
         DETAIL,
     )
     forms: Table[str | None, AnswerForm] = key(
-        "unit and figures of its numbers, for all answers or by the answer's key",
+        "unit and significant figures of the answers, one form for all answers or one for each answer's key",
         Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms, dict),
         called="form",
     )
 
     rubric: dict[Word, Fraction] = key(
-        "points of some of its steps, by the key of the step; the rest is shared among the others", mapping_of(POINTS)
+        "points for some steps, by key; the remaining points are shared among the other steps", mapping_of(POINTS)
     )
     cases: Word | None = key("a plot of `drawings:`; the answers get numbers for each of its `cases:`", TEXT)
 
@@ -161,7 +162,7 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
     if part and (said := sum(part.rubric.values(), Fraction(0))) > (part.points or 0):
         has = f"has {points_text(part.points)}" if part.points is not None else "has no points"
         message = f"the steps of `rubric` have {points_text(said)} points, but the part {has}"
-        faults.error("points", message, part.places["rubric"], help="lower them to at most those of the part")
+        faults.error("points", message, part.places["rubric"], help="lower them to at most the points of the part")
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "a part that is not `extra` is shown at every detail"
         faults.error("detail", message, part.places["detail"], help="leave `detail` out, or write `extra: true`")
@@ -172,11 +173,11 @@ _LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
 def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
-    """Return the parts; parts for more detailed pages come last, so that no part depends on one that is left out."""
+    """Return the parts; parts for more detailed pages come last, so that no part depends on a part that is left out."""
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):
-            message = f"this part is shown at the detail `{part.detail}`, but the next part at less"
+            message = f"this part is shown at the detail `{part.detail}`, but the next part is shown at less detail"
             faults.error("detail", message, part.places["detail"], help="put it after the others")
     return parts
 
@@ -187,7 +188,7 @@ PARTS = Reader(_LISTED.schema, _parts, _LISTED.absent)
 def points_in_all(
     stated: Fraction | None, place: Place | None, parts: List[Question], faults: Faults
 ) -> Fraction | None:
-    """Return the points of a problem: those that it states, checked against its parts, or else the sum of its parts."""
+    """Return the points of a problem: the stated points, checked against its parts, or else the sum over its parts."""
     counted = [part.points for part in parts if part.points is not None]
     total = sum(counted, Fraction(0))
     if stated is None or not parts:

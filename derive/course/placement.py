@@ -27,13 +27,13 @@ ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
 
 
 def case_label(index: int) -> str:
-    """Return the label of a case, i, ii, iii, which cannot be taken for that of a part."""
+    """Return the label of a case, i, ii, iii, which cannot be mistaken for the label of a part."""
     return ROMAN[index] if index < len(ROMAN) else str(index + 1)
 
 
 @dataclass(frozen=True)
 class Range:
-    """The two ends of a plot: numbers of a kind that is known only after the script has run."""
+    """The two ends of the range of a plot: numbers whose kind is known only after the script has run."""
 
     place: Place
     of_kind: Callable[[str], list[Expr]]
@@ -41,7 +41,7 @@ class Range:
 
 @dataclass(frozen=True)
 class Placement:
-    """The settings of one drawing; derive chooses those that are left out."""
+    """The settings of one drawing; derive chooses the settings that are left out."""
 
     key: str
     place: Place = field(repr=False)
@@ -83,7 +83,7 @@ def _at(node: Tree | None, parts: int, faults: Faults) -> str | None:
         return node.text if node else None
     help_line = did_you_mean(node.text, (STATEMENT, HIDDEN)) if isinstance(node, Scalar) else None
     if isinstance(node, Scalar) and help_line is None and _KEY.fullmatch(node.text):
-        return node.text  # whether there is a step of that name is known only after the script has run
+        return node.text  # whether this step exists is known only after the script has run
     last = f"part a to {letters[-1]}" if parts > 1 else "part a"
     wrong_type(faults, "`at`", f"statement, {last}, or hidden", node, help_line)
     return None
@@ -103,10 +103,10 @@ def _width(node: Tree | None, faults: Faults) -> float | None:
 def _values(
     written: Table[Word, Tree], symbols: Table[str, Declared], faults: Faults
 ) -> tuple[tuple[Symbol, Expr], ...]:
-    """Read numbers or proportions of letters, in the order written; a proportion is in terms of other letters."""
+    """Read numbers or proportions for letters, in the order of the file; a proportion is expressed in other letters."""
     found: list[tuple[Symbol, Expr]] = []
     for name, value in written.items():
-        # A coordinate of the script is not declared; whether the drawing has it is known only after the script has run.
+        # A coordinate of the script is not declared; whether the drawing has it is known only after the script ran.
         declared = symbols.get(name) or Declared(str(name), scalar(str(name)), "angle")
         with faults:
             expr = read_value(name, value, declared.kind, symbols)

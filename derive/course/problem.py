@@ -46,7 +46,7 @@ DEFAULT_FIGURES = 4
 class Problem:
     """The checked contents of a problem's file; paths are relative to the root.
 
-    The statements of a source are read where they are compared; `reference` is their text.
+    The statements of a source are read when they are compared; `reference` is their unread text.
     """
 
     id: str
@@ -79,14 +79,14 @@ class Problem:
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """The files from which it was read."""
+        """The files from which the problem was read."""
         modules = self.script.modules if isinstance(self.script, Script) else ()
         own = (module.relative_to(self.root).as_posix() for module in modules)
         return (self.path, *filter(None, [self.script_path]), *own)
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The steps that all its parts ask for, and those of its limiting cases."""
+        """The steps that the parts of the problem ask for, and the steps of its limiting cases."""
         return _asked(self.parts, self.limits)
 
     @property
@@ -110,7 +110,7 @@ class Problem:
 
     @property
     def order(self) -> Order:
-        """The order that these relations give, which decides signs."""
+        """The order of letters that follows from the assumed relations; it decides signs."""
         return order_of(self.assumed, self.ranges)
 
     @property
@@ -120,7 +120,8 @@ class Problem:
 
     @property
     def amounts(self) -> dict[Symbol, Amount]:
-        """The number behind each letter that has one, in the coherent SI unit; an angle in degrees stays in degrees."""
+        """The number of each letter that has a number, in the coherent SI unit; an angle in degrees stays in
+        degrees."""
         return self._in_the_si(self.measured)
 
     def _in_the_si(self, numbers: Iterable[Measured]) -> dict[Symbol, Amount]:
@@ -143,7 +144,7 @@ class Problem:
 
     @property
     def every_amount(self) -> list[tuple[Symbol, Amount]]:
-        """Every letter with each of its numbers, including those of the cases of a part."""
+        """Every letter with each of its numbers, including the numbers in the cases of a part."""
         cases = [case for part in self.parts for case in self.cases_of(part).values()]
         return [pair for numbers in (self.amounts, *cases) for pair in numbers.items()]
 
@@ -165,14 +166,14 @@ class Problem:
 
 
 def load_problem(root: Path, problem_id: str) -> Problem:
-    """Return the problem, or raise one `Rejected` with every error of its file and its script."""
+    """Return the problem, or raise one `Rejected` with all errors of its file and its script."""
     faults = Faults()
     path = path_of(root, problem_id)
     written = written_problem(root, problem_id, faults)
     script_path, script = _script(root, path, written.solve, faults)
     points = written.points_in_all(faults)
     if not all(kind.known for kind in written.symbols.values()):
-        faults.stop()  # givens in such letters can be read only when their kinds are known
+        faults.stop()  # givens that contain such letters can be read only when the kinds of the letters are known
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
@@ -211,13 +212,13 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys]) -> tuple[Word
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    for name in (*answers, *limited):  # a limit may concern a step that leads to an answer
+    for name in (*answers, *limited):  # the step of a limit may be one that leads to an answer
         first.setdefault(str(name), name)
     return tuple(first.values())
 
 
 def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], faults: Faults) -> None:
-    """Check that a part is answered for the cases of a plot that has cases."""
+    """Check that a part with `cases:` names a plot that has cases."""
     known = [placement.key for placement in drawings if placement.cases]
     for cases in (part.cases for part in parts if part.cases):
         if cases not in known:
@@ -226,7 +227,8 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 
 def run_solve(problem: Problem, record: Run | None = None) -> object:
-    """Return what the script's `solve()` returns for the given values; its steps and assumptions are on the record."""
+    """Return what the script's `solve()` returns for the given values; its steps and assumptions are added to the
+    record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
             return problem.script.stock.answers(problem.described).solve(problem.asked)
@@ -235,7 +237,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """Put the steps that are made inside the block on that record, together with everything that is given."""
+    """Add the steps that are made inside the block to that record, together with everything that is given."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -250,7 +252,7 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
 
 @contextmanager
 def deriving(problem: Problem, record: Run) -> Iterator[None]:
-    """Put the steps that are made inside the block on that record, with the ranges of the problem's letters."""
+    """Add the steps that are made inside the block to that record, with the ranges of the problem's letters."""
     with recorded(record), within(problem.ranges), in_order(problem.order):
         yield
 
@@ -263,7 +265,7 @@ def _letters_of(problem: Problem) -> set[str]:
 
 
 def _assume_range(declared: Declared) -> None:
-    """Assume the range that the statement gives for a letter; a bound that follows from its kind is left out."""
+    """Assume the range that is declared for a letter; a bound that follows from the letter's kind is left out."""
     if declared.lies is None:
         return
     least, greatest = declared.lies.least, declared.lies.greatest
@@ -275,8 +277,8 @@ def _assume_range(declared: Declared) -> None:
 
 
 def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[str, Script | StockScript | None]:
-    """Return the script and its path: a file next to the problem's file or next to another problem's, or one of the
-    engine."""
+    """Return the path and the script: a file next to the problem's file, a file next to another problem's, or one of
+    the engine's scripts."""
     if name is None:
         return "", None
     if name in stock_names():
@@ -318,7 +320,7 @@ def pinned_by(
     script: Script | StockScript | None,
     faults: Faults,
 ) -> Pinned:
-    """Read three keys of a file: `symbols:`, `values:` and `given:`; the script determines the names in the last."""
+    """Read three keys of a file: `symbols:`, `values:` and `given:`; the script determines the names in `given:`."""
     symbols = declared_letters(kinds, faults)
     moving = _coordinates_in(given) - {*symbols} if isinstance(script, StockScript) else set()
     for name in moving.intersection(numbers):
@@ -345,7 +347,7 @@ def pinned_by(
 
 
 def _coordinates_in(given: Mapping | None) -> set[str]:
-    """Return the coordinates of a description, which vary."""
+    """Return the coordinates of a description, which vary with time."""
     coordinates = given.get("coordinates") if given else None
     return {name.text for name, _ in coordinates.pairs} if isinstance(coordinates, Mapping) else set()
 
@@ -370,7 +372,7 @@ def _described_by(
 
 
 def _check_names(given: Table[Word, Tree], asked: Table[str, Parameter], place: Place, faults: Faults) -> None:
-    """Check that the givens are what `solve()` asks for; a mistyped name is one error, not two."""
+    """Check that the names of the givens are the parameters of `solve()`; a mistyped name is one error, not two."""
     missing = [name for name, parameter in asked.items() if parameter.required and name not in given]
     for word in given:
         if word not in asked:

@@ -83,10 +83,10 @@ class SetKeys(Record):
     course: Word | None = key("the course", TEXT, required=True)
     title: Word | None = key("the heading of the set", TEXT, required=True)
     date: Word | None = key("the date as it is to be printed", TEXT)
-    instructor: Word | None = key("who teaches the course", TEXT)
-    evidence: str | None = key("how much the solutions show about how they were checked", one_of(tuple(EvidenceShown)))
+    instructor: Word | None = key("the instructor of the course", TEXT)
+    evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     documents: dict[Word, Word] = key(
-        "the documents that are made, or the name of each one's files",
+        "the documents to build, or a mapping from each document to the name of its files",
         Reader(DOCUMENTS_SCHEMA, _documents, dict),
         formerly="papers",
     )
@@ -101,7 +101,7 @@ def problem_ids(root: Path) -> list[str]:
 
 
 def ids_in_order(root: Path) -> list[str]:
-    """Return these ids set by set, as each set lists its problems; those that it does not list come last."""
+    """Return these ids set by set, in the order in which each set lists its problems; unlisted problems come last."""
     listed: list[str] = []
     for set_id in set_ids(root):
         with suppress(DeriveError):
@@ -150,7 +150,7 @@ def path_of(root: Path, problem_id: str) -> str:
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
-    """Return a help line with the nearest id, by the whole id or by the name after the set."""
+    """Return a help line with the nearest id, compared by the whole id or only by the name after the set."""
     by_name = {full.partition("/")[2]: full for full in reversed(known)}
     close = nearest(problem_id, known) or by_name.get(nearest(problem_id.rpartition("/")[2], by_name) or "")
     return f"did you mean `{close}`?" if close else "`derive list` shows the problems"

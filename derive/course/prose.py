@@ -1,6 +1,6 @@
 """Prose as an instructor writes it: plain text in which `<<name>>` stands for a symbol or a derived result.
 
-`<<eq torque>>` is the number of that step's equation, `<<problem top>>` is the number of another problem of the set.
+`<<eq torque>>` is the equation number of the step `torque`, `<<problem top>>` the number of another problem of the set.
 Text is data. It has no mathematics, TeX or template commands of its own; the code that prints it escapes it.
 """
 
@@ -34,7 +34,7 @@ _HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<
 
 @dataclass(frozen=True)
 class Mention:
-    """A `<<name>>` and its place; `of` is what it refers to if not to the name: `eq`, `problem`, `figure`."""
+    """A `<<name>>` and its place; `of` is the word before the name, if any: `eq`, `problem` or `figure`."""
 
     name: str
     place: Place
@@ -43,9 +43,9 @@ class Mention:
 
 @dataclass(frozen=True)
 class Prose:
-    """Text with mentions; `pieces` is all of it in order, so that no other code needs to parse it.
+    """Text with mentions; `pieces` is the whole text in order, so that no other code needs to parse it.
 
-    `place_within` gives the place of a number of characters from an index of the text.
+    `place_within` returns the place in the file of a given number of characters from an index of the text.
     """
 
     text: str
@@ -70,7 +70,7 @@ class Prose:
         return tuple(piece for piece in self.pieces if isinstance(piece, Mention))
 
     def place_of(self, name: str) -> Place:
-        """Return the place where the text first mentions a name; the place of the text if it does not."""
+        """Return the place where the text first mentions a name; if there is no mention, the place of the text."""
         return next((mention.place for mention in self.mentions if mention.name == name), self.place)
 
 
@@ -115,7 +115,7 @@ def latex_in(prose: Prose) -> Complaint | None:
 
 
 def _letter(latex: re.Match[str]) -> str:
-    """Return the letter that was meant, if that is clear, else any letter."""
+    """Return the letter that the LaTeX command probably means, if that is clear, else an arbitrary letter."""
     inner = latex[0].strip("$").strip()
     whole = latex["below"] or latex["letter"]
     return inner if whole and re.fullmatch(r"\w+", inner) else "R"

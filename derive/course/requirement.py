@@ -1,4 +1,5 @@
-"""Conditions that a script requires of its givens: a disc mounted on a rod must not lie beyond the end of the rod."""
+"""Conditions that the givens of a script must satisfy: a disc mounted on a rod must not lie beyond the end of the
+rod."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ _MARKS = {"==": "=", "!=": "!=", "<": "<", ">": ">", "<=": "<=", ">=": ">="}
 def require(condition: Boolean | bool, given: str, must: str) -> None:
     """Reject a given value if its letters or their numbers show that a condition fails.
 
-    If neither decides, the condition is assumed, and the page states it.
+    If they show neither, the condition is assumed, and the page states it.
 
     condition   a comparison of givens, `disc_at <= rod_length`, or several that must all hold, joined by `&`
     given       the parameter that the error names
@@ -31,6 +32,6 @@ def require(condition: Boolean | bool, given: str, must: str) -> None:
             rejected("not-as-required", f"`{given}` {must}", place)
         if known == true:
             continue
-        if not isinstance(each, Relational):  # `a < b or c < d` does not say which one is assumed
+        if not isinstance(each, Relational):  # `a < b or c < d` does not say which inequality is assumed
             rejected("wrong-argument", f"`require` takes comparisons that must all hold, but not `{each}`", place)
         record.assume(Relation(each.lhs, _MARKS[each.rel_op], each.rhs))

@@ -1,4 +1,4 @@
-"""The keys of the files that an instructor writes: each is a field of a record, with its meaning and its reader.
+"""The keys of the files that an instructor writes: each key is a field of a record, with a meaning and a reader.
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
@@ -25,7 +25,7 @@ R = TypeVar("R", bound="Record")
 
 @dataclass(frozen=True)
 class Reader(Generic[T]):
-    """The contents that a key allows: a JSON schema of them, and the value that they give, or nothing after an error.
+    """The contents that a key allows: their JSON schema, and the function that reads their value (None after an error).
 
     `read` takes the contents and the name of their key; `absent` makes the value of a missing key.
     """
@@ -37,7 +37,7 @@ class Reader(Generic[T]):
 
 @dataclass(frozen=True)
 class Key:
-    """One key: its meaning, the contents that it allows, whether it is required, and the name that it had before."""
+    """One key: its meaning, the contents that it allows, whether it is required, and its former name."""
 
     meaning: str
     reader: Reader[Any]
@@ -48,8 +48,8 @@ class Key:
 def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "", formerly: str = "") -> Any:
     """Declare a field of a record that is a key of a file.
 
-    called     its name there, if Python does not allow it
-    formerly   the name that it had before: an error for that name says which one to write
+    called     the name of the key in the file, if Python does not allow this name for a field
+    formerly   the former name of the key: an error for this name says which name to write instead
     """
     own = Key(meaning, reader, required, formerly)
     return field(default_factory=reader.absent, metadata={"called": called, "key": own})
@@ -57,9 +57,9 @@ def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: st
 
 @dataclass(frozen=True)
 class Record:
-    """A mapping of a file, key by key.
+    """The contents of a mapping in a file, one field for each key.
 
-    places     the place of each key, also of nested ones, `show.spin`; the mapping itself is under the empty name
+    places     the place of each key, including nested keys such as `show.spin`; the empty name is the mapping itself
     values_at  the place where the value of each key begins
     """
 
@@ -72,7 +72,7 @@ def keys_of(record: type[Record]) -> dict[str, Key]:
 
 
 def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
-    """Read every key of a mapping; an error in one does not hide those of the others."""
+    """Read every key of a mapping; an error in one key does not hide the errors in other keys."""
     keys = keys_of(record)
     check_keys(node, keys, what, faults)
     read: dict[str, Any] = {}
@@ -101,7 +101,7 @@ def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) 
 
 
 def wrong_type(faults: Faults, what: str, wanted: str, node: Tree, help: str | None = None) -> None:
-    """Report that a node has another shape than its key asks for."""
+    """Report that a node does not have the shape that its key requires."""
     if isinstance(node, Scalar) and node.empty or isinstance(node, Sequence) and not node.items:
         faults.error("missing-value", f"{what} must be {wanted}, but it is empty", node.place, help=help)
     else:
@@ -148,7 +148,7 @@ FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _fig
 
 
 def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
-    """Keep a node of the shape that is `wanted`; it can be read only when more is known than the file says."""
+    """Return a node of the shape `wanted` unread, because reading it needs information that is not in the file."""
 
     def read(node: Tree, name: str, faults: Faults) -> Tree | None:
         odd = _misfit(node, schema)
@@ -161,7 +161,8 @@ def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """Return the first node that is empty, or a list, a mapping or text where none is allowed; texts are read later."""
+    """Return the first node that is empty or whose shape (list, mapping or text) is not allowed; texts are read
+    later."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)
 
@@ -185,7 +186,7 @@ SCALAR = as_written(FORMULA.schema, "an expression")
 
 
 def one_of(words: tuple[str, ...]) -> Reader[str]:
-    """Read one of a few words."""
+    """Read a word that must be one of a fixed list."""
 
     def read(node: Tree, name: str, faults: Faults) -> str | None:
         if isinstance(node, Scalar) and node.text in words:
@@ -198,7 +199,7 @@ def one_of(words: tuple[str, ...]) -> Reader[str]:
 
 
 def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
-    """Read a mapping whose names are free; it may be left empty, unless `wanted` describes it."""
+    """Read a mapping with arbitrary names; the mapping may be left empty, unless `wanted` describes it."""
 
     def read(node: Tree, name: str, faults: Faults) -> dict[Word, T]:
         if isinstance(node, Mapping):
@@ -213,7 +214,7 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
 
 
 def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
-    """Keep a mapping that can be read only when more is known than the file says; it may be left empty."""
+    """Return a mapping unread, because reading it needs information that is not in the file; it may be left empty."""
 
     def read(node: Tree, name: str, faults: Faults) -> Mapping | None:
         if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.left_empty):
@@ -224,7 +225,7 @@ def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
 
 
 def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = None) -> Reader[tuple[T, ...]]:
-    """Read a list, which is not empty; `each` is the name for an item."""
+    """Read a list, which must not be empty; `each` is the name of an item in messages."""
 
     def read(node: Tree, name: str, faults: Faults) -> tuple[T, ...] | None:
         if not isinstance(node, Sequence) or not node.items or len(node.items) != (length or len(node.items)):

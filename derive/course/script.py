@@ -1,7 +1,7 @@
 """The script next to a problem: imported as Python, with every failure reported at the script's own line.
 
-A script is trusted code, but its errors must not look like ours: a failure shows no traceback, only the innermost
-line that belongs to the script, and the kinds that its `solve()` asks for.
+A script is trusted code, but its errors must not look like errors in derive: a failure shows no traceback, only the
+innermost line that belongs to the script, and the kinds that its `solve()` asks for.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from derive.errors import Complaint, DeriveError, Faults, OutOfTime, Place, Reje
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter of `solve()`: the kind that it asks for, and its place."""
+    """One parameter of `solve()`: the required kind of its value, and its place in the script."""
 
     name: str
     kind: Asked
@@ -61,7 +61,8 @@ class _NoCache(SourceFileLoader):
 
 
 def imported_script(file: Path, shown_as: str, name: str) -> Script:
-    """Return the script with its `solve()` and what that asks for, or raise `Rejected` with the script's line."""
+    """Return the script with its `solve()` and the parameters of `solve()`, or raise `Rejected` with the script's
+    line."""
     source = read_source(file, shown_as)
     definition = _definition(source)
     modules = own_modules(file)
@@ -76,14 +77,15 @@ def imported_script(file: Path, shown_as: str, name: str) -> Script:
 
 
 def run(script: Script, values: Mapping[str, Any]) -> object:
-    """Return what `solve()` returns; what it prints goes to standard error and does not mix with the output."""
+    """Return what `solve()` returns; text that the script prints goes to standard error, and does not mix with the
+    output."""
     try:
         with redirect_stdout(sys.stderr), importable(script.file, script.modules):
             return script.solve(**values)
     except DeriveError as error:
         raise _placed(error, script.file, script.source) from error
     except (MemoryError, OutOfTime):
-        raise  # the limit is the error, not the script's own line
+        raise  # the error is the limit, not a line of the script
     except BaseException as error:
         raise Rejected(_failure(error, script.file, script.source)) from error
 
@@ -169,7 +171,7 @@ def _start(node: ast.expr | ast.stmt | ast.arg) -> tuple[int, int]:
 
 
 def _innermost(error: BaseException, file: Path, source: Source) -> Place | None:
-    """Return the last line of the script that ran before the error left the script."""
+    """Return the last line of the script that ran before the error propagated out of the script."""
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
     if not frames:
         return None
@@ -199,7 +201,7 @@ def _message(error: BaseException) -> str:
 
 
 def _meant(error: BaseException) -> str | None:
-    """Return a help line with the name that was probably meant."""
+    """Return a help line with the name that the author probably meant."""
     if isinstance(error, ImportError):
         wanted = re.search(r"cannot import name '(\w+)'", str(error))
         return did_you_mean(wanted[1], dir(sys.modules.get(error.name or ""))) if wanted else None

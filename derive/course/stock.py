@@ -39,7 +39,7 @@ class Described:
 
     letters   the symbols that the description introduces itself, such as coordinates and their rates
     chosen    the symbols that replace the numbers of the description; `measured` are these numbers
-    told      given values, other than symbols, that prose can mention by their keys
+    told      given values other than symbols, which prose can mention by their keys
     several   names of bodies; the name of each answer begins with the name of its body
     results   quantities computed from answers; each has a name, and the names of the answers that it uses
     without   keys, each with the names of the answers that do not depend on the key

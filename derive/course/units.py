@@ -1,6 +1,6 @@
 """Units, exactly: the size of each in the SI, as a rational number and a power of pi.
 
-`rpm` is pi/30 rad/s and not 0.10472, so substituting a number at the end loses nothing (docs/decisions/0003-units.md).
+`rpm` is pi/30 rad/s and not 0.10472, so a number substituted at the end is exact (docs/decisions/0003-units.md).
 An angle is a number, but a unit records its power of an angle: no length is in `cm/rev`, no cosine in degrees.
 """
 
@@ -90,7 +90,7 @@ class Unit:
     @property
     def factor(self) -> Expr:
         """The size of the unit in the SI, for calculations."""
-        from sympy import Rational, pi  # a unit is read, and refused, without SymPy
+        from sympy import Rational, pi  # imported here, because units are read and rejected without SymPy
 
         return Rational(self.rational.numerator, self.rational.denominator) * pi**self.power_of_pi
 
@@ -123,7 +123,7 @@ class Misfit:
 
 
 def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
-    """Return why a unit does not measure a quantity of a kind, or of a dimension; None if it does."""
+    """Return why a unit does not measure a quantity of a kind or of a dimension; None if the unit does."""
     is_a = kind_with_article(kind) if kind else named(dimension)
     if unit.dimension != dimension:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")
@@ -172,6 +172,6 @@ def _check(name: str, power: int, text: str, place: Place | None) -> None:
 
 
 def begins_with_unit(text: str) -> bool:
-    """Return whether the first name of a text is a unit: enough to distinguish `2 cm` from `2 a`."""
+    """Return whether the first name in a text is a unit; this is enough to distinguish `2 cm` from `2 a`."""
     first = re.match(r"\s*([A-Za-z]+|°|1(?=\s*/))", text)
     return first is not None and (first[1] in _UNITS or not first[1].isalpha())

@@ -28,7 +28,7 @@ def unused_in(
     described: Described | None,
 ) -> tuple[Complaint, ...]:
     """Return a warning about each entry that has no effect."""
-    behind = {each.symbol.name for each in measured} - {*written.values}  # letters that stand for numbers
+    behind = {each.symbol.name for each in measured} - {*written.values}  # letters that replace numbers
     exact = {given.kind.each for given in givens if given.written is not None}  # kinds with exact numbers
     found = [*_letters(written, behind, exact)]
     found += [*_drawings(written), *_points(written)]
@@ -44,7 +44,7 @@ def unused_in(
 
 
 def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> set[str]:
-    """Return the names that parts ask for, and the answers behind them; `both_x_1` may come from `both`."""
+    """Return the names that parts ask for, and the answers that these need; `both_x_1` may be a component of `both`."""
     found, waiting = set[str](), [str(name) for name in asked]
     while waiting:
         name = waiting.pop()
@@ -60,7 +60,7 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
     """Warn of declared letters that occur neither in the givens nor in comparisons, limits or drawings."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
-    drawn = {name for each in written.drawings.values() for name in each.values}  # a drawing uses them
+    drawn = {name for each in written.drawings.values() for name in each.values}  # a drawing uses these letters
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
     for name, sort in written.symbols.items():
         if name in used or sort in exact:
@@ -113,7 +113,7 @@ def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
 
 
 def _axes(given: Mapping | None) -> Iterator[Complaint]:
-    """Warn of axes along which no place is given, and with which no body turns."""
+    """Warn of axes that no position and no body uses."""
     axes = given.get("axes") if given is not None else None
     if given is None or not isinstance(axes, Mapping):
         return
@@ -133,7 +133,7 @@ def _results(made: Table[Word, Collection[Word]], needed: Collection[str]) -> It
 
 
 def _keys(described: Described, needed: Collection[str]) -> Iterator[Complaint]:
-    """Warn of keys on which nothing depends that is asked for."""
+    """Warn of keys on which no requested answer depends."""
     for key, indifferent in described.without:
         if {*needed} - {*described.made} <= {*indifferent}:
             message = f"nothing that is asked for depends on `{key}`"

@@ -1,4 +1,4 @@
-"""The contents of a problem's file before its script is run and its expressions are read. No mathematics is needed."""
+"""The contents of a problem's file before its script is run and its expressions are read. SymPy is not needed."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ ANY_OUTCOME = ""
 POSITIVE = "positive"  # before a kind
 SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
-CHAIN = "chain"  # the name in a sentence for the lines of its step
+CHAIN = "chain"  # in a sentence, the placeholder for the lines of its step
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
 
 class SortOfLetter(str):
-    """The kind of a letter; `ends` is the text after `in`, the range in which it lies.
+    """The kind of a letter; `ends` is the text after `in`: the range of the letter.
 
     `positive` was written before the kind: the letter stands for a positive number. If the kind is not `known`, an
     error has been reported.
@@ -54,7 +54,7 @@ class SortOfLetter(str):
 
 
 def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] = tuple(KINDS)) -> SortOfLetter:
-    """Read a kind; in place of a mistyped one return another, from which nothing may be derived."""
+    """Read a kind; for a mistyped kind, report an error and return another kind, with which nothing may be derived."""
     text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
     positive, _, rest = text.strip().partition(" ")
     kind = rest.strip() if positive == POSITIVE else text.strip()
@@ -80,7 +80,7 @@ def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
 
 
 def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
-    """Read the words of a step, by outcome or for any outcome."""
+    """Read the words for a step: one text for each outcome, or one text for any outcome."""
     entries = [(o.text, n) for o, n in node.pairs] if isinstance(node, Mapping) else [(ANY_OUTCOME, node)]
     read = {outcome: read_prose(entry, name, faults) for outcome, entry in entries}
     found = {outcome: prose for outcome, prose in read.items() if prose}
@@ -103,11 +103,11 @@ class DrawingKeys(Record):
     """The keys of one of `drawings:`."""
 
     at: Tree | None = key(
-        "where it appears: `statement`, the letter of a part, the step that a part asks for, or `hidden`",
+        "where the drawing appears: `statement`, the letter of a part, the step that a part asks for, or `hidden`",
         as_written(TEXT.schema, "statement, the letter of a part, a step, or hidden"),
     )
-    caption: Prose | None = key("what it shows, in prose", PROSE_OR_NOTHING)
-    width: Tree | None = key("how wide it is without its labels, such as `5 cm`", as_written(TEXT.schema, "a length"))
+    caption: Prose | None = key("what the drawing shows, in prose", PROSE_OR_NOTHING)
+    width: Tree | None = key("width without labels, such as `5 cm`", as_written(TEXT.schema, "a length"))
     values: dict[Word, Tree] = key(
         "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )
@@ -128,18 +128,18 @@ class LimitKeys(Record):
 
     of: Word | None = key("the step whose limiting or special case is shown, by its key", TEXT)
     letter: Formula | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", FORMULA)
-    to: Formula | None = key("where it goes: `infinity` or a value; default 0", FORMULA)
+    to: Formula | None = key("the limit of the letter: `infinity` or a value; default 0", FORMULA)
     where: dict[Word, Formula] = key(
         "letters in a special case, `{b: a, c: a}`", mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`")
     )
-    step: Word | None = key("a step that the script has made for this, in place of `of`", TEXT)
+    step: Word | None = key("a step of the script that states the case, in place of `of`", TEXT)
     stated: Formula | None = key("the result in that case; a wrong one is an error", FORMULA, called="is")
-    known: Word | None = key("a step that has the same result in another way, by its key", TEXT)
+    known: Word | None = key("a step with the same result by another derivation, by its key", TEXT)
     why: Prose | None = key("words added to the sentence, in prose: `as for a disc`", PROSE)
 
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
-    """Read one of `limits:`, which must say in exactly one way what its limit is."""
+    """Read an entry of `limits:`, which must specify its limit in exactly one way."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None
@@ -176,7 +176,7 @@ class ProblemKeys(Record):
     solve: Word | None = key(
         "the script next to this file whose `solve()` derives the answers, or one of the engine", TEXT, required=True
     )
-    points: Fraction | None = key("points in all; those of the parts must add up to it", POINTS)
+    points: Fraction | None = key("total points; the points of the parts must add up to this total", POINTS)
     symbols: dict[Word, SortOfLetter] = key(
         "letters and their kinds, with what is known about the values: `M: mass`, `F: positive force`, "
         "`alpha: angle in (0, pi/2)`",
@@ -189,7 +189,9 @@ class ProblemKeys(Record):
     )
     values: dict[Word, Tree] = key("numbers for declared letters, substituted at the end: `a: 2 cm`", VALUES)
     statement: Prose | None = key("the problem in prose; `<<mass>>` stands for what is given", PROSE, required=True)
-    strategy: Prose | None = key("one or two sentences at the head of the solution: its method, and why", PROSE)
+    strategy: Prose | None = key(
+        "one or two sentences at the head of the solution: the method, and the reason for it", PROSE
+    )
     parts: tuple[Question, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
         "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",

@@ -1,8 +1,8 @@
 """YAML with places: every node has its place in the file, and all errors of a file are reported at once.
 
 YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used on purpose,
-because its messages name the wrong character; `_syntax_complaint` makes ours from them. Where hundreds of files are
-only looked at, libyaml reads them in a tenth of the time; a file that it refuses is read again in Python.
+because its messages name the wrong character; `_syntax_complaint` makes ours from them. If hundreds of files
+are only listed, libyaml reads them in a tenth of the time; a file that libyaml rejects is read again in Python.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ LARGEST_FILE = 256 * 1024
 DEEPEST_YAML = 20
 LONG_LINE = 160
 _LEFT_OUT = "... "
-NOTHING = ("~", "null", "Null", "NULL")  # as editors read YAML
+NOTHING = ("~", "null", "Null", "NULL")  # the words that editors read as null
 
 # Printable text, without the line separators that editors do not count and the marks that reorder text on the screen.
 _ODD = re.compile(
@@ -56,11 +56,12 @@ class Source:
         return [*(m.start() for m in _LINE_END.finditer(self.text)), len(self.text)]
 
     def line(self, number: int) -> str:
-        """Return a line by its number, from 1, without its end."""
+        """Return the line with that number, counted from 1, without its line end."""
         return self.text[self._starts[number - 1] : self._ends[number - 1]]
 
     def place(self, index: int, width: int = 1) -> Place:
-        """Return the place of `width` characters from `index`, cut at the end of its line; a long line is shortened."""
+        """Return the place of `width` characters from `index`, but not beyond the end of the line; a long line is
+        shortened."""
         number = bisect_right(self._starts, index)
         start = self._starts[number - 1]
         length = len(self.line(number))
@@ -112,12 +113,12 @@ class Scalar:
 
     @property
     def empty(self) -> bool:
-        """Whether there is nothing to read in it."""
+        """Whether the text is empty or blank."""
         return not self.text.strip()
 
     @property
     def left_empty(self) -> bool:
-        """Whether nothing was written after the `:` or `-`, or only YAML's word for nothing; `""` is text."""
+        """Whether nothing follows the `:` or `-`, or only YAML's word for an absent value; `""` is text."""
         return self.style == "" and self.empty
 
     @property
@@ -131,7 +132,7 @@ class Scalar:
     def piece(self, offset: int, length: int) -> Scalar:
         """Return a part of the text, with its own place."""
         text = self.text[offset : offset + length]
-        start = self.start + (self.quoted) + offset  # the place of folded or escaped text is slightly off
+        start = self.start + (self.quoted) + offset  # the place in folded or escaped text is only approximate
         return Scalar(text, "", start, start + length, self.source)
 
     def place_within(self, offset: int, width: int = 1) -> Place:
@@ -171,7 +172,7 @@ def _next_visible(raw: str, at: int, style: str) -> int:
 
 
 def _raw_width(raw: str, at: int, style: str, char: str) -> int:
-    """Return how many characters of the file made this one character of text."""
+    """Return how many characters of the file represent this one character of text."""
     here = raw[at : at + 2]
     if style == '"' and here.startswith("\\"):
         return 2 + {"x": 2, "u": 4, "U": 8}.get(here[1:], 0)
@@ -181,7 +182,7 @@ def _raw_width(raw: str, at: int, style: str, char: str) -> int:
 
 
 class Formula(Word):
-    """An expression of a file, read when its letters are known; it is compared by its text alone."""
+    """An expression of a file, read when its letters are known; expressions are compared only by their text."""
 
     scalar: Scalar
 
@@ -212,7 +213,7 @@ class Mapping:
 
     @property
     def places(self) -> dict[str, Place]:
-        """The place of each key, and of each key within it, `show.spin`."""
+        """The place of each key, including nested keys such as `show.spin`."""
         found = {key.text: key.place for key, _ in self.pairs}
         inner = ((key.text, value.places) for key, value in self.pairs if isinstance(value, Mapping))
         return found | {f"{key}.{name}": place for key, places in inner for name, place in places.items()}
@@ -243,7 +244,7 @@ def abridged(text: str, limit: int = 40) -> str:
 
 
 def read_source(path: Path, shown_as: str, *, limit: int = LARGEST_FILE) -> Source:
-    """Return the text of a file of the author, if it is text at all."""
+    """Return the text of a file of the author; reject a file that is not text."""
     whole = Place(shown_as, 1)
     try:
         # Do not wait for a pipe or a device.
@@ -278,9 +279,9 @@ def read_yaml(path: Path, shown_as: str, quickly: bool = False) -> Tree:
     return yaml_tree(source)
 
 
-@lru_cache(maxsize=64)  # each problem of a set asks for the same reference
+@lru_cache(maxsize=64)  # each problem of a set reads the same reference
 def yaml_tree(source: Source) -> Tree:
-    """Return the tree of a YAML text, or raise one `Rejected` with every error of its form."""
+    """Return the tree of a YAML text, or raise one `Rejected` with all errors in its syntax."""
     faults = Faults()
     for odd in islice(_ODD.finditer(source.text), 5):
         faults.error("control-character", f"the character U+{ord(odd[0]):04X} is not text", source.place(odd.start()))
@@ -346,7 +347,7 @@ class _Reader:
         if isinstance(event, yaml.AliasEvent):
             return Scalar(f"*{event.anchor}", "", start, end, self.source)
         if odd := _ODD.search(event.value):
-            # In double quotes a character can be written by its number.
+            # In double quotes a character can be written as its code.
             self.refuse("control-character", f"the character U+{ord(odd[0]):04X} is not text", event, end - start)
         return Scalar(event.value, event.style or "", start, end, self.source)
 
@@ -390,7 +391,7 @@ def _nothing_is_empty(node: Tree) -> Tree:
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the value that a comma has cut in two: its bracket is closed in the text that looks like a key."""
+    """Return a value that a comma has split: its bracket is closed in the text that looks like the next key."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start
@@ -404,7 +405,7 @@ def _needs_quotes(name: str, value: Scalar) -> Complaint:
 
 
 def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
-    """Return the parser's error in words for an author who does not know the grammar of YAML."""
+    """Return the parser's error, reworded for an author who does not know the grammar of YAML."""
     context, problem = str(error.context or ""), str(error.problem or "this is not YAML")
     mark = error.problem_mark or error.context_mark
     index = min(mark.index, len(source.text)) if mark else 0

@@ -1,6 +1,6 @@
-"""The worker of a preview, from the server's side: asked, waited for, ended if it takes too long, started again.
+"""The worker of a preview, as the server controls it: the server asks, waits, ends a slow worker and starts a new one.
 
-It has the limits of a build's workers, and the same errors when it gives no answer.
+The worker has the limits of a build's workers, and causes the same errors if it gives no answer.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from derive.building.files import of_system
 from derive.building.workers import Job, died, job_of, lines_told, memory_limit, overtaxed
 from derive.errors import BuildFailed, Complaint, DeriveError
 
-STEP = 0.05  # seconds between two tests whether an answer is still wanted
-PATIENCE = 1.0  # seconds after which work is ended if a newer edit has made it useless
+STEP = 0.05  # seconds between two tests whether an answer is still needed
+PATIENCE = 1.0  # seconds after which work is stopped if a newer edit has made it useless
 
 
 @dataclass(frozen=True)
 class Shown:
-    """The content for a browser: the main part of a page, or errors of the files that it is made from."""
+    """The content for a browser: the main part of a page, or the errors in the files of the problem."""
 
     main: str = ""
     complaints: tuple[str, ...] = ()
@@ -40,7 +40,7 @@ class Shown:
 class _Worker:
     """The process, and our ends of its pipes: questions, answers, trace, and a lifeline.
 
-    Nothing is written to the lifeline: when it closes, the process knows that the server has ended.
+    Nothing is written to the lifeline: when the lifeline closes, the process knows that the server has ended.
     """
 
     def __init__(self, root: Path):
@@ -73,11 +73,12 @@ class _Worker:
 
     def ask(self, **question: Any) -> None:
         self._asked += 1
-        with suppress(BrokenPipeError):  # the reader of its answer notices that it has ended
+        with suppress(BrokenPipeError):  # reading its answer shows that the process has ended
             os.write(self._asks, json.dumps({"number": self._asked, **question}).encode() + b"\n")
 
     def answer(self, seconds: float) -> bytes | None:
-        """Return the line that it writes within that time; None if it writes none, an empty line if it has ended."""
+        """Return the line that the process writes within that time; None if it writes none, an empty line if it has
+        ended."""
         if select.select([self._answers], [], [], seconds)[0]:
             more = os.read(self._answers, 1 << 16)
             if not more:
@@ -90,7 +91,7 @@ class _Worker:
         return line + ended
 
     def read(self, line: bytes) -> dict[str, Any] | None:
-        """Return the answer in a line, if it answers the last question."""
+        """Return the answer in a line, if it is the answer to the last question."""
         try:
             said = json.loads(line)
         except ValueError:
@@ -124,7 +125,7 @@ class _Worker:
 
 
 def _pipes(number: int) -> list[tuple[int, int]]:
-    """Return that many pipes; if there are too few descriptors, close those that were made and raise the error."""
+    """Return that many pipes; if there are too few descriptors, close the pipes already made and raise the error."""
     found: list[tuple[int, int]] = []
     try:
         while len(found) < number:
@@ -138,7 +139,7 @@ def _pipes(number: int) -> list[tuple[int, int]]:
 
 @dataclass
 class Warm:
-    """A worker, started at its first question or before, and never after the end of the preview."""
+    """A worker; its process is started at the first question or before, but never after the end of the preview."""
 
     root: Path
     limit: float
@@ -187,7 +188,7 @@ class Warm:
         return said
 
     def begun(self) -> _Worker | None:
-        """Return the process, started if necessary; None after the end of the preview."""
+        """Return the process, and start it if necessary; None after the end of the preview."""
         with self._asking:
             if self._worker is not None and not self._worker.is_alive():
                 self._end()
@@ -205,7 +206,7 @@ class Warm:
             self._worker = None
 
     def end(self) -> None:
-        """End it for good; a question that waits for an answer gets none."""
+        """End the worker permanently; a waiting question gets no answer."""
         self._over = True
         worker = self._worker
         if worker is not None:

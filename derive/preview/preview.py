@@ -38,8 +38,8 @@ def preview(
     told: Callable[[str, Shown], None],
     ending: Ending,
 ) -> None:
-    """Serve the pages of a set until the user interrupts it, or `ending` is set; `ready` is called with the address,
-    `told` with what was shown."""
+    """Serve the pages of a set until the user interrupts or `ending` is set; `ready` is called with the address,
+    `told` with each shown page or its errors."""
     check_asked(root, set_id, [name] if name else ())
     heading = problem_set(root, set_id)
     first = name or heading.problems[0].rpartition("/")[2]
@@ -51,11 +51,11 @@ def preview(
 
     served = server(pages, whole, first, port)
     try:
-        warm.begun()  # it loads while the browser is opened
+        warm.begun()  # the worker loads its modules while the browser is opened
         with _serving(served) as at:
             ready(f"http://{HOST}:{at}/{first}.html")
             for _ in _edits(root, ending):
-                with suppress(DeriveError, OSError):  # the last heading is kept if the present one cannot be read
+                with suppress(DeriveError, OSError):  # use the last heading if the present one cannot be read
                     heading = problem_set(root, set_id)
                 pages.names = {*heading.numbers, first}
                 pages.edited()
@@ -76,7 +76,7 @@ def _serving(served: Server) -> Iterator[int]:
 
 
 def _edits(root: Path, ending: Ending) -> Iterator[object]:
-    """Yield after each edit of problems and scripts, also those of other sets, of templates or of phrases."""
+    """Yield after each edit of a problem or script in any set, of a template or of a phrase."""
     from watchfiles import watch
 
     yield from watch(

@@ -5,7 +5,7 @@
     /NAME/events      messages to this page: its new content, or its errors
 
 Nothing else is served, and no file can be requested by its name. Only requests that use a local name of this machine
-are answered, so that no page of another site can read what is here.
+are answered, so that no page of another site can read the content of these pages.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ from derive.preview.asking import Shown, Warm
 
 HOST = "127.0.0.1"
 _LOCAL = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.ASCII | re.IGNORECASE)
-ALIVE = 15.0  # seconds after which a message is sent anyway, so that a closed browser is noticed
-PROMPT = 5.0  # seconds within which a browser must send a request on a connection that it keeps
-TAKEN = 30.0  # seconds within which it must take an answer
-MOST = 64  # connections at a time, each open page has one
+ALIVE = 15.0  # seconds after which a message is sent even without news, so that a closed browser is noticed
+PROMPT = 5.0  # seconds within which a browser must send the next request on an open connection
+TAKEN = 30.0  # seconds within which a browser must receive an answer
+MOST = 64  # the most connections at a time; each open page has one
 FULL = 0.1  # seconds to wait for free descriptors
 CACHED = "no-store"
 NONE = "'none'"
@@ -45,7 +45,7 @@ NOTHING_ELSE = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-a
 
 @dataclass
 class Pages:
-    """The last pages of a set, and the browsers that wait for the next."""
+    """The last pages of a set, and the browsers that wait for new pages."""
 
     warm: Warm
     set_id: str
@@ -53,14 +53,14 @@ class Pages:
     detail: str | None = None
     told: Callable[[str, Shown], None] = lambda name, shown: None
     _last: dict[str, Shown] = field(default_factory=dict)
-    _good: dict[str, str] = field(default_factory=dict)  # the last main part of each page without an error
+    _good: dict[str, str] = field(default_factory=dict)  # the last main part of each page that had no error
     _edition: int = 0
     _changed: threading.Condition = field(default_factory=threading.Condition)
     _asking: threading.Lock = field(default_factory=threading.Lock)
     _stale: set[str] = field(default_factory=set)
 
     def now(self, name: str) -> Shown:
-        """Return a page as it is now; derive it first if it is new or a file has been edited."""
+        """Return the current page; first derive it if it is new or a file has been edited."""
         with self._asking:
             if name not in self._last or name in self._stale:
                 self._renew(name)
@@ -70,7 +70,8 @@ class Pages:
         return self._good.get(name, "")
 
     def edited(self) -> None:
-        """Note that files have changed: pages in view are made again at once, others when they are viewed again."""
+        """Record that files have changed: pages in view are made again at once, other pages when they are viewed
+        again."""
         with self._changed:
             self._edition += 1
             self._stale = set(self._last)
@@ -109,7 +110,7 @@ class Handler(BaseHTTPRequestHandler):
     """Answers the requests of one browser."""
 
     pages: Pages
-    whole: Callable[[str, str], str]  # makes a page from a problem's name and its main part
+    whole: Callable[[str, str], str]  # makes a page from a problem's name and the page's main part
     first: str
     protocol_version = "HTTP/1.1"
     server_version = "derive"
@@ -150,7 +151,7 @@ class Handler(BaseHTTPRequestHandler):
             self._page(name)
 
     def _is_local(self) -> bool:
-        """Return whether the request names this machine by a local name; pages from elsewhere that lead here do not."""
+        """Return whether the request uses a local name of this machine; requests from pages of other sites do not."""
         return bool(_LOCAL.fullmatch(self.headers.get("Host") or ""))
 
     def _page(self, name: str) -> None:
@@ -160,7 +161,7 @@ class Handler(BaseHTTPRequestHandler):
         self._sent(HTTPStatus.OK, "text/html; charset=utf-8", whole(name, main).encode(), policy)
 
     def _events(self, name: str) -> None:
-        """Send one message after another for as long as the browser listens."""
+        """Send messages as long as the browser listens."""
         self.close_connection = True
         self.send_response(HTTPStatus.OK)
         for header, value in (
@@ -208,7 +209,7 @@ class Handler(BaseHTTPRequestHandler):
 
 
 class _Prompt(RawIOBase):
-    """The bytes that a browser sends; each request must be complete within a time."""
+    """The bytes that a browser sends; each request must be complete within a time limit."""
 
     def __init__(self, connection: socket):
         self.connection, self.until = connection, 0.0
@@ -225,7 +226,8 @@ class _Prompt(RawIOBase):
 
 
 def policy_of(page: str) -> str:
-    """Return the policy of a page for a browser: it may run exactly its own scripts, and request changes."""
+    """Return the security policy of a page: the page may run only its own scripts, and may connect only to this
+    server."""
     found = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
     scripts = " ".join(f"'sha256-{b64encode(sha256(each.encode()).digest()).decode()}'" for each in found)
     own = "connect-src 'self'; style-src 'unsafe-inline'; font-src data:; img-src data:"
@@ -267,7 +269,7 @@ class Server(ThreadingHTTPServer):
             raise
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Report an unforeseen error in a line; a browser that has gone is not reported."""
+        """Report an unforeseen error in one line; a closed connection is not reported."""
         error = sys.exc_info()[1]
         if not isinstance(error, ConnectionError | TimeoutError):
             said = f"internal error: {type(error).__name__}: {error}"
@@ -275,7 +277,7 @@ class Server(ThreadingHTTPServer):
 
 
 def server(pages: Pages, whole: Callable[[str, str], str], first: str, port: int) -> Server:
-    """Return a server that is ready; `port` 0 takes any that is free."""
+    """Return a server that is ready; with `port` 0 it uses any free port."""
     handler = type("Handler", (Handler,), {"pages": pages, "whole": staticmethod(whole), "first": first})
     try:
         return Server((HOST, port), handler)

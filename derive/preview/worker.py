@@ -1,12 +1,12 @@
 """The process that derives the pages of a preview: it keeps running, and answers one question after another.
 
-It keeps everything that it has loaded and laid out, so that an edit of words needs little work. It can be killed at any
-instant, because it writes only into the cache of the builds.
+The process remembers everything that it has loaded and laid out, so that an edit of words needs little work. You can
+kill the process at any instant, because it writes only into the cache of the builds.
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 
-MEMORY is the most that it may take, in bytes; the others are file descriptors: for questions and answers, one a line,
-and those of a build's worker.
+MEMORY is the limit of memory in bytes; the next four are file descriptors: one for questions and one for answers (one
+per line), and the two that a build's worker also has.
 """
 
 from __future__ import annotations
@@ -50,9 +50,9 @@ def _settle(root: Path) -> None:
 
 
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
-    """Return the page of a problem, or its errors, as plain data; limits are those of a build's worker.
+    """Return the page of a problem, or its errors, as plain data; the limits are the same as in a build's worker.
 
-    At the limit of time the work may stop anywhere, so the process ends after this answer.
+    At the time limit the work may stop anywhere, so the process ends after this answer.
     """
     problem = question["problem"]
     work = partial(main_part, root, problem, question["detail"])

@@ -80,7 +80,7 @@ def of_tex(course: Course) -> None:
         (added, "`templates/new.j2` is new"),
         (of_the_set, "`problems/hw1/set.yaml` has changed"),
         (by_hand, "`one.pdf` has been edited since the build wrote it"),
-        (lost, "`one.pdf` is not there any more"),
+        (lost, "`one.pdf` does not exist any more"),
         (of_tex, "the program of the TeX engine pdflatex has changed"),
     ],
 )
@@ -106,7 +106,7 @@ def test_an_edit_of_one_problem_makes_the_documents_stale_and_no_other_problem(c
 def test_other_options_are_told_with_the_command_that_keeps_them(course: Course) -> None:
     built(course, detail="full")
     found = told(course, "build/hw1/one.pdf")
-    assert found.reasons == ("it was made with `--detail full`, and would be with no `--detail`",)
+    assert found.reasons == ("it was made with `--detail full`, but would now be made with no `--detail`",)
     assert found.fixes[-1] == "to build as before: `derive build hw1/one --detail full`"
     assert told(course, "build/hw1/one.pdf", detail="full").reasons == ()
     assert "`derive build hw1/one --evidence end`" in told(course, "hw1/one", evidence="end").fixes[0]
@@ -115,7 +115,7 @@ def test_other_options_are_told_with_the_command_that_keeps_them(course: Course)
 def test_another_engine_concerns_pdfs_alone(course: Course) -> None:
     (course.root / "bin" / "lualatex").symlink_to("pdflatex")
     found = told(course, "build/hw1/one.pdf", engine="lualatex")
-    assert found.reasons == ("it was typeset by pdflatex, and would be by lualatex",)
+    assert found.reasons == ("it was typeset by pdflatex, but would now be typeset by lualatex",)
     assert told(course, "build/hw1/one.txt", engine="lualatex").reasons == ()
     assert told(course, "build/hw1/one.pdf", engine="latexmk").reasons != ()
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Voice:
-    """How much is shown apart from errors: with `quiet` nothing, with `verbose` each piece of work that is done."""
+    """What is shown in addition to errors: with `quiet` nothing, with `verbose` each finished piece of work."""
 
     quiet: bool = False
     verbose: bool = False
@@ -71,7 +71,7 @@ def build(arguments: argparse.Namespace) -> int:
 
 
 def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
-    """Return the sets by name, with the problems that are asked for; empty for all problems of a set."""
+    """Map the names of sets to their requested problems; an empty tuple means all problems of the set."""
     found: dict[str, dict[str, None]] = {}
     for set_id, _, name in (problem_id_of(each).partition("/") for each in asked):
         found.setdefault(set_id, {})[name] = None
@@ -83,7 +83,7 @@ def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options,
     from derive.building.files import shown_path
     from derive.building.watch import Shown, watch
 
-    failed: dict[str, bool] = {}  # a set that failed and is now up to date again is news
+    failed: dict[str, bool] = {}  # report that a set is up to date again after a failure
 
     def wrote(path: Path, seconds: float) -> None:
         tell("")
@@ -121,7 +121,7 @@ def _reported(report: Report, voice: Voice) -> int:
 
 
 def _listed(paths: Sequence[str], most: int = 12) -> str:
-    """Return the last paths, which belong to the whole set, and the number of others."""
+    """Return the last paths, because these belong to the whole set, and the number of the rest."""
     if len(paths) <= most:
         return ", ".join(paths)
     last = paths[-3:]

@@ -75,7 +75,7 @@ def check(arguments: argparse.Namespace) -> int:
 
 
 def _selected(asked: list[str], known: list[str], sets: list[str]) -> list[str]:
-    """Return all problems, or those that are named; the name of a set means all its problems."""
+    """Return the named problems, or all if none is named; the name of a set means all its problems."""
     named = {name: [name] for name in asked} | {name: [p for p in known if p.startswith(f"{name}/")] for name in sets}
     return list(dict.fromkeys(problem for name in asked for problem in named[name])) if asked else known
 

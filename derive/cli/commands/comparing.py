@@ -20,7 +20,7 @@ SAME, DIFFERS, TROUBLE = 0, 1, 2  # the exit codes of `diff`
 
 
 def diff(arguments: argparse.Namespace) -> int:
-    """Print what changed; the exit code says whether anything did."""
+    """Print the changes; the exit code says whether there are any."""
     from derive.building.set_diff import SetDiff
     from derive.building.workers import Bug
 

@@ -1,4 +1,4 @@
-"""`derive clean` and `derive doctor`: what builds left behind, and what they need."""
+"""`derive clean` and `derive doctor`: remove the files of builds, and check what builds need."""
 
 from __future__ import annotations
 

@@ -53,7 +53,8 @@ def _list_answers(arguments: argparse.Namespace, root: Path) -> int:
 
 
 def _headlines(root: Path, ids: Sequence[str], paths: Mapping[str, str]) -> list[tuple[str, str]]:
-    """Return the points and title of each problem, read by one worker; if it does not end, by one for each half."""
+    """Return the points and title of each problem, read by one worker; if it fails, by one worker for each half of the
+    list."""
     from derive.building.headline import headline
     from derive.building.workers import done, job_of
 

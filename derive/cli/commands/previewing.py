@@ -30,7 +30,7 @@ def preview_pages(arguments: argparse.Namespace) -> int:
         said, why = ("shown", []) if shown.main else ("not shown", shown.complaints[:1])
         try:
             print(*[f"{set_id}/{of}: {said} ({shown.seconds:.2f} s)", *why], sep="\n", flush=True)
-        except (OSError, ValueError):  # the output is not read any more; the page is still served
+        except (OSError, ValueError):  # nobody reads the output any more, but the page is still served
             silence(1)
 
     with suppress(KeyboardInterrupt):

@@ -1,16 +1,16 @@
-"""Reading mathematics that a document has in LaTeX: text to SymPy, with dimensions and exact places.
+"""Reads the LaTeX formulas of a document: from text to SymPy, with dimensions and exact places.
 
-    tokens      what stands in the text and where, by pylatexenc
+    tokens      the tokens of the text and their places, from pylatexenc
     vocabulary  the commands that are known
-    letters     a letter with its subscript and dots as a declared name
+    letters     the declared name for a letter with subscript and dots
     grids       sums and products of scalars, vectors and matrices
     integrals   signs and differentials, brackets between limits
     arguments   functions and how far their arguments reach
     brackets    brackets, triples, matrices, limits
-    titles      left sides that only name the answer
+    titles      left sides that are only a name of the answer
     grammar     chains, sums, products, factors
 
-What cannot be read, or could be read in two ways, is refused at its place.
+Text without a meaning, or with two possible meanings, is rejected at its place.
 """
 
 from derive.course.latex.reading import ReadMath, Side, read_latex

@@ -1,7 +1,7 @@
-r"""Letters and functions in a formula: what a name means, and how far the argument of a function reaches.
+r"""Letters and functions in a formula: the meaning of a name, and where the argument of a function ends.
 
 Without brackets, an argument is the shortest run of factors that has a letter and is an angle or a number:
-`\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If the next factor could belong to it as well, the formula is refused.
+`\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If the next factor could belong to it too, the formula is rejected.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class Functions(Grids):
         declared = self.letters.named(letter)
         if declared is None:
             self.undeclared.append(self.not_declared(letter))
-            self.homogeneous = False  # its dimension is unknown, so dimensions are no longer compared
+            self.homogeneous = False  # its dimension is unknown, so from here on dimensions are not compared
             return Term(Dummy(letter.name, real=True), NUMBER, letter.start, letter.end)
         if dots_of(letter, declared) > MOST_DOTS:
             message = f"a letter has at most {MOST_DOTS} dots"
@@ -99,7 +99,7 @@ class Functions(Grids):
         return self.complaint("undeclared-symbol", f"`{name}` is not declared", letter.start, letter.end, help_line)
 
     def check_not_a_function(self, letter: Letter, cursor: Cursor) -> None:
-        r"""Refuse `U(\theta)`, which every reader takes for a function; nobody writes `a(b)` for a product."""
+        r"""Refuse `U(\theta)`, which every reader takes for a function: a product is not written as `a(b)`."""
         three = cursor.tokens[cursor.at : cursor.at + 3]
         if len(three) == 3 and three[0].text == "(" and three[2].text == ")" and letter_at(three[1]):
             whole = self.text[letter.start : three[2].end]
@@ -173,7 +173,7 @@ class Functions(Grids):
         return argument
 
     def longer(self, argument: Term | None, cursor: Cursor, depth: int) -> tuple[Term, bool]:
-        """Return the argument with one more factor, and whether it is now complete."""
+        """Return the argument with one more factor, and whether the argument is now complete."""
         factor = self.scalar_in(self.atom(cursor, depth), "the argument of a function")
         degrees = cursor.written == "^" and [t.text for t in self.script_ahead(cursor).tokens] == ["circ"]
         if degrees:
@@ -200,7 +200,7 @@ class Functions(Grids):
         return bool(term.expr.is_number) and not term.expr.has(pi)
 
     def check_end(self, cursor: Cursor, argument: Term, depth: int) -> None:
-        """Refuse an argument if the next factor could belong to it."""
+        """Reject an argument if the next factor could also belong to the argument."""
         token = cursor.token
         if token is None:
             return
@@ -231,4 +231,4 @@ class Functions(Grids):
 
     @abstractmethod
     def raised_to(self, base: TermOrGrid, script: Argument, depth: int, cursor: Cursor) -> TermOrGrid:
-        """Return a value with its exponent."""
+        """Return a value raised to its exponent."""

@@ -97,7 +97,7 @@ class Brackets(Functions):
     # -- limits -------------------------------------------------------------------------------------------------------
 
     def limits(self, cursor: Cursor, depth: int, sign: Token) -> tuple[Term, Term, Term | None]:
-        """Read the lower and the upper limit, and the variable if the lower limit names it: `_{z=0}^{z=h}`."""
+        """Read the lower and the upper limit, and the variable if the lower limit contains its name: `_{z=0}^{z=h}`."""
         found: dict[str, tuple[Term, Term | None]] = {}
         while cursor.token and cursor.token.kind == "script" and cursor.token.text not in found:
             script = cursor.token.text
@@ -126,8 +126,8 @@ class Brackets(Functions):
 
     @abstractmethod
     def closed_sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
-        """Read a sum that nothing may follow."""
+        """Read a sum; reject anything after it."""
 
     @abstractmethod
     def unexpected(self, cursor: Cursor) -> NoReturn:
-        """Refuse the next token."""
+        """Reject the next token."""

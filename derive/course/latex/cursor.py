@@ -1,4 +1,4 @@
-"""A run of tokens with the position that has been reached."""
+"""A sequence of tokens with the current position."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from derive.course.latex.tokens import Argument, Token
 
 
 class Cursor:
-    """Tokens in a row; `bars` states for each open bracket whether it is a bar, which the next bar closes."""
+    """A sequence of tokens; `bars` states for each open bracket whether it is a bar, because the next bar closes a
+    bar."""
 
     def __init__(self, tokens: tuple[Token, ...], end: int):
         self.tokens = tokens

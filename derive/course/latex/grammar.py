@@ -5,7 +5,7 @@ r"""The grammar of a formula: chains of sides, sums, products, factors.
     product  factor ((\cdot | \times)? factor)* ("/" factor)?    with integral signs and differentials among the factors
     factor   atom power?                             atom    number, letter, fraction, root, function, bracket, matrix
 
-If paper leaves two readings open, the formula is refused and the help shows how to write either: `a/2b`, `\sin a b`
+If a formula has two possible readings, it is rejected, and the help shows how to write each reading: `a/2b`, `\sin a b`
 of two numbers, `\sin x^2`, `2\frac12`, `U(\theta)`.
 """
 
@@ -32,7 +32,8 @@ _SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
 
 
 class _Parts:
-    """The factors of a product: neighbours are multiplied first, then the dots and crosses from left to right."""
+    """The factors of a product: neighbours are multiplied first, then dot and cross products are taken from left to
+    right."""
 
     def __init__(self, reader: Grids):
         self.reader = reader
@@ -54,10 +55,10 @@ class _Parts:
 
 
 class Formula(Brackets):
-    """Reads one text in one branch: `\\pm` is + in the first and - in the second."""
+    """Reads one text in one branch of its double signs: `\\pm` is + in the first and - in the second."""
 
     branch = 0
-    branches = 1  # how many the side now being read has
+    branches = 1  # number of integrals on the current side
 
     # -- chains ---------------------------------------------------------------------------------------------------
 
@@ -126,7 +127,7 @@ class Formula(Brackets):
     def product(self, cursor: Cursor, depth: int) -> TermOrGrid:
         outside, inside = _Parts(self), _Parts(self)
         signs: list[Sign] = []
-        alone: Token | None = None  # the factor before, if it is one token
+        alone: Token | None = None  # the previous factor, if it is one token
         while True:
             times = self.times(cursor) if signs or outside.parts else ""
             if cursor.token and any(sign.variable is None for sign in signs):
@@ -176,11 +177,18 @@ class Formula(Brackets):
         if following and not self.is_differential(cursor, signs):
             if self.begins_factor(cursor) or cursor.written in (*_TIMES, "/", "\\int"):
                 help_line = "write `\\frac{...}{...}`"
-                self.refuse("ambiguous", "it is not clear how far this `/` reaches", slash.start, slash.end, help_line)
+                self.refuse(
+                    "ambiguous",
+                    "it is not clear where the denominator of this `/` ends",
+                    slash.start,
+                    slash.end,
+                    help_line,
+                )
         return self.quotient_of(above, below)
 
     def check_side_by_side(self, before: Token | None, token: Token, factor: TermOrGrid) -> None:
-        """Refuse two numbers side by side (one number, a mixed number, a slip?) and `a2`, which is half a subscript."""
+        """Reject two adjacent numbers (one number, a mixed number or a slip?), and `a2`, which may be a lost
+        subscript."""
         if before is None:
             return
         if token.kind == "number" and before.kind == "number":
@@ -204,7 +212,8 @@ class Formula(Brackets):
         return Sign(lower, upper, sign.start, cursor.before.end, named)
 
     def is_differential(self, cursor: Cursor, signs: list[Sign]) -> bool:
-        """Return whether a `d` and a letter follow, and an integral needs them; an upright d is never a letter."""
+        """Return whether a `d` and a letter follow while an integral lacks its differential; an upright d is never a
+        letter."""
         token = cursor.token
         if token is None or all(sign.variable for sign in signs):
             return False
@@ -261,7 +270,7 @@ class Formula(Brackets):
         return self.power_of(base, replace(exponent, start=script.start, end=script.end))
 
     def script(self, cursor: Cursor) -> Argument:
-        """Read what follows `^` or `_`: a group, or the one token that TeX would take."""
+        """Read the text after `^` or `_`: a group, or the single token that TeX would take."""
         mark = cursor.token
         assert mark is not None
         cursor.at += 1

@@ -47,15 +47,15 @@ def each(value: TermOrGrid, change: Callable[[Term], Term]) -> TermOrGrid:
 
 
 def spanning(value: TermOrGrid, start: int, end: int) -> TermOrGrid:
-    """Return the value with the start and end of what surrounds it; entries keep their places."""
+    """Return the value with the start and end of the surrounding brackets or command; entries keep their places."""
     return replace(value, start=start, end=end)
 
 
 class Grids(Arithmetic, ABC):
     """The operations of `Arithmetic`, also on columns and matrices.
 
-    Zero fits every dimension, because a document writes `0` in any matrix. `homogeneous` is false where numbers replace
-    letters, or the document is known to be wrong: dimensions are then not compared.
+    Zero fits every dimension, because a document writes `0` in any matrix. `homogeneous` is false if numbers replace
+    letters or the document is known to be wrong: dimensions are then not compared.
     """
 
     max_terms = 20_000
@@ -65,7 +65,7 @@ class Grids(Arithmetic, ABC):
         self.homogeneous = homogeneous
         self.d_is_a_letter = False
         self.vectors: list[int] = []  # the positions of letters that are printed as vectors
-        self.dimensions: dict[Expr, Dimension] = {}  # of the letters read so far
+        self.dimensions: dict[Expr, Dimension] = {}  # dimensions of the letters read so far
 
     def fits(self, left: Term, right: Term) -> bool:
         return super().fits(left, right) or not self.homogeneous or left.expr == 0 or right.expr == 0
@@ -96,7 +96,7 @@ class Grids(Arithmetic, ABC):
         return spanning(each(value, lambda term: self.negated(term, term.start)), start, value.end)
 
     def product_of(self, left: TermOrGrid, right: TermOrGrid, sign: str) -> TermOrGrid:
-        """Multiply two neighbours, or two values with a dot or a cross between them."""
+        """Multiply two adjacent values, with or without a dot or a cross between them."""
         if isinstance(left, Term) and isinstance(right, Term):
             if sign and self.has_vector(left) and self.has_vector(right):
                 components = "write their components, `\\{a_1, a_2, a_3\\}`"
@@ -167,7 +167,7 @@ class Grids(Arithmetic, ABC):
         self.refuse("shape", message, exponent.start, exponent.end)
 
     def size_of(self, inner: TermOrGrid, start: int, end: int) -> Term:
-        """Return the value of bars: the absolute value of a scalar, the length of a vector."""
+        """Return the value of an expression between bars: the absolute value of a scalar, or the length of a vector."""
         self.vectors = [at for at in self.vectors if not start <= at < end]
         if isinstance(inner, Term):
             return replace(inner, expr=Abs(inner.expr), start=start, end=end, kind=None)

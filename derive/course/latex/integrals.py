@@ -1,6 +1,6 @@
 """Integrals as a document writes them: signs with limits, differentials in any customary place, brackets with limits.
 
-Only integrals that are quick to take are read: of powers, sines and cosines, and of the roots that circles bring in.
+Only integrals that are quick to evaluate are read: of powers, of sines and cosines, and of the roots from circles.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ MAX_WAVES = 24
 
 @dataclass
 class Sign:
-    r"""An integral sign of a product: its limits, its place, and its variable once its differential has been read.
+    r"""An integral sign in a product: its limits, its place, and (after its differential is read) its variable.
 
-    Its range is everything that follows in its product: in `\int_0^h z dz \int_0^z dx` the second is inside the first.
+    The sign applies to all later factors of its product: in `\int_0^h z dz \int_0^z dx` the second is inside the first.
     """
 
     lower: Term
@@ -37,7 +37,7 @@ class Sign:
 
 
 def differential_of(reader: Grids, signs: list[Sign], variable: Term) -> None:
-    """Pair a differential with the innermost sign that has none yet."""
+    """Pair a differential with the innermost sign that still lacks a differential."""
     sign = next(sign for sign in reversed(signs) if sign.variable is None)
     if any(other.variable and other.variable.expr == variable.expr for other in signs):
         message = f"`{reader.shown(variable)}` is already the variable of another integral here"
@@ -74,7 +74,7 @@ def _has(value: TermOrGrid, letter: Expr) -> bool:
 
 
 def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: list[TermOrGrid]) -> TermOrGrid:
-    """Take the integrals of a product, beginning with the one that was opened last."""
+    """Evaluate the integrals of a product, beginning with the integral that was opened last."""
     for position in range(len(signs) - 1, -1, -1):
         sign = signs[position]
         if sign.variable is None:
@@ -96,7 +96,7 @@ def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: li
 
 
 def _one(reader: Grids, inside: TermOrGrid, sign: Sign, variable: Term) -> TermOrGrid:
-    """Put one more integral around the value; its variable becomes a letter of its own."""
+    """Put one more integral around the value; its variable is replaced by a new letter."""
     check_limits(reader, variable, sign.lower, sign.upper)
 
     def integral(term: Term) -> Term:
@@ -129,7 +129,7 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 
 
 def _is_elementary(function: Expr, limits: Limits) -> bool:
-    """Return whether the integral is of a kind that is taken at once, or that SymPy takes by the rules of a course.
+    """Return whether the integral is of a kind that is evaluated at once, or by SymPy with elementary rules.
 
     An integral over a root is always read: if its kind is unknown, it counts as undefined and agrees with nothing.
     """
@@ -145,7 +145,8 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
 
 
 def _is_short(product: Expr, x: Symbol) -> bool:
-    """Return whether SymPy is quick: a power of x, or waves of one argument; only a few of both or of several."""
+    """Return whether SymPy is quick: a power of x, or sines and cosines of one argument; of both or of several, only a
+    few."""
     power, waves, arguments = 0, 0, set()
     for factor in Mul.make_args(product):
         base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, Integer(1))
@@ -164,7 +165,8 @@ def _is_short(product: Expr, x: Symbol) -> bool:
 
 
 def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:
-    """Return an antiderivative between limits; its variable is the one letter for which limits can be substituted."""
+    """Return an antiderivative between limits; its variable is the only letter for which the limits can be
+    substituted."""
     term = reader.scalar_in(inner, "an antiderivative")
     limits = (lower.expr, upper.expr)
     x = variable.expr if variable else _only_letter(reader, term, lower, upper)
@@ -178,14 +180,14 @@ def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, varia
 
 
 def grown(term: Term, x: Expr, lower: Term, upper: Term) -> tuple[int, int]:
-    """Return how large the antiderivative of a value can become when limits are substituted for x."""
+    """Return the largest possible size of a value's antiderivative when limits are substituted for x."""
     power = _degree(term.expr, x, term.size) + 1
     terms = term.terms * (lower.terms**power + upper.terms**power)
     return term.size * max(lower.size, upper.size) + 1, terms
 
 
 def _degree(expr: Expr, x: Expr, most: int) -> int:
-    """Return the highest power of x after multiplying out; `most`, its size, where that cannot be seen."""
+    """Return the highest power of x after multiplying out; if the power is not visible, return the bound `most`."""
     if not expr.has(x):
         return 0
     if expr.is_Add:

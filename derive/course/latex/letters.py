@@ -1,4 +1,4 @@
-"""Letters as a document writes them, and the declared names that they mean.
+"""The letters of a document, and the declared names to which they refer.
 
 A name is a letter, Greek or Latin, with its subscript: `I_{zz}` is `I_zz`, `r_{C,x}` is `r_C_x`. A dot makes the
 letter's rate of change, which `derive.algebra.expressions.rate` names: `theta_dot`.
@@ -23,7 +23,7 @@ UNIT_VECTORS = {"i": 0, "j": 1, "k": 2, "x": 0, "y": 1, "z": 2}
 
 @dataclass(frozen=True)
 class Letter:
-    """A letter of the document before it is looked up; `hat` and `vector` are its decoration."""
+    """A letter of the document before its declared name is found; `hat` and `vector` are its decorations."""
 
     base: str
     start: int
@@ -39,13 +39,13 @@ class Letter:
 
     @property
     def axis(self) -> int | None:
-        """The unit vector that it could be: i, j, k as a vector; x, y, z only under a hat."""
+        """The axis, if the letter could be a unit vector: i, j, k in bold or with an arrow; x, y, z only with a hat."""
         marked = self.hat or (self.vector and self.base in "ijk")
         return UNIT_VECTORS.get(self.base) if marked and not self.subscript and not self.dots else None
 
 
 class Letters:
-    """The names that may be used, identified by their letter and subscript without the marks between."""
+    """The names that may be used, identified by letter and subscript without the marks between them."""
 
     def __init__(self, declared: Mapping[str, Declared]):
         self.declared = declared
@@ -67,7 +67,7 @@ def _bare(subscript: str) -> str:
 
 
 def dots_of(letter: Letter, declared: Declared) -> int:
-    """Count the written dots and those of a letter that is declared as a rate; 0 if no dot is written."""
+    """Return the number of dots, including those of a letter that is declared as a rate; 0 if no dot is written."""
     return letter.dots and letter.dots + next(n for n in (3, 2, 1, 0) if declared.symbol.name.endswith(RATES[n]))
 
 
@@ -81,7 +81,7 @@ def term_of(letter: Letter, declared: Declared) -> Term:
 
 
 def letter_at(token: Token | None) -> Letter | None:
-    """Return the letter that a token is, with its decoration and dots, if it is one."""
+    """Return the letter with its decorations and dots if the token is a letter."""
     if token is None:
         return None
     if token.kind == "letter":
@@ -135,7 +135,7 @@ def _with_subscript(argument: Argument) -> Letter | None:
 
 
 def subscript_of(tokens: tuple[Token, ...]) -> str | None:
-    """Return the text below a letter: letters, digits, words and commas, joined; None if it has anything else."""
+    """Return a subscript as text: letters, digits, words and commas, joined; None if it contains anything else."""
     parts: list[str] = []
     for token in tokens:
         if token.kind in _SUBSCRIPT or token.text == "," or token.kind == "command" and token.text in GREEK_COMMANDS:

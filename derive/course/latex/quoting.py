@@ -1,7 +1,7 @@
 """Quotations of a document in its own letters: prose with formulas between dollar signs.
 
-A quotation is data and never reaches TeX unchanged. Its formulas are cut into commands and signs, each of which must
-be on a list and must nest, and are written out again; anything unknown is refused at its place. A quotation may contain
+A quotation is data and never reaches TeX unchanged. Its formulas are split into commands and signs, which must be on a
+list and correctly nested, and are written again; anything unknown is rejected at its place. A quotation may contain
 more than the grammar reads, because a garbled formula must be quoted too, and less than TeX can do.
 """
 
@@ -51,7 +51,7 @@ class Unquotable(ValueError):
 
 
 def quoted(text: str) -> tuple[Quoted, ...]:
-    """Return words and formulas in turn, or raise `Unquotable`."""
+    """Return the words and formulas alternately, or raise `Unquotable`."""
     if len(text) > LONGEST_QUOTATION:
         raise Unquotable(f"a quotation has at most {LONGEST_QUOTATION} characters", 0)
     if text.count("$") % 2:
@@ -65,7 +65,7 @@ def quoted(text: str) -> tuple[Quoted, ...]:
 
 
 def quoted_formula(text: str, offset: int = 0) -> str:
-    """Return the TeX of a formula, written again from known signs and commands; rows are aligned."""
+    """Return the TeX of a formula, rewritten with known signs and commands; rows are aligned."""
     pieces, rows = "".join(_pieces(text, offset)).strip(), False
     depth = 0
     for word in re.findall(r"\\begin|\\end|\\\\|\\&|&", pieces):
@@ -130,7 +130,7 @@ def _environment(name: str, environment: str, columns: str | None, nesting: list
 
 
 def _shown(environment: str) -> str:
-    """Return the environment that replaces a display within a line."""
+    """Return the environment that is used within a line in place of a display environment."""
     return "aligned" if environment in ALIGNMENTS else environment
 
 

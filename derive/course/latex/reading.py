@@ -31,7 +31,8 @@ Entries: TypeAlias = tuple[tuple[Expr, Dimension], ...]
 
 @dataclass(frozen=True)
 class Side:
-    """One side of a chain: its entries row by row, once for each branch; shape () is a scalar, (3, 1) a vector."""
+    """One side of a chain: its entries row by row, separately for each branch; shape () is a scalar, (3, 1) a
+    vector."""
 
     branches: tuple[Entries, ...]
     shape: tuple[int, ...]
@@ -41,21 +42,22 @@ class Side:
 
 @dataclass(frozen=True)
 class ReadMath:
-    """The sides of a chain, and the mark before each: the first is "" unless the formula begins with one."""
+    """The sides of a chain, and the mark before each side: the first mark is "" unless the formula begins with a
+    mark."""
 
     sides: tuple[Side, ...]
     marks: tuple[str, ...]
 
 
 def read_latex(scalar: Scalar, letters: Mapping[str, Declared], *, homogeneous: bool = True) -> ReadMath:
-    """Read the formula in the declared letters, or raise `Rejected` with what is wrong and where.
+    """Read the formula in the declared letters, or raise `Rejected` with the errors and their places.
 
-    `homogeneous=False` is for a formula with numbers in place of letters, and for one that is known to be wrong.
+    `homogeneous=False` is for a formula with numbers in place of letters, and for a formula that is known to be wrong.
     """
     return _read(scalar, tuple(letters.items()), homogeneous)
 
 
-@lru_cache(maxsize=1024)  # for a process that reads more than once
+@lru_cache(maxsize=1024)  # for a process that reads several formulas
 def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneous: bool) -> ReadMath:
     letters = dict(declared)
     plus = Formula(scalar, Letters(letters), homogeneous)
@@ -74,7 +76,7 @@ ReadSide: TypeAlias = tuple[list[TermOrGrid], int, Token, Token]
 
 
 def _chain(formula: Formula, tokens: tuple[Token, ...]) -> tuple[list[ReadSide], list[str]]:
-    """Read every side; undeclared letters are all reported at once, before other errors."""
+    """Read every side; all undeclared letters are reported together, before other errors."""
     cursor = Cursor(_in_one_line(tokens), len(formula.text.rstrip()))
     try:
         found = formula.chain(cursor)

@@ -1,6 +1,6 @@
-r"""Left sides that only name what follows: `U(\theta) =`, `U^{\prime\prime} =`, `\frac{\partial L}{\partial\theta} =`.
+r"""Left sides that only name the next side: `U(\theta) =`, `U^{\prime\prime} =`, `\frac{\partial L}{\partial\theta} =`.
 
-Such a name has no value that could be compared; the answer of the entry states what it is.
+Such a name has no value to compare; the `answer` of the entry says which step it names.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from derive.course.latex.vocabulary import FRACTIONS, RELATIONS
 
 
 def without_title(cursor: Cursor) -> None:
-    """Step past a left side that is a derivative, a letter with primes, or a letter with its arguments in brackets."""
+    """Skip a left side that is a derivative, a letter with primes, or a letter with its arguments in brackets."""
     tokens = cursor.tokens
     relations = [i for i, token in enumerate(tokens) if _written(token) in RELATIONS and not _within(tokens, i)]
     if not relations:
@@ -47,7 +47,7 @@ def _within(tokens: tuple[Token, ...], i: int) -> bool:
 
 
 def _is_function(tokens: tuple[Token, ...], differentiated: bool) -> bool:
-    """Return whether this is a letter with primes or with arguments; after a derivative, the letter may be alone."""
+    """Return whether the tokens are a letter with primes or arguments; after a derivative, the letter may be alone."""
     if not tokens or letter_at(tokens[0]) is None:
         return False
     at = 1
@@ -58,7 +58,8 @@ def _is_function(tokens: tuple[Token, ...], differentiated: bool) -> bool:
 
 
 def _are_arguments(tokens: tuple[Token, ...]) -> bool:
-    """Return whether these are letters in brackets, `(\\theta, t)` or `(\\theta=0)`; others could be a factor."""
+    """Return whether these are letters in brackets, `(\\theta, t)` or `(\\theta=0)`; other brackets could be a
+    factor."""
     if len(tokens) < 3 or (tokens[0].text, tokens[-1].text) != ("(", ")"):
         return False
     kinds = "".join("L" if letter_at(t) else "N" if t.kind == "number" else t.text for t in tokens[1:-1])

@@ -1,4 +1,4 @@
-"""The tokens of a formula and their places: the nodes of pylatexenc as a flat run, with groups opened.
+"""The tokens of a formula and their places: the nodes of pylatexenc as a flat sequence, with groups resolved.
 
 A brace that only groups prints nothing, so it means nothing here either: `{ab}^2` is `ab^2`, as on paper.
 """
@@ -61,7 +61,7 @@ _MARKS = {
 class Token:
     """One token of a formula: number, letter, mark, script, open, close, bar, cell, row, command or matrix.
 
-    Only a command has arguments, and only a matrix and an argument have something inside.
+    Only a command has arguments; only a matrix and an argument contain other tokens.
     """
 
     kind: str
@@ -95,7 +95,7 @@ def _known_to_the_walker() -> LatexContextDb:
 
 
 def tokens_of(reader: Arithmetic) -> tuple[Token, ...]:
-    """Return every token of the reader's text, or refuse the first one that cannot be recognized."""
+    """Return every token of the reader's text, or reject the first token that is not recognized."""
     text = reader.text
     if not text.strip():
         reader.refuse("latex", "a formula is missing", 0)
@@ -120,7 +120,7 @@ def tokens_of(reader: Arithmetic) -> tuple[Token, ...]:
 
 
 def _check_depth(reader: Arithmetic) -> None:
-    """Count the nesting before the walker begins, because the walker recurses."""
+    """Check the depth of nesting before the walker begins, because the walker recurses."""
     depth = 0
     for found in re.finditer(r"\\begin|\\end|\\?[{}\[\]]", reader.text):
         depth += 1 if found[0][-1] in "{[n" else -1
@@ -145,7 +145,7 @@ def _in_our_words(said: str) -> tuple[str, str | None]:
 
 
 class _Tokens:
-    """Walks the nodes."""
+    """Converts the nodes of pylatexenc to tokens, one after another."""
 
     def __init__(self, reader: Arithmetic):
         self.reader = reader

@@ -1,4 +1,4 @@
-"""The known commands of LaTeX, by their purpose; every other command is refused."""
+"""The known commands of LaTeX, by purpose; every other command is rejected."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ REFUSED: Mapping[str, tuple[str, str | None]] = {
     "dots": ("an ellipsis cannot be read", "write what it stands for"),
 }
 
-# The arguments of a command: `{` is one in braces, `[` is an optional one in brackets.
+# The arguments of a command: `{` is an argument in braces, `[` is an optional argument in brackets.
 ARGUMENTS: Mapping[str, str] = {
     "sqrt": "[{",
     **dict.fromkeys(FRACTIONS, "{{"),

@@ -1,1 +1,1 @@
-"""The formulas of an existing document, compared with what was derived."""
+"""The formulas of an existing document, compared with the derived steps."""

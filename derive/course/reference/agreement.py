@@ -1,6 +1,6 @@
-"""The comparison of one statement of a document with what was derived.
+"""The comparison of one statement of a document with the derived step.
 
-A letter that the step's value lacks means a result of the steps before it: `rho`, `J_xx`, or `omega_x` of a spin.
+If a letter is not in the step's value, it means the result of an earlier step: `rho`, `J_xx`, or `omega_x` of a spin.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def given_values(problem: Problem) -> dict[str, Any]:
 
 
 def verdict_on(statement: Statement, step: Quantity, entry: Entry, pinned: Problem) -> Verdict:
-    """Compare entry by entry and branch by branch; the verdict is as sure as the least sure of them."""
+    """Compare entry by entry and branch by branch; the verdict is only as certain as the least certain comparison."""
     derived = explicit(step.value)
     meanings = _meanings(statement, entry.times, step, derived, pinned)
     if entry.times is not None and not isinstance(derived, Relation):
@@ -77,7 +77,7 @@ def _of_value(
                 worst = verdict
         return worst
 
-    # The order of two branches has no meaning, and one branch alone may be stated.
+    # The order of two branches has no meaning, and the document may state only one branch.
     orders = [[0], [1]] if len(stated.branches) < len(branches) else [list(range(len(branches)))]
     if len(stated.branches) == 2:
         orders.append([1, 0])
@@ -109,13 +109,13 @@ def _least_sure(verdicts: Iterable[Verdict]) -> Verdict:
 def _of_relation(
     statement: Statement, derived: Relation, entry: Entry, pinned: Problem, meanings: Table[Symbol, Expr]
 ) -> Verdict:
-    """Compare the document's equation with ours, or with ours times the factor that the entry states."""
+    """Compare the document's equation with our equation, multiplied by the factor of the entry if it states one."""
     sides = statement.sides
     if any(side.shape for side in sides):
         return Verdict(Grade.REFUTED, f"{_named_shape(sides[0].shape)} against a relation")
     if len(sides) > 2 or statement.marks[-1] == "~" or any(len(side.branches) > 1 for side in sides):
         return Verdict(Grade.REFUTED, "this is not one relation")
-    if len(sides) == 1:  # an equation may be stated by an expression that vanishes
+    if len(sides) == 1:  # an equation may be stated as an expression that vanishes
         sides = (sides[0], replace(sides[0], branches=(((Integer(0), sides[0].entries[0][1]),),)))
     mark = statement.marks[1] if len(statement.sides) == 2 else "="
     left, right = (_in_its_unit(side.entries[0][0].xreplace(meanings), side.entries[0][1], entry) for side in sides)
@@ -138,20 +138,20 @@ def _of_relation(
         return Verdict(Grade.REFUTED, "`times` is zero, so any statement would agree")
     verdict = equal(stated.residual, factor * ours.residual)
     if not verdict:
-        turned = equal(stated.residual, -factor * ours.residual)  # the sides may be exchanged
+        turned = equal(stated.residual, -factor * ours.residual)  # the two sides may be interchanged
         verdict = turned if turned else verdict
     return verdict
 
 
 def _in_its_unit(expr: Expr, dimension: Dimension, entry: Entry) -> tuple[Expr, Dimension]:
-    """Give a number that a relation has on one side the unit of the entry."""
+    """Return an expression; if it is a number, as on one side of a relation, give it the unit of the entry."""
     if entry.unit is None or not expr.is_number or expr == 0:
         return expr, dimension
     return expr * entry.unit.factor, dimension * entry.unit.dimension
 
 
 def _bound_to_figures(stated: Relation, ours: Relation, entry: Entry) -> Verdict:
-    """Return whether the decimal of `S > 28` agrees with the derived one, if all else is the same."""
+    """Return whether the decimal of `S > 28` agrees with the derived decimal, if all else is equal."""
     if stated.left != ours.left or stated.operator != ours.operator or stated.right.free_symbols:
         return Verdict(Grade.REFUTED, f"`{stated}` against `{ours}`")
     factor = entry.unit.factor if entry.unit else Integer(1)
@@ -167,7 +167,8 @@ def _entries_of(value: Any) -> list[Expr]:
 
 
 def _numbers(pinned: Problem, kept: set[Symbol], entry: Entry) -> dict[Symbol, Expr]:
-    """Return numbers to substitute for letters: those that the statement lacks, and those that it has substituted."""
+    """Return numbers to substitute for letters: for letters that the statement lacks, and for letters that it
+    replaced."""
     return {m.symbol: m.si for m in pinned.measured if m.symbol not in kept or m.symbol.name in entry.put_in}
 
 
@@ -189,7 +190,7 @@ def _meanings(
 ) -> dict[Symbol, Expr]:
     """Return the meaning of each letter of a statement: the same letter, or the result of an earlier step.
 
-    A letter that the derivation does not have is only known to be real, whatever its kind.
+    A letter that is not in the derivation is only known to be real, whatever its kind.
     """
     own = {letter.name: letter for letter in derived.free_symbols}
     given = {
@@ -201,7 +202,7 @@ def _meanings(
     known = {**{m.symbol.name: m.symbol for m in pinned.measured}, **given, **own}
     if any(letter.name not in known and len(found.get(letter.name, ())) != 1 for letter in wanted):
         known = {**_letters_of(behind), **known}
-    # A name with two meanings among the steps before (the inertia tensors of two bodies, say) has none here.
+    # A name with two meanings in earlier steps (such as the inertia tensors of two bodies) gets no meaning here.
     return {
         letter: values[0] if len(values := found.get(letter.name, [])) == 1 else known.get(letter.name, letter)
         for letter in wanted
@@ -209,7 +210,8 @@ def _meanings(
 
 
 def _letters_of(steps: Iterable[Quantity]) -> dict[str, Symbol]:
-    """Return the letters of the values of steps, by name; of two with one name, the one about which less is known."""
+    """Return the letters in the values of steps, by name; of two letters with the same name, the one with fewer
+    assumptions."""
     letters = {letter for step in steps for letter in getattr(explicit(step.value), "free_symbols", ())}
     return {letter.name: letter for letter in sorted(letters, key=lambda x: (not x.is_nonzero, x.name))}
 
@@ -219,7 +221,7 @@ def _expressions(values: Any) -> list[Expr]:
 
 
 def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
-    """Map each name to its different values among these steps; components of general vectors are left out."""
+    """Map each name to its distinct values in these steps; components of general vectors are left out."""
     found: dict[str, list[Any]] = {}
     for quantity in steps:
         names: tuple[Symbol, ...] = (quantity.symbol,) if isinstance(quantity.symbol, Symbol) else ()
@@ -233,14 +235,16 @@ def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
 
 
 def _of_kind(dimension: Dimension, value: Expr, kind: str | None) -> Verdict | None:
-    """Return the refutation that a wrong dimension gives at once, as from a wrong unit or an extra letter."""
+    """Return a refutation if the dimension is wrong, for example because of a wrong unit or an extra letter; else
+    None."""
     if kind is None or value == 0 or dimension == dimension_of_kind(kind):
         return None
     return Verdict(Grade.REFUTED, f"{named(dimension)} against {kind_with_article(kind)}")
 
 
 def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
-    """Return whether each printed decimal is within half a unit of its last place; its letters must be the same."""
+    """Return whether each printed decimal is within half a unit of its last digit; the letters after it must be the
+    same."""
     printed, exact = _coefficients(stated), _coefficients(derived)
     if printed.keys() != exact.keys():
         return Verdict(Grade.REFUTED, f"{stated} against {derived}")
@@ -252,7 +256,8 @@ def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
 
 
 def _coefficients(expr: Expr) -> dict[Expr, Expr]:
-    """Map letters to the number in front of them; letters that a root has in every term are taken out of the root."""
+    """Map products of letters to their coefficients; a letter that is a factor of every term under a root is taken
+    out."""
     found: dict[Expr, Expr] = {}
     opened = expr.replace(
         lambda e: isinstance(e, Pow) and not e.exp.is_Integer, lambda e: factor_terms(e.base) ** e.exp

@@ -1,13 +1,13 @@
-"""The comparison of what a document states with what is derived: `problems/<set>/reference.yaml`.
+"""The comparison of the statements of a document, in `problems/<set>/reference.yaml`, with the derived steps.
 
-The file is a list of groups. A group names a problem and pins it by `symbols:`, `given:` and `values:` of its own, so
+The file is a list of groups. A group names a problem and fixes its input by own `symbols:`, `given:` and `values:`, so
 that an edit of the problem does not break the comparison and wrong numbers are never compared. Each of its entries
 states a value of one step:
 
     agrees               equal, with the grade of the evidence
     agrees to n figures  decimals, equal to that many figures
-    erratum              the document is wrong: `states` is refuted and `right` agrees; or it is quoted
-    differs              refuted, at a point; or a stated erratum where the document is right
+    erratum              the document is wrong: `states` is refuted and `right` agrees; or the error is only quoted
+    differs              refuted by values at a point; or the entry states an erratum, but the document is right
     unknown step         no step has that key
     remark               nothing is compared: a claim of the document is quoted, with a comment
 
@@ -40,7 +40,7 @@ from derive.steps.step import Quantity
 
 @dataclass(frozen=True)
 class Told:
-    """The contents of a comparison, for a page and its JSON."""
+    """The data of a comparison, for a page and its JSON."""
 
     facts: dict[str, Any]
     here: bool
@@ -54,7 +54,7 @@ class Told:
 
 @dataclass(frozen=True)
 class Comparison:
-    """The outcome of one entry; `complaint` says what is wrong if it counts as a failure."""
+    """The outcome of one entry; `complaint` says what is wrong if the outcome counts as a failure."""
 
     problem: str
     entry: Entry
@@ -63,7 +63,7 @@ class Comparison:
     detail: str
     complaint: Complaint | None = None
     erratum: Erratum | None = None
-    here: bool = True  # pinned to what the problem now gives, so that its page may mention it
+    here: bool = True  # compared for the present input of the problem, so that its page may mention the outcome
 
     def told(self) -> Told:
         return Told(self.facts(), self.here, self.erratum, self.entry.remark)
@@ -88,8 +88,8 @@ Steps = Table[str, Quantity]
 
 
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
-    """Compare every entry about this problem; `known` are its steps for what its own file gives. If a group pins other
-    values, its steps are derived with the calls of the `memory`."""
+    """Compare every entry about this problem; `known` are its steps for the input in its own file. If a group fixes
+    another input, the steps for that input are derived with the calls in the `memory`."""
     with within(problem.ranges):
         return _comparisons(problem, known, memory)
 
@@ -110,13 +110,14 @@ def _comparisons(problem: Problem, known: Steps, memory: Memory | None) -> tuple
 
 
 def _what_is_given(problem: Problem) -> object:
-    """Return the input of its derivation: the system that it describes, or the values that its script asks for."""
+    """Return the input of a derivation: the system that the problem describes, or the values that its script asks
+    for."""
     return problem.described or given_values(problem)
 
 
 def _pinned_steps(pinned: Problem, problem: Problem, memory: Memory | None) -> Steps:
-    """Return the steps, from earlier in this process if all that they depend on is the same: a preview asks again and
-    again, and an edit of the givens does not change what a document pins."""
+    """Return the steps, reused from earlier in this process if their inputs are the same: a preview compares often,
+    and an edit of the problem's givens does not change the input that a group fixes."""
     depends = (_text_of(pinned.script), _what_is_given(pinned), pinned.symbols, pinned.ranges, problem.ranges)
     found = next((steps for other, steps in _pinned_before if other == depends), None)
     if found is None:
@@ -140,7 +141,7 @@ def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
         return with_ancestors(returned_quantities(returned, pinned.script.returns), pinned.script.returns)
     except DeriveError as error:
         place = pinned.place_of("given")
-        note = f"this is for what is given at {place.path}:{place.line}"
+        note = f"this error is for the input at {place.path}:{place.line}"
         raise type(error)(replace(c, notes=(*c.notes, note)) for c in error.complaints) from error
 
 
@@ -148,11 +149,11 @@ def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
 
 
 def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
-    """Return the sides of a chain as entries of their own; an entry that states a relation stays whole."""
+    """Return the sides of a chain as separate entries; an entry that states a relation is not split."""
     step = steps.get(entry.answer)
     if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]
-    again = replace(entry, remark=None)  # only the first side of a chain brings the remark
+    again = replace(entry, remark=None)  # only the entry of the first side keeps the remark
     sides = zip(entry.states.sides, entry.states.marks, strict=True)
     return [
         replace(again if i else entry, states=Statement((side,), (mark,), side.text, side.place))

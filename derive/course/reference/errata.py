@@ -1,4 +1,4 @@
-"""An erratum of the source document as a page prints it: what the document has, why it is wrong, and what is right."""
+"""An erratum of the source document, as on a page: what the document prints, why it is wrong, and what is right."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from derive.course.reference.statements import Entry, Stated, Statement
 
 @dataclass(frozen=True)
 class Erratum:
-    """`printed` and `right` are two values of the step `answer`; decimals keep the figures they are printed with.
+    """`printed` and `right` are two values of the step `answer`; decimals keep their printed number of figures.
 
     `quote` and `instead` are the same in the document's own letters, prose with formulas between dollar signs; they are
-    empty if the document was not transcribed unchanged. `line` is its line. A formula that is garbled as printed is not
-    a value of a step, so it has only these fields.
+    empty if the document was not transcribed unchanged. `line` is the line of the document. An
+    erratum of a formula that is garbled in print is not a value of a step, so it has only these fields.
     """
 
     answer: str
@@ -33,7 +33,7 @@ class Erratum:
     instead: str = ""
 
     def encoded(self) -> dict[str, Any]:
-        """Return it as data, for the steps that are kept between builds."""
+        """Return the erratum as data, to be stored with the steps between builds."""
         words: dict[str, Any] = {"answer": self.answer, "part": self.part, "why": self.why}
         words |= {"line": self.line, "quote": self.quote, "instead": self.instead}
         return {**words, "printed": encoded(self.printed), "right": encoded(self.right)}
@@ -46,20 +46,20 @@ class Erratum:
 
 
 def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
-    """Return the erratum that an entry of the reference states, in the letters of the problem, by their names."""
+    """Return the erratum that an entry of the reference states, in the problem's letters of the same names."""
     assert entry.right is not None and entry.states is not None
     printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
     return Erratum(entry.answer, entry.part, entry.why, printed, right, entry.line, entry.quote, entry.instead)
 
 
 def quoted_erratum(entry: Entry) -> Erratum:
-    """Return an erratum that is quoted and corrected, and was not compared."""
+    """Return an erratum that is only quoted and corrected, and was not compared."""
     return Erratum("", entry.part, entry.why, None, None, entry.line, entry.quote, entry.instead)
 
 
 def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
     """Return a value, a relation, or both branches of a value in one expression."""
-    if len(statement.sides) == 2:  # only a number is in the unit of the entry
+    if len(statement.sides) == 2:  # only a side that is a number has the unit of the entry
         bare = replace(entry, unit=None)
         numbers = [not side.letters for side in statement.sides]
         sides = [
@@ -90,7 +90,7 @@ def _renamed(expr: Expr, letters: Mapping[str, Symbol]) -> Expr:
 
 
 def _with_figures(expr: Expr, i: int, entry: Entry) -> Expr:
-    """Return the decimals of an entry with the figures to which it is stated: 21.64, not 541/25."""
+    """Return an expression whose decimals have the significant figures that the entry states: 21.64, not 541/25."""
     if not entry.figures:
         return expr
     figures = Integer(entry.figures[i % len(entry.figures)])

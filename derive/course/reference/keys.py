@@ -37,7 +37,7 @@ class ErratumKeys(Record):
     """The keys of `erratum:`."""
 
     why: Word | None = key("what is wrong, in a few words", QUOTATION, required=True)
-    right: Tree | None = key("the value that it should state", _ANY_VALUE, required=True)
+    right: Tree | None = key("the value that the document should state", _ANY_VALUE, required=True)
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class EntryKeys(Record):
         as_written(SCALAR.schema, "a formula in LaTeX"),
     )
     to: Tree | None = key(
-        "figures to which decimals agree; a list has one number for each entry, or for each of two branches",
+        "significant figures to which decimals agree; a list has a number for each entry or for each of two branches",
         as_written(one_or_more(FIGURES.schema), f"a whole number from 1 to {MAX_FIGURES}, or a list of them"),
     )
     unit: Word | None = key("the unit of the stated value", Reader(UNIT, TEXT.read), called="in")
@@ -83,7 +83,9 @@ class GroupKeys(Record):
     symbols: dict[Word, SortOfLetter] = key(
         "letters of the document and their kinds, including those that steps introduce", SYMBOLS
     )
-    given: Mapping | None = key("what the document starts from, as in the problem's file", GIVEN, required=True)
+    given: Mapping | None = key(
+        "the input of the document, as under `given:` in the problem's file", GIVEN, required=True
+    )
     letters: dict[Word, Tree] = key(
         "letters of the document that have another name here: `I_1: I_xx`",
         _OUR_LETTERS,
@@ -96,9 +98,9 @@ class GroupKeys(Record):
 
 @dataclass(frozen=True)
 class DocumentKeys(Record):
-    """The first item of the list if it names the document; errata and remarks then show its lines."""
+    """The first item of the list, if it names the document; errata and remarks then show lines of the document."""
 
-    document: Word | None = key("the document that the groups below are about", TEXT, required=True)
+    document: Word | None = key("the document that the groups below compare", TEXT, required=True)
 
 
 @dataclass(frozen=True)

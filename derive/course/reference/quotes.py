@@ -15,7 +15,7 @@ LAST_LINE = 99_999
 
 @dataclass(frozen=True)
 class Remark:
-    """A claim of the document that is wrong, right by luck, incomplete or not a formula: its text, its line, and why.
+    """A claim of the document that is wrong, right by luck, incomplete or not a formula: text, line and reason.
 
     Both texts are prose with formulas between dollar signs.
     """
@@ -47,7 +47,7 @@ def _quotation(node: Tree, name: str, faults: Faults) -> Word | None:
 
 
 def unquotable(text: str) -> str | None:
-    """Return why a text cannot be quoted; nothing if it can."""
+    """Return why a text cannot be quoted; None if it can be quoted."""
     from derive.course.latex.quoting import Unquotable, quoted  # needed by few files
 
     try:

@@ -1,7 +1,7 @@
-"""The statements of a document in `problems/<set>/reference.yaml`: groups of entries, each pinned to what is given.
+"""The statements of a document in `problems/<set>/reference.yaml`: groups of entries, each with its own fixed input.
 
 A value is an expression in the grammar of the problem files (`states:`), or a formula as the document prints it
-(`latex:`): a chain whose sides are each compared, or a relation.
+(`latex:`): a chain, each side of which is compared, or a relation.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _VALUE = "an expression, a list of 3, or 3 rows of 3"
 
 @dataclass(frozen=True)
 class Stated:
-    """A value as the document has it: its entries with their dimensions, and how it was written.
+    """A value as the document states it: its entries with their dimensions, and its original text.
 
     A value with `\\pm` has two branches. If it is not `homogeneous`, its dimensions have no meaning.
     """
@@ -80,7 +80,7 @@ class Statement:
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry of the file; `figures` has one number for each entry of the value, `unit` holds for all of them.
+    """One entry of the file; `figures` has a number for each component of the value; `unit` applies to all of them.
 
     `quote` is what the document prints and `instead` what it should print, in its own letters; `states` is missing
     if there is only a remark.
@@ -109,15 +109,15 @@ def reference_path(problem: Problem) -> str:
 
 
 def reference_of_set(root: Path, set_id: str) -> Tree | None:
-    """Return what the documents of a set state, if there is such a file."""
+    """Return the contents of the reference file of a set; None if there is no such file."""
     path = f"problems/{set_id}/reference.yaml"
     return read_yaml(root / path, path) if (root / path).exists() else None
 
 
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
-    """Return the groups about this problem, each as the problem with what it pins; raise `Rejected` with every error.
+    """Return the groups about this problem, each as the problem with the group's input; raise `Rejected` on errors.
 
-    Groups of other problems are read when those problems are derived: their errors do not belong to this one.
+    Groups of other problems are read when those problems are derived: their errors do not concern this problem.
     """
     faults = Faults()
     own = [_own_group(problem, faults)] if problem.reference else []
@@ -139,7 +139,7 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
 
 
 def _own_group(problem: Problem, faults: Faults) -> tuple[Problem, list[Entry]]:
-    """Return what a source states in the problem's own file, pinned to what that file gives."""
+    """Return the statements of a source in the problem's own file, which are compared for the input in that file."""
     node = mapping_in(problem.root, problem.path, "a problem").get("reference")
     assert isinstance(node, Mapping)
     group = read_record(OwnKeys, node, "`reference`", faults)
@@ -164,7 +164,7 @@ def _group(
         faults.error("no-such-problem", f"no problem of this set is called `{name}`", name.place, help=help_line)
     elif f"{problem.set_id}/{name}" == problem.id:
         group = read_record(GroupKeys, node, "a group", faults)
-        # Its parts and its words do not matter here.
+        # The parts and the words of the problem do not matter here.
         script = problem.script if "given" in group.places else None
         pins = pinned_by(group.symbols, group.values, group.given, group.places, script, faults)
         pinned = replace(problem, places=group.places, **vars(pins))
@@ -175,8 +175,8 @@ def _group(
 def _entries(
     group: GroupKeys | OwnKeys, pinned: Problem, document: str, faults: Faults, has_lines: bool = True
 ) -> list[Entry]:
-    # A letter is assumed only to be real, because a component that steps introduce may be negative. What the derivation
-    # knows about it comes back when the two are compared.
+    # A letter is assumed only to be real, because a component that steps introduce may be negative. The assumptions
+    # of the derivation are restored when the statement is compared.
     known_to_all = {TIME.name: Declared(TIME.name, TIME, "time"), **pinned.symbols}
     letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in known_to_all.items()}
     numbers = {measured.symbol.name for measured in pinned.measured}
@@ -189,7 +189,7 @@ def _entries(
 
 
 def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
-    """Return the letters that the document uses for ours: `I_1: I_xx`."""
+    """Return the letters that the document uses in place of the problem's letters: `I_1: I_xx`."""
     found: dict[str, Declared] = {}
     for name, value in written.items():
         ours = value.text if isinstance(value, Scalar) else ""
@@ -209,13 +209,14 @@ def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared],
 
 
 def is_quoted_only(written: EntryKeys) -> bool:
-    """Return whether an entry quotes a slip without stating a value, so that there is nothing to compare."""
+    """Return whether an entry quotes a misprint without stating a value, so that there is nothing to compare."""
     states = (written.answer, written.latex, written.states, written.remark)
     return written.erratum is not None and written.quote is not None and all(each is None for each in states)
 
 
 class _EntryReader:
-    """Reads the entries of one group: `letters` are ours, `printed` are those that the document's formulas may use."""
+    """Reads the entries of one group: `letters` are the problem's letters, `printed` the letters that the document's
+    formulas may use."""
 
     def __init__(self, letters: Table[str, Declared], printed: Table[str, Declared], numbers: set[str], faults: Faults):
         self.letters = letters
@@ -288,7 +289,8 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...]) -> Statement | None:
-        """Read what the entry states, in either notation; a statement that is an erratum need not be homogeneous."""
+        """Read the statement of an entry, in either notation; a statement that is an erratum need not be
+        homogeneous."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         if plain is not None and printed is not None:
             self.faults.error("two-values", "an entry has `states` or `latex`, not both", entry.places["latex"])
@@ -322,7 +324,8 @@ class _EntryReader:
         return written.why or "", self.one(written.right, "`right`", entry.latex is not None, not put_in)
 
     def put_in(self, node: Tree | None) -> tuple[str, ...]:
-        """Return the letters whose numbers the document has substituted; each must have a number of its own."""
+        """Return the letters whose numbers the document has substituted; each letter must have a number in the
+        group."""
         names = []
         for item in _items(node) if node is not None else ():
             name = item.text.strip() if isinstance(item, Scalar) else ""
@@ -385,5 +388,6 @@ def _figures(node: Tree | None, states: Statement | None, faults: Faults) -> tup
 
 
 def _values(value: Stated) -> tuple[tuple[Expr, Dimension], ...]:
-    """Return what a list of figures counts: the entries of a vector or tensor, the branches of a scalar."""
+    """Return the values to which a list of figures refers: the entries of a vector or tensor, or the branches of a
+    scalar."""
     return value.entries if value.shape else tuple(entries[0] for entries in value.branches)

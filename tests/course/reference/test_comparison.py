@@ -144,7 +144,7 @@ def test_a_pinned_given_that_cannot_be_derived_says_where_it_is_pinned(
     monkeypatch.setattr("derive.steps.chain.equal", lambda *_: Verdict(Grade.REFUTED, "0 against 1"))
     with pytest.raises(Unverified) as caught:
         compared(whole=refused)
-    assert "= this is for what is given at problems/hw9/reference.yaml:4" in str(caught.value)
+    assert "= this error is for the input at problems/hw9/reference.yaml:4" in str(caught.value)
 
 
 EDITS: tuple[Mapping[str, str], ...] = (
