@@ -97,7 +97,7 @@ def _pairs(shown: Any, exact: Any) -> list[tuple[Any, Expr, Expr]]:
     if isinstance(shown, Factors):  # a rounded number in front of symbols
         shown, letters = shown.args
         exact = (exact / letters).cancel()
-    if isinstance(shown, MatMul):  # a vector of rounded numbers, after symbols
+    if isinstance(shown, MatMul):  # a vector of rounded numbers, printed after the vector in symbols
         letters, shown = shown.args
         exact = (exact / letters).applyfunc(cancel)
     if isinstance(shown, MatrixBase):

@@ -27,7 +27,7 @@ def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
-    """Return the recipe of a document of the set: it includes the engine, but not the choice of other documents."""
+    """Return the recipe of a document of the set: it includes the engine, but not which other documents were chosen."""
     return {**recipe, ONLY: "", ENGINE: engine}
 
 

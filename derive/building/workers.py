@@ -396,7 +396,7 @@ def _limit_memory(limit: int) -> None:
 
 
 def _limit_reached(trace: int, error: MemoryError | RecursionError) -> str:
-    """Write the lines through which the error propagated, and return the code of the limit."""
+    """Write the traceback of the error, and return the error code of the limit that was exceeded."""
     with contextlib.suppress(OSError):
         os.write(trace, _trail(error).encode()[: select.PIPE_BUF * 8])
     return MEMORY if isinstance(error, MemoryError) else TOO_DEEP

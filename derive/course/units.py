@@ -78,7 +78,7 @@ _TOKEN = re.compile(
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit as written, its exact value in the SI, its dimension and power of an angle, and its factors."""
+    """A unit as written, with its exact value in SI units, its dimension, the power of angle in it, and its factors."""
 
     text: str
     rational: Fraction

@@ -85,7 +85,7 @@ def _conditions_are_seen(
 def _energies_are_seen(system: System) -> bool:
     """Return whether the system is a single particle, or all energies that are given as formulas are linear.
 
-    A drawing of several particles or of bodies cannot show another energy, such as a coupling.
+    A drawing of several particles or of bodies cannot show an additional energy, such as a coupling.
     """
     charged = len([each for each in system.charges if any(each.electric)])
     own = system.stored[: len(system.stored) - charged]

@@ -29,8 +29,8 @@ class HangingPulley:
     One particle hangs on a string over a fixed pulley. At the other end of this string is a second pulley, and the two
     other particles hang on a string over the second pulley.
 
-    hung   the indices of the particles in this order, where the coordinate of the second particle points down; empty if
-           the system is not of this kind
+    hung   the indices of these three particles, in this order; of the two lower particles, the first is the one whose
+           coordinate points down. Empty if the system is not of this kind
     """
 
     def __init__(self, system: System):

@@ -32,7 +32,7 @@ def with_details(document: Document, full: Document) -> Document:
 def _merged(
     full: PartPage, numbers: Mapping[str, Number], lines: Mapping[str, Sequence[ChainLine]]
 ) -> dict[str, tuple[Block, ...]]:
-    """Return the blocks to fold after each step, by its key; those before the first step have the empty key."""
+    """Return, for the key of each step, the blocks to fold after it; blocks before the first have the empty key."""
     found: dict[str, list[Block]] = {}
     at = ""
     for sentence in sentences(full.blocks):

@@ -67,7 +67,7 @@ class Blueprint:
         self.conditions = Tape([c.residual for c in description.conditions], [*q, *self.rates, TIME])
         given = [description.lagrangian] if description.lagrangian is not None else []
         self.lagrangian = Tape(given, [*q, *self.rates, TIME])
-        self.known: dict[object, Any] = {}  # cached results for certain numbers, for later steps
+        self.known: dict[object, Any] = {}  # results for particular numbers, cached for later steps
 
     @cached_property
     def letters(self) -> set[Symbol]:

@@ -47,7 +47,7 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     letter   the variable: an angle, a frequency, a length
     within   its interval; by default all values that the letter can have
     Check: the value at this place is compared with the values at many other places of the interval.
-    Outcomes: greatest, least; with a condition, if the place exists only for some values of the letters.
+    Outcomes: greatest, least; each also with a condition, if the extremum exists only for some values of the letters.
     Errors: the slope vanishes with this sign of the curvature at no place, or at several; these places have no closed
     form.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.

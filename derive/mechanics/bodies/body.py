@@ -275,7 +275,7 @@ class OfRadius(Body):
 
 @dataclass(frozen=True)
 class OfHeight(Body):
-    """A body about the z axis, defined by a radius and a height, from z = 0."""
+    """A body of revolution about the z axis, given by a radius and a height, that begins at z = 0."""
 
     radius: Expr
     height: Expr

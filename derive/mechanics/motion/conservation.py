@@ -142,7 +142,8 @@ def _product(
 
 
 def _divided(found: Relation, factor: Expr, written: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Any, Any]:
-    """Divide both sides by the factor and compare with the equation: coefficients of highest rates, and other terms."""
+    """Divide both sides by the factor and compare them with the equation: first the coefficients of the highest rates,
+    then the other terms."""
 
     def parts(relation: Relation, divisor: Expr) -> list[Expr]:
         at_rest = dict.fromkeys(motion, Integer(0))

@@ -192,7 +192,7 @@ class DescribedBody:
 
 
 class Bodies:
-    """Reads bodies in the symbols of a description."""
+    """Reads bodies whose expressions use the symbols of a description."""
 
     def __init__(self, letters: InLetters):
         self.letters = letters

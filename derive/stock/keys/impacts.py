@@ -30,7 +30,7 @@ RATE = "_dot"
 
 @dataclass(frozen=True)
 class ImpulseKeys(Record):
-    """The keys of one of `impulses:`, at a place or on an angle."""
+    """The keys of one entry of `impulses:`, at a place or on an angle."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place where it acts", PLACE)
@@ -51,7 +51,7 @@ class ImpulseKeys(Record):
 
 @dataclass(frozen=True)
 class CollisionKeys(Record):
-    """The keys of one of `collisions:`."""
+    """The keys of one entry of `collisions:`."""
 
     start: WrittenPlace | None = key("one of the places that meet", PLACE, called="from")
     end: WrittenPlace | None = key("the other place", PLACE, called="to")

@@ -39,7 +39,7 @@ ONE_OR_MORE_COMPONENTS = as_written(
 
 @dataclass(frozen=True)
 class ParticleKeys(Record):
-    """The keys of one of `particles:`."""
+    """The keys of one entry of `particles:`."""
 
     mass: Tree = key("its mass", SCALAR, required=True)
     at: WrittenPlace = key("where it is", PLACE, required=True)
@@ -51,7 +51,7 @@ class ParticleKeys(Record):
 
 @dataclass(frozen=True)
 class SpringKeys(Record):
-    """The keys of one of `springs:`."""
+    """The keys of one entry of `springs:`."""
 
     constant: Tree = key("its spring constant", SCALAR, required=True)
     start: WrittenPlace = key("where it begins", PLACE, called="from", required=True)
@@ -68,7 +68,7 @@ class SpringKeys(Record):
 
 @dataclass(frozen=True)
 class CentralKeys(Record):
-    """The keys of one of `central:`, a potential energy that depends on the distance between two places."""
+    """The keys of one entry of `central:`, a potential energy that depends on the distance between two places."""
 
     energy: Tree = key("the energy, such as `-G*M*m/d`", SCALAR, required=True)
     distance: Word = key("the symbol for the distance in `energy`", TEXT, required=True)
@@ -90,7 +90,7 @@ class CentralKeys(Record):
 
 @dataclass(frozen=True)
 class ForceKeys(Record):
-    """The keys of one of `forces:`, at a place or along a coordinate."""
+    """The keys of one entry of `forces:`, at a place or along a coordinate."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place where it acts", PLACE)
@@ -126,7 +126,7 @@ class ForceKeys(Record):
 
 @dataclass(frozen=True)
 class DampingKeys(Record):
-    """The keys of one of `damping:`."""
+    """The keys of one entry of `damping:`."""
 
     constant: Tree = key("the damping constant; in kg/s with `at`, or with `on` for a length", SCALAR, required=True)
     at: WrittenPlace | None = key("the place whose velocity it opposes", PLACE)
@@ -149,7 +149,7 @@ class DampingKeys(Record):
 
 @dataclass(frozen=True)
 class ChargeKeys(Record):
-    """The keys of one of `charges:`."""
+    """The keys of one entry of `charges:`."""
 
     charge: Tree = key("its charge", SCALAR, required=True)
     at: WrittenPlace = key("where it is", PLACE, required=True)
@@ -176,7 +176,7 @@ class ChargeKeys(Record):
 
 @dataclass(frozen=True)
 class ConstraintKeys(Record):
-    """The keys of one of `constraints:`, a condition that a constraint force enforces."""
+    """The keys of one entry of `constraints:`, a condition that a constraint force enforces."""
 
     condition: Tree = key(
         "a formula in the coordinates, or a formula that is linear in their rates", SCALAR, required=True

@@ -28,7 +28,7 @@ POINT = as_written(
 
 @dataclass(frozen=True)
 class MovingBodyKeys(BodyKeys):
-    """The keys of one of `bodies:`."""
+    """The keys of one entry of `bodies:`."""
 
     moments: Tree | None = key(
         "in place of a shape, its three principal moments of inertia, or in a plane the moment about the "
@@ -124,7 +124,7 @@ class MovingBodyKeys(BodyKeys):
 
 @dataclass(frozen=True)
 class RollingKeys(Record):
-    """The keys of one of `rolling:`, a body that rolls without slipping."""
+    """The keys of one entry of `rolling:`, a body that rolls without slipping."""
 
     body: Word = key("the body, by its name", TEXT, required=True)
     at: WrittenPlace = key("the place where it touches the surface", PLACE, required=True)

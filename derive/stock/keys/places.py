@@ -174,7 +174,7 @@ class Places:
             self.on_the_way.pop()
 
     def at(self, written: WrittenPlace, name: str) -> Location:
-        """Return the location of a written place; `name` is its name in errors."""
+        """Return the location of a place of the file; errors call it `name`."""
         if written.name is not None:
             return self.named(written.name)
         assert written.way is not None
