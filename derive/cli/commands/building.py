@@ -121,8 +121,8 @@ def _reported(report: Report, voice: Voice) -> int:
 
 
 def _listed(paths: Sequence[str], most: int = 12) -> str:
-    """Return the last paths, because these belong to the whole set, and the number of the rest."""
+    """Return the last paths, because these belong to the whole set, and the number of the others."""
     if len(paths) <= most:
         return ", ".join(paths)
     last = paths[-3:]
-    return f"{', '.join(last)} and {len(paths) - len(last)} others apart from {'them' if len(last) > 1 else 'it'}"
+    return f"{', '.join(last)} and {len(paths) - len(last)} other files"
