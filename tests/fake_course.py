@@ -25,12 +25,15 @@ TEX = """#!/bin/sh
 case "$*" in *-ini*) exit 1 ;; esac  # it makes no formats
 for source; do :; done
 echo "$source" >> "$TEX_RUNS"
-if grep -q SLOW "$source"; then sleep 60; fi
-if line=$(grep -n BAD "$source"); then
-  echo "./$source:${line%%:*}: Undefined control sequence." > "${source%.tex}.log"
-  exit 1
-fi
-{ echo "%PDF-1.5"; cat "$source"; echo startxref; echo "%%EOF"; } > "${source%.tex}.pdf"
+text=$(cat "$source")
+case "$text" in
+  *SLOW*) sleep 60 ;;
+  *BAD*)
+    line=$(grep -n BAD "$source")
+    echo "./$source:${line%%:*}: Undefined control sequence." > "${source%.tex}.log"
+    exit 1 ;;
+esac
+printf '%s\\n' '%PDF-1.5' "$text" startxref '%%EOF' > "${source%.tex}.pdf"
 """
 
 
