@@ -22,7 +22,7 @@ from tests.mutation.trial import Trials, Tried, Verdict, recording
 from tests.test_house_rules import rules_of_verb, verbs
 
 RUNS = ("block", "euler", "body-cylinder", "slab")
-SIZE, SEED = 12, 2026
+SIZE, SEED = 20, 2026
 
 
 def in_a_process_of_its_own(found: Callable[[], Iterator[Any]]) -> Iterator[Any]:
