@@ -107,7 +107,7 @@ def never_vanishes(v: Any) -> bool:
 def same_equation(value: Expr, other: Expr) -> bool:
     """Whether two expressions vanish at the same values of the symbols, since their ratio is always positive or always
     negative."""
-    return is_zero(value) if is_zero(other) else sign_found(tidied(value / other)) in (1, -1)
+    return is_zero(value) if is_zero(other) else not may_be_zero(tidied(value / other))
 
 
 def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
@@ -115,8 +115,22 @@ def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: fac
 
 
 def has_sign(value: Expr, wanted: int | None) -> bool:
-    """Whether a value has this sign at all trial numbers; if no sign is given, whether verbs cannot decide the sign."""
-    return sign_known(value) is None if wanted is None else sign_found(value) == wanted
+    """Whether a value has this sign for all values of the symbols; if no sign is given, whether the sign is unknown.
+
+    Trial numbers confirm the sign. They alone are not enough: they do not meet a = b, where (a - b)^2 vanishes.
+    """
+    return sign_known(value) == wanted and (wanted is None or sign_found(value) == wanted)
+
+
+def is_negative(value: Expr) -> bool:
+    """Whether a value is negative, by its symbols or at all trial numbers."""
+    return -1 in (sign_known(value), sign_found(value))
+
+
+def may_be_zero(value: Expr) -> bool:
+    """Whether a value may vanish: its sign is unknown, or trial numbers do not confirm the sign."""
+    sign = sign_known(value)
+    return sign in (None, 0) or sign_found(value) != sign
 
 
 def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
@@ -164,7 +178,7 @@ def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
     """Whether the sentence excludes zeros of the denominator if a factor of the denominator might vanish. Of several
     solutions, only the first one needs to exclude them."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
-    unsure = [f for f in Mul.make_args(factor(below)) if sign_found(f) is None and not f.as_base_exp()[0].is_nonzero]
+    unsure = [f for f in Mul.make_args(factor(below)) if may_be_zero(f) and not f.as_base_exp()[0].is_nonzero]
     return not unsure or outcome == "following" or "excluded" in facts.inputs
 
 
@@ -185,7 +199,7 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
 def not_negative(facts: Judged, outcome: str) -> bool:
     """Whether a period, a frequency or an amplitude is not always negative. If its sign depends on the values of the
     symbols, the page states the condition."""
-    return sign_found(facts.result) != -1
+    return not is_negative(facts.result)
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:

@@ -37,6 +37,7 @@ from derive.steps.claims import (
     has_sign,
     is_a_root_just_where_told,
     letters_in,
+    may_be_zero,
     negated,
     same_equation,
     sign_is,
@@ -57,7 +58,6 @@ from derive.steps.trial_numbers import (
     holds_at,
     real_at,
     roots_of,
-    sign_found,
     signs_of,
     trial_points,
 )
@@ -135,14 +135,16 @@ def where_the_coefficients_last(predicate: Predicate) -> Predicate:
         told = [each.left for each in known if each.operator in ("!=", ">")]
         factors = {f for each in told for f, _ in factor_list(each)[1]}
         common = factor_list(gcd_list(_polynomial(facts).coeffs()))[1]
-        open_ = [f for f, _ in common if sign_found(f) is None and not f.is_nonzero]
+        open_ = [f for f, _ in common if may_be_zero(f) and not f.is_nonzero]
         return bool(predicate(facts)) and all(f in factors or -f in factors for f in open_)
 
     return is_so
 
 
 def absent(facts: Judged) -> bool:
-    return isinstance(facts.result, Relation) and sign_found(facts.result.left) in ALLOWED[facts.result.operator]
+    if not isinstance(facts.result, Relation):
+        return False
+    return any(has_sign(facts.result.left, sign) for sign in ALLOWED[facts.result.operator])
 
 
 def beyond_one(facts: Judged) -> bool:
@@ -345,7 +347,7 @@ def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
         q = facts.inputs["quadratic"]
         if is_zero(q.a) or not has_sign((q.b / q.a) ** 2 - 4 * q.c / q.a, discriminant):
             return False
-        opposite = sign_found(q.c / q.a) == -1
+        opposite = has_sign(q.c / q.a, -1)
         return discriminant != 1 or opposite == (product == -1)
 
     return is_so

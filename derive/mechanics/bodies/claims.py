@@ -19,10 +19,9 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.mapping import inside
-from derive.steps.claims import both, lasts, negated, vanishes
+from derive.steps.claims import both, is_negative, lasts, negated, vanishes
 from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.step import Quantity, is_zero
-from derive.steps.trial_numbers import sign_found
 
 
 def dimensions_of_filling(n: int) -> Predicate:
@@ -100,7 +99,7 @@ def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
     """Whether the size is not negative, and its square is the determinant det(r_i . r_j) that belongs to the result."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
-    return is_zero(explicit(size) ** 2 - square) and sign_found(explicit(size)) != -1
+    return is_zero(explicit(size) ** 2 - square) and not is_negative(explicit(size))
 
 
 def mapped_to(facts: Judged, place: Any) -> bool:

@@ -21,7 +21,7 @@ from derive.algebra.expressions import explicit, rate
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.mechanics.motion.facts import ByEnergy, Steady
-from derive.steps.claims import negated, same_equation, sign_is, value_of_role
+from derive.steps.claims import is_negative, negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
 from derive.steps.step import is_zero
@@ -31,7 +31,6 @@ from derive.steps.trial_numbers import (
     everywhere,
     just_where,
     sign_at,
-    sign_found,
     signs_of,
     trial_points,
 )
@@ -145,7 +144,7 @@ def pushes_there(facts: Judged, place: Any) -> bool:
     alone = bool(facts.result.left == place.left) and place.operator == "="
     if not isinstance(place.left, Symbol):
         return alone
-    return alone and sign_found(value_of_role(facts, "force").subs(place.left, explicit(place.right))) != -1
+    return alone and not is_negative(value_of_role(facts, "force").subs(place.left, explicit(place.right)))
 
 
 def force_vanishes_there(facts: Judged, place: Any) -> bool:

@@ -35,6 +35,7 @@ from derive.steps.claims import (
     both,
     has_sign,
     is_a_root_just_where_told,
+    is_negative,
     lasts,
     negated,
     not_negative,
@@ -57,7 +58,6 @@ from derive.steps.trial_numbers import (
     just_where,
     roots_of,
     sign_at,
-    sign_found,
     signs,
     signs_of,
     trial_points,
@@ -103,7 +103,7 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
 
 
 def _unless_it_grows(word: str, rate: Expr) -> str:
-    return "runs_away" if sign_found(rate) == -1 else word
+    return "runs_away" if is_negative(rate) else word
 
 
 def loses(wanted: bool) -> Predicate:
