@@ -188,7 +188,7 @@ class Expanded(Ring):
 
 
 def _sum(terms: list[Expr]) -> Expr:
-    """Return the same sum as `Add`, but without a search for like terms, since there are none."""
+    """Return the sum of terms that are all different; `Add` would search for like terms."""
     if any(not (term.is_Mul or term.is_Atom or term.is_Pow) for term in terms) or not terms:
         return Add(*terms)
     numbers = [term for term in terms if term.is_Number]

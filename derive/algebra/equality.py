@@ -349,7 +349,7 @@ def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | Non
 
 
 def _known_sign(factor: Expr) -> int | None:
-    """The sign, 1 or -1, that the factor has for all allowed values of its symbols; None if there is no such sign."""
+    """Return 1 if the factor is positive for all allowed values of its symbols, -1 if it is negative, else None."""
     above, below = (strict_sign_within(part) for part in factor.as_numer_denom())
     return above * below if above and below else None
 

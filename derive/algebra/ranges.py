@@ -112,7 +112,7 @@ def range_of(letter: Any) -> Range | None:
 
 
 def rational_in_range(letter: Any, number: Expr) -> Expr:
-    """Map a positive number to a rational number in the range of a symbol; return it unchanged if there is no range."""
+    """Map a positive number to a rational number in the range of a symbol; without a range the number is unchanged."""
     known = range_of(letter)
     if known is None:
         return number

@@ -227,7 +227,7 @@ def _grades(step: Mapping[str, Any]) -> str:
 
 
 def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Iterable[tuple[Any, Any]]) -> list[Change]:
-    """Compare all text of a page, beginning with the title; a change of equation numbers alone is no difference."""
+    """Compare all text of a page, beginning with the title; changed equation numbers are not a difference."""
     places: list[tuple[str, Blocks, Blocks]] = [
         *((name, _plain(before[name]), _plain(after[name])) for name in ("title", "statement", "strategy")),
         *(place for old, new in parts for place in _of_part(old, new)),

@@ -124,12 +124,12 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
     for powers, c in gathered.terms():
         parts.setdefault(sum(powers), []).append((Mul(*(p**n for p, n in zip(present, powers, strict=True))), c))
     quadratic = _written([(m, spread(c)) for m, c in parts.get(2, [])])
-    linear = _shortest([_added((m, spread(c)) for m, c in parts.get(1, [])), tidied(_added(parts.get(1, [])))])
+    linear = shortest([_added((m, spread(c)) for m, c in parts.get(1, [])), tidied(_added(parts.get(1, [])))])
     rest = tidied(Add(*(c for _, c in parts.get(0, []))))
     apart = Add(*(by_one_square(part) for part in (quadratic, linear, rest)))
     if not parts.get(1) or len(present) > MOST_LETTERS:
         return apart
-    return _shortest([apart, _squares(chain(*parts.values()), present)])  # (p - q A)^2, including terms linear in p
+    return shortest([apart, _squares(chain(*parts.values()), present)])  # (p - q A)^2, including terms linear in p
 
 
 def by_one_square(value: Expr) -> Expr:
@@ -137,7 +137,7 @@ def by_one_square(value: Expr) -> Expr:
     if not value.has(sin, cos):
         return value
     if value.is_Add:
-        value = _shortest([value, *(expand(square(value)) for square in (TR5, TR6))])
+        value = shortest([value, *(expand(square(value)) for square in (TR5, TR6))])
     if value.is_Add:
         return Add(*(by_one_square(term) for term in value.args))
     sign: Expr = Integer(1)
@@ -147,7 +147,7 @@ def by_one_square(value: Expr) -> Expr:
             part = by_one_square(part)
         base, power = part.as_base_exp()
         if base.is_Add and power.is_Integer:
-            base = _shortest([base, *(factor_terms(expand(square(base))) for square in (TR5, TR6))])
+            base = shortest([base, *(factor_terms(expand(square(base))) for square in (TR5, TR6))])
             if power.is_negative and base.could_extract_minus_sign():
                 base, sign = -base, sign * Integer(-1) ** power
         factors.append(base**power)
@@ -176,7 +176,7 @@ def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
     coupled = _added(together)
     alone = _added(term for term in terms if not term[0].free_symbols & mixed)
     orders = permutations(sorted(mixed, key=str)) if len(mixed) <= 3 and coupled.count_ops() <= LONGEST_SQUARED else ()
-    return alone + _shortest([coupled, tidied(coupled), *(_squares(together, order) for order in orders)])
+    return alone + shortest([coupled, tidied(coupled), *(_squares(together, order) for order in orders)])
 
 
 def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Expr:
@@ -210,10 +210,6 @@ def _without(p: Symbol, letters: tuple[Symbol, ...]) -> tuple[Symbol, ...]:
 
 def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
     return Add(*(m * c for m, c in terms))
-
-
-def _shortest(forms: Sequence[Expr]) -> Expr:
-    return min(forms, key=length)
 
 
 def as_one_root(value: Expr) -> Expr:

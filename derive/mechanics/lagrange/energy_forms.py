@@ -19,10 +19,11 @@ from sympy import (
 from derive.algebra.collect import by_rates, with_weights_in_front
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Terms, bound, explicit, rate
+from derive.algebra.length import shortest
 from derive.algebra.tidy import tidied
 from derive.mechanics.lagrange.facts import energies_of
 from derive.mechanics.model.dalembert import Matter
-from derive.solving.presentation import _shortest, by_letters, by_one_square, roots_together
+from derive.solving.presentation import by_letters, by_one_square, roots_together
 from derive.steps.step import Form, Quantity
 
 ZERO = Integer(0)
@@ -57,7 +58,7 @@ def of_given(value: Expr, letters: Sequence[Symbol], moving: Sequence[Symbol]) -
     forms = [roots_together(whole), tidied(whole), by_letters(whole, letters), factor(together(whole)), whole]
     if moving:
         forms.append(by_rates(whole, list(moving), halves=True))
-    return squared_below_roots(_shortest([explicit(form) for form in forms]), letters) + alone
+    return squared_below_roots(shortest([explicit(form) for form in forms]), letters) + alone
 
 
 def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:

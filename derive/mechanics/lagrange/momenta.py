@@ -11,13 +11,13 @@ from sympy import (
 from derive.algebra.collect import by_rates
 from derive.algebra.expressions import Partial, explicit, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.length import shortest
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, coordinate, required
 from derive.mechanics.lagrange.facts import FromLagrangian, energies_of
 from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.model.dalembert import Matter
-from derive.solving.presentation import _shortest
 from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, establish
 from derive.steps.rule import CHECK, ROUTE, Rule
@@ -94,7 +94,7 @@ def written_momentum(value: Expr, of: Quantity) -> Expr:
     forms = [by_rates(value, list(of.coordinates))]
     if energies_of(of) is None:
         forms.append(Add(*(tidied(term) for term in Add.make_args(explicit(value)))))
-    return _shortest(forms)
+    return shortest(forms)
 
 
 def momenta(of: Quantity) -> tuple[Quantity, ...]:

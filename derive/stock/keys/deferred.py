@@ -45,7 +45,7 @@ class Deferred(Generic[N]):
 
     def __repr__(self) -> str:
         """Return the same text in each process: the digest of a problem depends on it."""
-        return f"{self.make.__qualname__}{(*self.of, *self.named.items(), *self.bodies.items())!r}"
+        return f"{self.make.__qualname__}{(self.of, dict(self.named), dict(self.bodies))!r}"
 
 
 @contextmanager
