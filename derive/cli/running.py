@@ -45,9 +45,9 @@ COMMANDS = {
 def exit_code(arguments: argparse.Namespace) -> int:
     """Run a command and return its exit code; report an error in a few lines, without a traceback."""
     try:
-        for number in (signal.SIGTERM, signal.SIGHUP):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:  # ignored, as under `nohup`
-                signal.signal(number, _terminated)
+                signal.signal(number, _signaled)
         code = _command(arguments.command)(arguments)
         sys.stdout.flush()
         return code
@@ -101,9 +101,15 @@ class Ending:
 ending = Ending()
 
 
-def _terminated(number: int, _: FrameType | None) -> NoReturn:
+class _Interrupted(KeyboardInterrupt):
+    """Ctrl-C. If a KeyboardInterrupt itself passes through `exec`, Python kills the process at its end, although the
+    exception was caught; it does not do so for a subclass."""
+
+
+def _signaled(number: int, _: FrameType | None) -> NoReturn:
+    """Unwind the stack, so that no worker is left behind."""
     ending.number = number
-    raise SystemExit(128 + number)  # this unwinds the stack, so that no worker is left behind
+    raise _Interrupted if number == signal.SIGINT else SystemExit(128 + number)
 
 
 def internal(summary: str, trace: str) -> None:

@@ -8,6 +8,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Protocol
 
+from watchfiles import watch
+
 from derive.building.set_document import live_page
 from derive.building.set_names import check_asked
 from derive.course.problem_set import problem_set
@@ -77,8 +79,6 @@ def _serving(served: Server) -> Iterator[int]:
 
 def _edits(root: Path, ending: Ending) -> Iterator[object]:
     """Yield after each edit of a problem or script in any set, of a template or of a phrase."""
-    from watchfiles import watch
-
     yield from watch(
         root / "problems",
         template_folder(root),

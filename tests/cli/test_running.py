@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 from fake_course import Course
 
 from derive.cli.options import main
-from tests.cli.started import alone, command
+from tests.cli.started import PACKAGE, alone, command
 
 
 def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
@@ -78,3 +81,22 @@ def test_a_reader_that_has_had_enough_is_no_error(course: Course) -> None:
         assert run.stderr
         assert run.stderr.read() == b""
     assert run.returncode == 141
+
+
+def test_an_interrupt_inside_code_that_runs_a_string_ends_the_command_as_any_interrupt_does(tmp_path: Path) -> None:
+    """Python kills a module run with -m at its end if a KeyboardInterrupt passed through `exec`, even if it was
+    caught."""
+    lines = (
+        "import sys",
+        "from argparse import Namespace",
+        "from derive.cli import running",
+        "interrupt = 'import os, signal; os.kill(os.getpid(), signal.SIGINT)'",
+        "running._command = lambda name: lambda arguments: exec(interrupt)",
+        "sys.exit(running.exit_code(Namespace(command='list')))",
+    )
+    (tmp_path / "interrupted.py").write_text("\n".join(lines))
+    started = {**os.environ, "PYTHONPATH": f"{PACKAGE}{os.pathsep}{tmp_path}"}
+    run = subprocess.run(
+        [sys.executable, "-P", "-m", "interrupted"], capture_output=True, text=True, env=started, check=False
+    )
+    assert (run.returncode, run.stderr) == (130, "interrupted\n")

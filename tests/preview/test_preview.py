@@ -170,7 +170,7 @@ def test_a_problem_that_the_set_lists_anew_has_a_page(course: Path, monkeypatch:
 
 def test_scripts_of_other_sets_are_watched_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     watched: list[Path] = []
-    monkeypatch.setattr("watchfiles.watch", lambda *folders, **how: watched.extend(folders) or [])
+    monkeypatch.setattr(derive.preview.preview, "watch", lambda *folders, **how: watched.extend(folders) or [])
     assert [*derive.preview.preview._edits(tmp_path, Ending())] == []
     assert tmp_path / "problems" in watched
 
