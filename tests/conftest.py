@@ -11,6 +11,7 @@ import pytest
 from hypothesis import settings
 
 import derive  # noqa: F401  before SymPy is imported, whose cache it sets
+from derive.building.workers import Crew
 from tests.browser import chromium
 
 # If a script starts `make test` in the background, the shell makes it ignore interrupts. Processes that the tests start
@@ -58,3 +59,10 @@ def own_key(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         del os.environ["XDG_STATE_HOME"]
     else:
         os.environ["XDG_STATE_HOME"] = before
+
+
+@pytest.fixture
+def workers(course: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Real workers for the stand-in course: each job runs in a process with limits."""
+    for module in ("workers", "sets"):
+        monkeypatch.setattr(f"derive.building.{module}.Crew", Crew)

@@ -188,9 +188,13 @@ class Course:
 
 
 def stand_in_course(root: Path, monkeypatch: Any) -> Course:
-    """Return the course, with the substitutes for the derivation and for TeX."""
+    """Return the course, with the substitutes for the derivation, for the workers and for TeX."""
+    from tests.jobs_here import InThisProcess
+
     course = Course(root)
     replace_derivation(monkeypatch)
+    for module in ("workers", "sets"):
+        monkeypatch.setattr(f"derive.building.{module}.Crew", InThisProcess)
     programs = root / "bin"
     programs.mkdir()
     (programs / "pdflatex").write_text(TEX)

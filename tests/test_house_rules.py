@@ -20,6 +20,7 @@ from derive.page.wording import AFTER, AND
 from derive.steps.rule import ROUTE, RULES, Rule, judged_facts
 from derive.steps.step import Fact, Quantity
 from tests.courses import ROOT
+from tests.loops import over
 from tests.mechanics.block import a, known_block
 from tests.page.test_wording import WORDS
 from tests.rules import records
@@ -113,21 +114,21 @@ def test_the_tests_stand_in_the_rooms() -> None:
     assert folders - set(FLOOR) == {"manual", "printed", "tools"}
 
 
-@pytest.mark.parametrize("name", FLOOR)
+@over(FLOOR)
 def test_the_readme_shows_each_room_with_its_sentence(name: str) -> None:
     file = SOURCE / f"{name}.py" if (SOURCE / f"{name}.py").exists() else SOURCE / name / "__init__.py"
     said = (ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) or "").partition("\n\n")[0]
     assert f"\n{name:10} {said}\n" in (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", MODULES)
+@over(MODULES)
 def test_imports_point_down(name: str) -> None:
     own = DOORS.get(name, room(name))
     allowed = {other for other in FLOOR if FLOOR[other] < FLOOR[own]} | {own}
     assert {module for module in imported(name) if room(module) not in allowed} == set()
 
 
-@pytest.mark.parametrize("name", [name for name in MODULES if room(name) in {"page", "render", "building", "preview"}])
+@over([name for name in MODULES if room(name) in {"page", "render", "building", "preview"}])
 def test_a_page_names_no_rule(name: str) -> None:
     """What a page needs to know of a rule is in its record, so a rule of a script is shown in the same way."""
     chapters = {rule.partition(".")[0] for rule in RULES}
@@ -151,7 +152,7 @@ CHAPTERS = (
 )
 
 
-@pytest.mark.parametrize("name", VERB_MODULES)
+@over(VERB_MODULES)
 def test_a_chapter_of_mechanics_imports_from_those_before_it(name: str) -> None:
     *_, chapter, _ = ("", *name.split("."))
     if chapter == "mechanics":  # modules that all chapters share
@@ -166,7 +167,7 @@ SHARED_BY_CLAIMS = {"mechanics.kinematics.coordinates"}  # coordinates as functi
 CLAIMS = [name for name in VERB_MODULES if name.endswith(".claims")]
 
 
-@pytest.mark.parametrize("name", CLAIMS)
+@over(CLAIMS)
 def test_predicates_share_no_code_with_the_verbs_next_to_them(name: str) -> None:
     """Predicates may read the facts of a result, and the descriptions of bodies and systems."""
     makers = {module for module, _, rule in RECORDS if module.startswith("mechanics.")}
@@ -180,18 +181,18 @@ def test_imports_go_in_no_circle() -> None:
     assert graph == {}
 
 
-@pytest.mark.parametrize("name", MODULES)
+@over(MODULES)
 def test_a_module_says_what_it_is_for_and_has_a_name_that_says_something(name: str) -> None:
     assert ast.get_docstring(tree(name))
     assert not set(re.split(r"[._]", name)) & VAGUE
 
 
-@pytest.mark.parametrize("name", sorted(ENGINE))
+@over(sorted(ENGINE))
 def test_the_engine_holds_no_tex(name: str) -> None:
     assert [node.value for node in strings(name) if "$" in node.value or "\\" in node.value] == []
 
 
-@pytest.mark.parametrize("name", sorted(ENGINE))
+@over(sorted(ENGINE))
 def test_the_engine_holds_no_sentence(name: str) -> None:
     """A message of the engine begins with a small letter and has no full stop. Any other text would be a sentence of a
     page."""
@@ -199,13 +200,13 @@ def test_the_engine_holds_no_sentence(name: str) -> None:
     assert spoken == []
 
 
-@pytest.mark.parametrize("name", MODULES)
+@over(MODULES)
 def test_only_the_command_line_prints(name: str) -> None:
     prints = [n for n in ast.walk(tree(name)) if isinstance(n, ast.Call) and ast.unparse(n.func) == "print"]
     assert not prints or name in PRINTING or name.startswith("cli.commands.")
 
 
-@pytest.mark.parametrize("name", MODULES)
+@over(MODULES)
 def test_nothing_is_evaluated_from_text(name: str) -> None:
     banned = {"eval", "exec", "sympify", "parse_expr", "parse_latex", "S"}
     called = {ast.unparse(n.func) for n in ast.walk(tree(name)) if isinstance(n, ast.Call)}
@@ -220,7 +221,7 @@ def test_modules_of_the_engine_import_no_reader_of_files() -> None:
         assert not modules & {"yaml", "jinja2", "pathlib", "os", "subprocess", "pylatexenc", "io"}
 
 
-@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "NOTATION.md", "docs/soundness.md", "docs/json.md"])
+@over(["README.md", "CONTRIBUTING.md", "NOTATION.md", "docs/soundness.md", "docs/json.md"])
 def test_what_a_page_says_stands_somewhere_stands_there(page: str) -> None:
     text = (ROOT / page).read_text(encoding="utf-8")
     named = re.findall(r"`((?:derive|tests|templates|docs|tools)/[\w./-]+)`", text)
@@ -258,12 +259,12 @@ def verbs() -> dict[str, Any]:
     }
 
 
-@pytest.mark.parametrize("name", verbs())
+@over(verbs())
 def test_a_verb_says_its_source(name: str) -> None:
     assert re.search(r"Source: \S", inspect.getdoc(verbs()[name]) or "")
 
 
-@pytest.mark.parametrize("name", verbs())
+@over(verbs())
 def test_a_verb_explains_each_of_its_arguments(name: str) -> None:
     told = inspect.getdoc(verbs()[name]) or ""
     for parameter in inspect.signature(verbs()[name]).parameters:
@@ -304,7 +305,7 @@ def test_a_rule_is_named_for_its_folder_and_by_its_constant() -> None:
     assert len({rule.name for *_, rule in RECORDS}) == len(RECORDS) > 150
 
 
-@pytest.mark.parametrize("rule", [rule for *_, rule in RECORDS], ids=lambda rule: rule.name)
+@over([rule for *_, rule in RECORDS])
 def test_a_rule_has_a_source_and_a_phrase_for_each_outcome_and_each_claim_and_no_other(rule: Rule) -> None:
     assert rule.source or rule.is_definition
     assert outcomes_with_a_phrase(rule.name) == set(rule.outcomes)
@@ -384,7 +385,7 @@ def called(name: str) -> str:
     return found[1] if found else ""
 
 
-@pytest.mark.parametrize("name", verbs())
+@over(verbs())
 def test_a_docstring_says_second_route_where_one_goes_through_the_physics_and_check_where_none_does(name: str) -> None:
     told = inspect.getdoc(verbs()[name]) or ""
     as_another = re.search(r"(?:Second route|Check): as `(\w+)`", told)
@@ -400,7 +401,7 @@ def test_a_docstring_says_second_route_where_one_goes_through_the_physics_and_ch
         assert called(name) == called(as_another[1])
 
 
-@pytest.mark.parametrize("name", verbs())
+@over(verbs())
 def test_a_docstring_names_outcomes_that_the_rules_of_the_verb_have(name: str) -> None:
     told = re.search(r"Outcomes: (.*?)\.?\n\s*(?:\w+ ?\w*:|$)", inspect.getdoc(verbs()[name]) or "", re.DOTALL)
     listed = re.sub(r"\([^()]*\)", "", told[1]) if told else ""
@@ -453,7 +454,7 @@ ELSEWHERE = {"mechanics.vibrations.superposition"}  # its start values have a se
 SAYING_FORMULAS = [name for name in MODULES if name.startswith("mechanics.") or name == "steps.numeric"]
 
 
-@pytest.mark.parametrize("name", sorted(set(SAYING_FORMULAS) - ELSEWHERE))
+@over(sorted(set(SAYING_FORMULAS) - ELSEWHERE))
 def test_a_formula_is_not_compared_with_itself(name: str) -> None:
     """A formula without a second route belongs under `named`, where a predicate judges it."""
     assert [ast.unparse(pair) for pair in _pairs_of(name) if _one_value_twice(pair)] == []

@@ -213,6 +213,7 @@ def test_a_full_or_closed_output_and_a_folder_that_is_gone_are_told_in_a_line(
     assert "internal error" not in run.stderr
 
 
+@pytest.mark.usefixtures("workers")
 def test_the_heading_of_a_set_is_read_by_a_worker(course: Course, monkeypatch: pytest.MonkeyPatch) -> None:
     parent = os.getpid()
     read = problem_set

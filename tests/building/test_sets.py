@@ -208,6 +208,7 @@ def test_what_tex_refuses_is_told_once_and_leaves_the_earlier_pages(course: Cour
     assert course.contents() == before
 
 
+@pytest.mark.usefixtures("workers")
 def test_a_derivation_that_loops_is_stopped_and_named(course: Course) -> None:
     course.problem("one", "loop")
     report = build(course, Options(limit=2))
@@ -216,6 +217,7 @@ def test_a_derivation_that_loops_is_stopped_and_named(course: Course) -> None:
     assert (course.outputs / "two.pdf").is_file()
 
 
+@pytest.mark.usefixtures("workers")
 def test_a_worker_that_dies_is_a_complaint(course: Course) -> None:
     course.problem("one", "die")
     (complaint,) = build(course).complaints

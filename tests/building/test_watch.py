@@ -81,6 +81,7 @@ def test_of_a_set_one_problem_may_be_watched(course: Course, told: Told) -> None
     assert (told.new(), course.derived()) == (["0 derived"], [])
 
 
+@pytest.mark.usefixtures("workers")
 def test_an_edit_ends_the_build_of_what_was_there_before(
     course: Course, told: Told, monkeypatch: pytest.MonkeyPatch
 ) -> None:

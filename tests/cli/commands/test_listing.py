@@ -25,6 +25,7 @@ def test_list_shows_problems_even_if_one_does_not_read(course: Course, capfd: py
     assert second.split(maxsplit=1) == ["hw1/two", "(does not read: `mass` must be a mass)"]
 
 
+@pytest.mark.usefixtures("workers")
 def test_a_problem_that_ends_its_reader_costs_the_list_nothing_else(
     course: Course, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -56,6 +56,7 @@ def test_a_fault_is_shown_on_standard_error_with_exit_code_1(course: Course, cap
     assert err == ("problems/hw1/one.yaml:1:1: error[wrong-kind]: `mass` must be a mass\n  1 | refuse\n    | ^^^^^^\n")
 
 
+@pytest.mark.usefixtures("workers")
 def test_a_loop_is_stopped(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     course.problem("one", "loop")
     assert main(["solve", "hw1/one", "--time-limit", "0.3"]) == 1
@@ -73,6 +74,7 @@ def test_explain_tells_of_one_step_or_lists_them(course: Course, capfd: pytest.C
     assert capfd.readouterr().out == "step    part\ntorque  first\n"
 
 
+@pytest.mark.usefixtures("workers")
 def test_explain_works_in_a_worker_with_a_limit(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     course.problem("one", "loop")
     course.problem("two", "refuse")
