@@ -3,14 +3,14 @@
 import os
 import sys
 
-# `python -m derive` without `-P` puts the folder that the user is in first on the path: a file there that is called as
-# a module, such as random.py, would be run in its place.
+# `python -m derive` without `-P` puts the working folder first on the path. A file in this folder with the name of a
+# module, such as random.py, would then be run in place of the module.
 if sys.argv[:1] == ["-m"] and not sys.flags.safe_path and sys.path:
     if os.path.realpath(sys.path[0]) != os.path.dirname(os.path.dirname(os.path.realpath(__file__))):
         del sys.path[0]
 
 # By default SymPy caches only the last 1,000 results of each of its functions; a derivation needs more. SymPy reads
-# this variable when it is first imported.
+# this variable at its first import.
 os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
 
 FOLDER = os.path.dirname(__file__)  # a string, because `derive --help` does not import pathlib

@@ -1,6 +1,6 @@
 """All errors, as one tree, and how an error is shown.
 
-    DeriveError                 only these reach the command line
+    DeriveError                 only errors of this class reach the command line
     ├── Rejected                errors in a file of the author, all of them at once
     ├── Unverified              a step whose lines or second route disagree
     ├── BuildFailed             TeX, the disk, a time limit: the outside world
@@ -22,7 +22,7 @@ from typing import NoReturn
 class Place:
     """A place in a file: the line and column (counted from 1), the text of the line, and how many columns to underline.
 
-    Of a long line, `text` is only a piece; `cut` is the number of columns left out before it.
+    If the line is long, `text` is only a part of the line; `cut` is the number of columns left out before this part.
     """
 
     path: str
@@ -116,7 +116,7 @@ class Misused(DeriveError):
 
 
 class OutOfTime(BaseException):
-    """Raised inside the work when the time limit is reached, with a description of the work.
+    """Raised when the time limit is reached during work; its fields describe this work.
 
     waited    whether the work was only waiting, without using the processor
     doing     what the work was doing, innermost first
@@ -149,7 +149,7 @@ def during(what: Callable[[], str]) -> Iterator[None]:
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
     """Return the candidate that was probably meant, if there is one: at most one letter in three may be wrong."""
-    import difflib  # only where something is wrong
+    import difflib  # imported here, because only errors need this module
 
     written, known = name.casefold(), {c.casefold(): c for c in reversed((*candidates,))}
     close = difflib.get_close_matches(written, known, 3, 0.6)
@@ -226,5 +226,5 @@ def _reading_order(complaint: Complaint) -> tuple[str, int, int]:
 
 
 def rejected(code: str, message: str, place: Place | None, help: str | None = None, *notes: str) -> NoReturn:
-    """Stop reading a value: raise an error, which `with faults:` collects."""
+    """Raise an error that stops the reading of a value; a surrounding `with faults:` collects the error."""
     raise Rejected(Complaint(code, message, place, notes, help))

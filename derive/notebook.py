@@ -1,4 +1,4 @@
-"""A problem in a notebook or at Python's prompt: it is derived again, and shows the answers and drawings of its page.
+"""A problem in a notebook or at Python's prompt, derived again, with the answers and drawings of its page.
 
 problem = open_problem("hw9/block")
 problem.answer("torque")       # shown as a formula; .value is the SymPy expression
@@ -32,20 +32,20 @@ __all__ = ["open_problem"]
 
 
 def open_problem(problem_id: str, root: str | Path | None = None) -> Opened:
-    """Open a problem by its id, such as `hw9/block`; default `root`: the course in the working folder or above it."""
+    """Open a problem by its id, such as `hw9/block`; by default `root` is the course in or above the working folder."""
     folder = found_root(None if root is None else str(root))
     if folder is None:
-        help_line = "run it in the course's folder, or name the folder: `open_problem(..., root=...)`"
+        help_line = "run Python in the course's folder, or name the folder: `open_problem(..., root=...)`"
         raise Misused(Complaint("no-root", "no folder `problems` was found here or above", help=help_line))
     return Opened(load_problem(folder, problem_id_of(problem_id)))
 
 
 @dataclass(frozen=True)
 class Answer:
-    """One result, derived now.
+    """One result of a problem that has been derived again.
 
     value   the SymPy expression that the page prints; for a relation, the whole relation
-    sympy   the expression as plain SymPy text, which can be read without derive; for two roots, a list of both
+    sympy   the expression as plain SymPy text, which can be read without derive; for two roots, a list of two texts
     number  the numerical value with its unit, if there is one
     grade   the grade of its evidence: proved, sampled, definition or approximation
     """

@@ -127,7 +127,7 @@ def test_the_letter_that_the_author_gives_is_that_of_the_limit() -> None:
     with recorded(Run()):
         whole = given(sqrt((M + m) * g / (m * l)), "w", symbol="w")
         assert str(limiting_case(whole, M, symbol="w_0").symbol) == "w_0"
-        with pytest.raises(Rejected, match="w is the letter of the whole"):
+        with pytest.raises(Rejected, match="w is the letter of the result itself"):
             limiting_case(whole, M, symbol="w")
 
 

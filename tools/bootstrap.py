@@ -1,12 +1,12 @@
 """Make or repair the environment in `.venv` if necessary. `make` runs this script; it needs no installed packages.
 
-Only built packages whose files have the digests in `locks/` are installed, so no code of an unknown package runs. The
-installed packages then install derive itself, without access to any registry.
+Only wheels whose files have the digests in `locks/` are installed, so no code of an unknown package runs. The
+installer then installs derive itself with the build tools among these packages, without access to any registry.
 
-A stamp file in `.venv` shows `make` that the environment fits `pyproject.toml` and `locks/`. The stamp `.runtime` is
-for the packages that derive and typeset; `.tests` is for these and for the linters and the test suite. The file
+A stamp file in `.venv` records that the environment fits `pyproject.toml` and `locks/`. The stamp `.runtime` covers
+the packages that `derive` needs; `.tests` covers these packages, the linters and the test tools. The file
 `.unfinished` exists while packages are being installed. If `.unfinished` exists at the start, an earlier installation
-was interrupted, and the environment is made from the beginning.
+was interrupted, and this script makes the environment from the beginning.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def works(uv: str | None) -> bool:
 
 
 def has_venv() -> bool:
-    """Return whether this Python can make an environment without uv; Debian packages the modules separately."""
+    """Return whether this Python has `venv` and `ensurepip`, which Debian puts into separate packages."""
     return bool(importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip"))
 
 
@@ -83,7 +83,7 @@ def check_tools(uv: str | None) -> None:
 
 
 def run(command: list[str], failed: str) -> None:
-    """Run a command quietly; if it fails, raise `Stopped` with the lines that give the reason, without URLs."""
+    """Run a command without showing its output; if it fails, raise `Stopped` with the reason, without URLs."""
     done = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
         lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
@@ -96,7 +96,7 @@ WANTED = {
     ".runtime": "SymPy and the TeX engine (once, about 100 MB)",
     ".tests": "SymPy, the TeX engine and the test tools (once, about 140 MB)",
 }
-LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # the second adds test packages
+LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # tests.txt lists additional packages
 CHECKED = ["--require-hashes", "--only-binary", ":all:"]
 ITSELF = ["--no-index", "--no-deps", "--no-build-isolation", "--editable", "."]
 

@@ -17,7 +17,7 @@ import yaml
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, TOLD = ROOT / "docs" / "errors.md", ROOT / "tools" / "errors.yaml"
 EXAMPLES = ROOT / "tests" / "complaints"
-MOST = 5  # messages shown for one code
+MOST = 5  # the greatest number of messages shown for one code
 
 _CODE = re.compile(r"[a-z]+(-[a-z]+)*")
 _SAID = re.compile(r"(?:error|warning)\[([a-z-]+)\]: ")
@@ -61,7 +61,7 @@ def _raised_in(module: ast.Module) -> Iterator[tuple[str, str]]:
 
 
 def _code_at(call: ast.Call) -> int | None:
-    """Return the position of the code among the arguments of a call, if the call raises or reports an error."""
+    """Return the position of the code among the arguments of a call, or None if it raises no error."""
     if ast.unparse(call.func).rpartition(".")[2] not in _RAISING:
         return None
     return 1 if ast.unparse(call.func).endswith("_stopped") and len(call.args) > 1 else 0 if call.args else None
@@ -86,7 +86,7 @@ def _pairs(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]
 
 
 def _texts(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 3) -> list[str]:
-    """Return the possible texts of an expression, with a mark for each inserted value."""
+    """Return the possible texts of an expression, with `…` in place of each inserted value."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return [node.value]
     if isinstance(node, ast.JoinedStr):

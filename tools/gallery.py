@@ -1,4 +1,4 @@
-"""Write docs/gallery.md. `--pictures` also takes new pictures in Chromium, of pages that `make library` has built.
+"""Write docs/gallery.md. With `--pictures`, also take new pictures of the pages of `make library` in Chromium.
 
 A picture shows the beginning of a problem's page in a browser; the YAML of the problem is below it.
 """
@@ -20,18 +20,18 @@ SHOWN = {
     "kepler": "A conserved momentum, an effective potential, a circular orbit and small oscillations about it",
     "tennis_racket": "A rigid body without torque: Euler's equations and the stability of each axis",
     "heavy_top": "A top in Euler's angles, its cyclic coordinates and its effective potential",
-    "loop": "A normal force by a multiplier, and the speed at which the car stays on the track",
-    "bullet": "A collision: the angular velocity after it and the energy that is lost",
+    "loop": "A normal force as a Lagrange multiplier, and the speed at which the car stays on the track",
+    "bullet": "A collision: the angular velocity after the impact and the energy that is lost",
     "torus": "The density and the moments of inertia of a body, by integration",
 }
 
 _BEGINNING = """\
 # Gallery
 
-Made by `tools/gallery.py`; do not edit it. Each picture is the beginning of a page that a build has written for a
-browser. The YAML below it is the whole problem. All problems of `problems/library` are in YAML alone. `make library`
-builds its 79 problems, `derive list` lists them, and `derive new hw10/mine --like library/torus` begins a problem of
-your own with a copy of one.
+`tools/gallery.py` writes this page; do not edit it. Each picture shows the beginning of a page that a build has
+written for a browser. The YAML of the problem is below the picture, without the comparison with a book. All problems of
+`problems/library` are in YAML alone. `make library` builds these 79 problems, and `derive list` lists them.
+`derive new hw10/mine --like library/torus` begins a problem of your own with a copy of `library/torus`.
 """
 
 
@@ -50,7 +50,7 @@ def _entry(name: str, shows: str) -> str:
 
 
 def _told(text: str) -> str:
-    """Return the YAML of a problem without its comparison with a book."""
+    """Return the YAML of a problem without its `reference:`, which compares the results with a book."""
     return re.sub(r"^# yaml-language-server.*\n", "", text.partition("\nreference:")[0], flags=re.MULTILINE).strip()
 
 

@@ -1,4 +1,4 @@
-"""Write `locks/`, which lists the packages to install with the digests of their files: `python -P -m tools.locks`.
+"""Write the lists of packages in `locks/`, with the digests of the files: `python -P -m tools.locks`.
 
 The versions come from `constraints.txt`. `uv` finds the files of each version for every platform; `locks/` names no
 registry.
@@ -18,19 +18,19 @@ CONSTRAINTS = ROOT / "constraints.txt"
 OLDEST = "3.11"
 BUILDS = "hatchling\neditables\n"  # packages needed to install derive itself
 HEADS = {
-    "runtime": "# Packages to derive, to typeset and to install derive: written by `python -P -m tools.locks`.\n",
+    "runtime": "# The packages that derive and its installation need: written by `python -P -m tools.locks`.\n",
     "tests": "# The additional packages of the tests and linters: written by `python -P -m tools.locks`.\n",
 }
 _ENTRY = re.compile(r"^([a-z0-9][a-z0-9._-]*)==.*(?:\n +--hash=.*)*", re.MULTILINE)
 
 
 def entries(text: str) -> dict[str, str]:
-    """Return, for the name of each package in a lock, its entry: its version, its conditions and its digests."""
+    """Return the entry of each package of a lock file by the package's name: version, conditions and digests."""
     return {found[1]: found[0] for found in _ENTRY.finditer(text)}
 
 
 def resolved(*options: str) -> dict[str, str]:
-    """Return the packages that `uv` finds for the dependencies of derive."""
+    """Return the entries of all packages that `uv`, with these options, selects for derive."""
     uv = shutil.which("uv")
     if uv is None:
         sys.exit("error[uv]: locks are written by `uv`, which is not installed: `pip install uv`")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-import derive.stock.keys.results  # noqa: F401  this module declares the verb of bodies
+import derive.stock.keys.results  # noqa: F401  the import declares a verb about bodies
 from derive.mechanics.in_results import RESULT_VERBS, ResultKey, ResultVerb
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "yaml-alone.md"

@@ -21,9 +21,9 @@ START, END = "<!-- rules with checks only, by tools/rules.py -->\n", "<!-- the e
 HEAD = """# The rules
 
 Each step of a solution is made by one of these rules. A rule is a record in the code, next to the verb that uses it.
-Its *outcomes* choose the sentence; each has a predicate that must be true of the result. Its *routes* reach the result
-by another path through the physics, its *checks* test the result. A rule without either is a definition.
-`python -P -m tools.rules` writes this page from the records.
+The *outcome* of a step determines its sentence; each outcome has a predicate that must be true of the result. A *route*
+derives the result again by another path through the physics. A *check* tests the result. A rule with neither routes nor
+checks is a definition. `python -P -m tools.rules` writes this page from the records.
 """
 
 
@@ -35,7 +35,7 @@ def rules() -> list[Rule]:
 
 
 def verbs() -> str:
-    """Return a table with a row for each verb that a script can call: its name, and what it yields."""
+    """Return a table of the verbs that a script can call: name, verb under `results:`, and what the verb yields."""
     public = {name: each for name, each in vars(derive.mechanics).items() if isfunction(each) and name[0] != "_"}
     asked: dict[str, str] = {}
     for name, verb in RESULT_VERBS.items():
@@ -56,7 +56,7 @@ def summary(text: str) -> str:
 
 
 def document() -> str:
-    """Return the page: the verbs, and a section for each folder, with a row for each of its rules."""
+    """Return the page: the table of verbs, and for each folder of rules a section with a row for each rule."""
     parts = [HEAD, verbs()]
     for folder, own in groupby(rules(), key=lambda rule: rule.name.partition(".")[0]):
         parts.append(

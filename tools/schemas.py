@@ -1,4 +1,4 @@
-"""Write the JSON schemas of the author's files, which text editors use, from the keys that the readers accept."""
+"""Write the JSON schemas with which text editors check the author's files; the keys are those that derive accepts."""
 
 from pathlib import Path
 

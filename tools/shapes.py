@@ -34,7 +34,7 @@ def _line(name: str, shape: type[Body]) -> str:
 
 
 def _how_it_lies(shape: type[Body]) -> str:
-    """Return the first sentence about a shape, without the name of the shape."""
+    """Return the first sentence of the docstring of a shape, without its article, "thin" and "uniform"."""
     first = " ".join((shape.__doc__ or "").split(".")[0].split())
     return re.sub(r"^(A|An|The|Half of a) (thin )?(uniform )?", lambda m: "half of a " * ("Half" in m[0]), first)
 

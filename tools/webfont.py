@@ -1,7 +1,7 @@
 """Write `templates/html/math.woff`: the glyphs of STIX Two Math that formulas on web pages need.
 
-The argument is the file of the font, which the package `ziamath`, for example, includes. `fonttools` must be installed.
-The subset keeps the licence of the font, the SIL Open Font License.
+The argument is the path of the font file; the package `ziamath`, for example, contains this file.
+`fonttools` must be installed. The subset keeps the licence of the font, the SIL Open Font License.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LATIN, GREEK = range(0x20, 0x7F), [*range(0x391, 0x3AA), *range(0x3B1, 0x3CA), 0
 BOLD, ITALIC, BOLD_ITALIC = range(0x1D400, 0x1D41A), range(0x1D434, 0x1D468), range(0x1D468, 0x1D49C)
 GREEK_ITALIC, GREEK_BOLD_ITALIC = (range(at, at + 58) for at in (0x1D6E2, 0x1D71C))
 SCRIPT = [*range(0x1D49C, 0x1D4B6), *map(ord, "ℬℰℱℋℐℒℳℛ")]
-SANS = [*range(0x1D5A0, 0x1D5BA), *range(0x1D7CE, 0x1D7D8)]  # for dimensions, and bold digits
+SANS = [*range(0x1D5A0, 0x1D5BA), *range(0x1D7CE, 0x1D7D8)]  # sans-serif letters for dimensions, and bold digits
 SIGNS = map(ord, "\xa0¨¯°±·×÷˙̇̈ℎℏ−√∂∞∫∑∘∙⋅′″‴∣∥‖→←∓≈≠≤≥≪≫∝⟨⟩…⋯⎛⎜⎝⎞⎟⎠⎡⎢⎣⎤⎥⎦⎧⎨⎩⎫⎬⎭⎪\u2061\u2062\u2063")
 CHARACTERS = sorted({*LATIN, *GREEK, *BOLD, *ITALIC, *BOLD_ITALIC, *GREEK_ITALIC, *GREEK_BOLD_ITALIC,
                      *SCRIPT, *SANS, *SIGNS})  # fmt: skip
@@ -56,13 +56,13 @@ def narrow_roots(font: Any) -> None:
 
 
 def _beside_stem(x: float, left: int, right: int) -> float:
-    """Return a coordinate that keeps the thickness of the stem, narrows the hook and hides the corner."""
+    """Return the new x of a point: the hook becomes narrower, the stem stays as thick, the corner is cut off."""
     at = ROOT_WIDTH - ROOT_SPACE - (right - left)
     return x * at / left if x < left else min(at + x - left, ROOT_WIDTH + CORNER)
 
 
 def _moved(font: Any, glyph: str, along: Callable[[float], float]) -> None:
-    """Move the points of a glyph, and give it the width of a root."""
+    """Replace each coordinate x of a glyph by `along(x)`, and give the glyph the width `ROOT_WIDTH`."""
     outline, table = font["glyf"][glyph], font["glyf"]
     for i, (x, y) in enumerate(outline.coordinates):
         outline.coordinates[i] = (round(along(x)), y)

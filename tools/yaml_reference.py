@@ -25,9 +25,7 @@ bold is required.
 An *expression* is a formula of declared symbols, or a number with its unit: `2*a`, `sqrt(g/l)`, `2 cm`, `900 rpm`.
 """
 
-MANY = (
-    8  # if a table contains all keys of an earlier one with at least this number of keys, it does not list them again
-)
+MANY = 8  # a table that contains all keys of an earlier table, at least this many, refers to that table instead
 Schema = dict[str, Any]
 
 
@@ -65,7 +63,7 @@ class Sections:
         self.tables.append("\n".join([*lines, ""]))
 
     def _shared_with_another(self, keys: Schema) -> tuple[str, Schema]:
-        """Return the title and the keys of an earlier table with many keys, all of which are among `keys`, if any."""
+        """Return a link to an earlier table and its keys if it has `MANY` keys or more, all in `keys`; or "" and {}."""
         for title, other in self._titled.items():
             if MANY <= len(other) < len(keys) and all(keys.get(name) == under for name, under in other.items()):
                 return f"[{title}](#{_anchor(title)})", other
@@ -109,7 +107,7 @@ def _anchor(title: str) -> str:
 
 
 def _given(schema: Schema) -> Iterator[tuple[str, Schema]]:
-    """Yield the schema of `given:` for each script of the engine."""
+    """Yield the name of each script that derive contains, with the schema of its `given:`."""
     for case in schema.get("allOf", []):
         name = case["if"]["properties"]["solve"].get("const")
         if name:

@@ -81,7 +81,7 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
     ring, entries = sring(list(matrix))
     size = matrix.shape[0]
     known: dict[tuple[int, ...], Any] = {(): ring.one}
-    for row in reversed(range(size)):  # columns used by this row and the rows below it -> their minor
+    for row in reversed(range(size)):  # the columns of a minor of this row and the rows below it -> the minor
         own = entries[size * row : size * (row + 1)]
         minors: dict[tuple[int, ...], Any] = {}
         for columns, minor in known.items():

@@ -1,4 +1,4 @@
-"""The coefficients of an expression as a polynomial in some of its symbols, multiplied out without SymPy's terms.
+"""The coefficients of an expression that is a polynomial in some of its symbols, multiplied out without SymPy.
 
 Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used.
 """
@@ -20,15 +20,15 @@ from derive.algebra.sparse_polynomials import WIDTH, Form, Outside, Ring, Terms
 __all__ = ["Coefficient", "Expanded", "Outside", "coefficients", "is_linear_in_some_letter", "is_multiplied_out"]
 
 ONES = (1 << WIDTH) - 1
-PHASE = 2  # bits below those of the symbols
+PHASE = 2  # number of bits below the bits of the symbols
 
 
 class Coefficient(NamedTuple):
-    """The coefficient of a product of powers, and its number of terms.
+    """The coefficient of one product of powers, and the number of terms of the coefficient.
 
     If the coefficient is a factor without angles times a factor of sines and cosines only, `angles` is the second
-    factor. `written` takes a number and a rewritten second factor. It returns their product with the first factor, with
-    common factors in front.
+    factor. `written(number, angles)` returns the product of a number, the first factor and a rewritten second factor,
+    with common factors in front.
     """
 
     whole: Callable[[], Expr]
@@ -117,7 +117,8 @@ class Expanded(Ring):
         )
 
     def _as_product(self, terms: Terms) -> tuple[Terms, Terms] | None:
-        """Split into a factor without angles and a factor of sines and cosines; None if that is impossible."""
+        """Split the sum into a factor without angles and a factor of sines and cosines; None if no such factors
+        exist."""
         by_rest: dict[int, Terms] = {}
         for monomial, coefficient in terms.items():
             angles = monomial & self._angles
@@ -214,7 +215,8 @@ def _common(one: int, other: int) -> int:
 
 
 def is_linear_in_some_letter(terms: Terms) -> bool:
-    """Whether a symbol appears in one term only, in its first power. Then only common factors divide the sum."""
+    """Whether a symbol appears in one term only, in its first power. The only factors of such a sum are the common
+    factors of its terms."""
     place, every = PHASE, reduce(int.__or__, terms)
     while every >> place:
         powers = [power for monomial in terms if (power := (monomial >> place) & ONES)]

@@ -47,12 +47,12 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
         # Terms without rates stay separate.
         level = Add.make_args(_with_differences(part, moving)) if not any(powers) else ()
         parts += [_with_short_sums(term, moving) for term in level] if not any(powers) else [part]
-    parts = [part for part in parts if part != 0]  # only here is it found that sin^2 + cos^2 - 1 vanishes
+    parts = [part for part in parts if part != 0]  # a part such as sin^2 + cos^2 - 1 is zero
     return Add(*parts, evaluate=len(parts) < 2)
 
 
 def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
-    """Add up terms that differ only by a numerical factor, in their order."""
+    """Add up terms that differ only by a numerical factor, and keep the order of the terms."""
     numbers: dict[Expr, Expr] = {}
     for term in terms:
         number, rest = term.as_coeff_Mul()
@@ -64,7 +64,7 @@ def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
     """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction; None if no |u| is a
     divisor.
 
-    Write s = u/|u|, which is 1 or -1. Then |u| is s u and s^2 is 1, so only the first power of each s is left.
+    With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
     """
     powers = {power for power in value.atoms(Pow) if isinstance(power.base, Abs) and power.exp.is_Integer}
     if not any(power.exp.is_negative for power in powers):
@@ -109,7 +109,8 @@ def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
     """Take the common constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 + r^2 phi_dot^2), if
-    they include a mass or a moment of inertia. Otherwise put terms with exactly the same constants in one bracket.
+    they include a mass or a moment of inertia. Otherwise put terms with the same numerical factor and the same
+    constants in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -164,7 +165,8 @@ def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], l
 
 
 def _common_number(numbers: Sequence[Expr]) -> Expr | None:
-    """The common factor, 1/2 for 1/2, 1 and 3/2; None for distinct denominators above 2, as in 1/2 and 3/4."""
+    """The common factor of the numbers: 1/2 for 1/2, 1 and 3/2. None if the denominators differ and their least common
+    multiple is above 2, as for 1/2 and 3/4."""
     below = ilcm(*(n.q for n in numbers))
     if below > 2 and len({n.q for n in numbers}) > 1:
         return None
@@ -188,7 +190,7 @@ def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
     return any(root.base.has(*moving) for root in _roots_in(term))
 
 
-@lru_cache(maxsize=4096)  # the terms of one sum have most of their factors in common
+@lru_cache(maxsize=4096)  # many factors occur in several terms of a sum
 def _roots_in(expr: Expr) -> frozenset[Pow]:
     inside = frozenset(root for part in expr.args if part.args for root in _roots_in(part))
     is_root = isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer
@@ -198,7 +200,8 @@ def _roots_in(expr: Expr) -> frozenset[Pow]:
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Collect the terms by rates and by products of the coordinates.
 
-    A coefficient that is a difference is subtracted: I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and cyclically.
+    A coefficient with terms of both signs follows a minus sign: I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and
+    cyclically.
     """
     rates = [rate(q, n) for n in (2, 1) for q in moving]
     present = [s for s in (*rates, *moving) if value.has(s)]
@@ -217,7 +220,8 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
-    """Multiply a coefficient by its rates: (1/2)(I + M R^2/4) q_dot^2. No denominator is left in front of a sum."""
+    """Multiply a coefficient by powers of rates: (1/2)(I + M R^2/4) q_dot^2. A numerical denominator in front of a sum
+    is moved into the sum if the result is simpler."""
     powers = [s**n for s, n in rates]
     if halves and any(n == 2 for _, n in rates) and coefficient.terms > 1:
         inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
@@ -234,7 +238,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy the factors without and with angles separately, if the factor with angles contains no sum."""
+    """Tidy the factor without angles and the factor with angles separately, if the factor with angles contains no
+    sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):

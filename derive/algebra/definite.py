@@ -10,7 +10,7 @@ from sympy import Expr, ImmutableDenseMatrix, MatrixBase
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.tidy import tidied
 
-Sign = Callable[[Expr], int | None]  # 1, 0 or -1; None if it depends on the values of the symbols
+Sign = Callable[[Expr], int | None]  # the sign 1, 0 or -1; None if it is unknown
 
 
 def is_positive_definite(matrix: MatrixBase, sign: Sign) -> bool:
@@ -19,13 +19,13 @@ def is_positive_definite(matrix: MatrixBase, sign: Sign) -> bool:
 
 
 def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
-    """The determinants of the first row and column, of the first two, and so on."""
+    """The determinants of the first row and column, of the first two rows and columns, and so on."""
     yield from (_minor(matrix, tuple(range(n))) for n in range(1, matrix.shape[0] + 1))
 
 
 def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
     """The least sign that the quadratic form takes: 1 if the form is positive definite, 0 if it is semidefinite, -1 if
-    it is negative in some direction; None if the sign depends on the values of the symbols.
+    the form is negative in some direction; None if the sign is unknown.
 
     The semidefinite case needs all principal minors, not only the leading ones.
     """
@@ -40,7 +40,7 @@ def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
 
 
 def principal_minors(matrix: MatrixBase) -> Iterator[Expr]:
-    """The principal minors of one row and column, then of two, and so on."""
+    """The principal minors with one row and column, then those with two rows and columns, and so on."""
     size = matrix.shape[0]
     for n in range(1, size + 1):
         yield from (_minor(matrix, rows) for rows in combinations(range(size), n))

@@ -33,7 +33,7 @@ def _in_turn(by: Sequence[Symbol | int]) -> list[Symbol]:
     return letters
 
 
-@lru_cache(maxsize=16384)  # a Lagrangian is differentiated with respect to many symbols; most parts contain few
+@lru_cache(maxsize=16384)  # a Lagrangian has many symbols, but most of its parts contain few of them
 def _letters(expr: Expr) -> frozenset[Symbol]:
     if expr.is_Symbol:
         return frozenset((expr,))
@@ -48,7 +48,7 @@ def _derivative(expr: Expr, s: Symbol) -> Expr:
     return _derivative_by_parts(expr, s) if s in _letters(expr) else ZERO
 
 
-@lru_cache(maxsize=16384)  # forces, momenta and equations of motion are derivatives of mostly common parts
+@lru_cache(maxsize=16384)  # forces, momenta and equations of motion share most of these derivatives
 def _derivative_by_parts(expr: Expr, s: Symbol) -> Expr:
     if expr.is_Add:
         return Add(*(_derivative(term, s) for term in expr.args))

@@ -27,7 +27,7 @@ class Dimension:
 
     @property
     def powers(self) -> dict[str, Fraction]:
-        """The exponents by the usual letters of physics."""
+        """The exponents of mass, length, time and current, by the letters M, L, T and I."""
         return {"M": self.mass, "L": self.length, "T": self.time, "I": self.current}
 
     def __mul__(self, other: Dimension) -> Dimension:
@@ -44,7 +44,7 @@ class Dimension:
         return self == NUMBER
 
 
-@lru_cache(maxsize=1024)  # there are few dimensions, and every line of a page is checked
+@lru_cache(maxsize=1024)  # few dimensions occur, but each line of a page is checked
 def _multiplied(one: Dimension, other: Dimension) -> Dimension:
     return Dimension(*(a + b for a, b in zip(one.powers.values(), other.powers.values(), strict=True)))
 

@@ -6,8 +6,8 @@
     definition      nothing is compared: the line defines a symbol
     approximation   a rounded value or a series, whose error is checked separately
 
-Polynomials in symbols, sines and cosines are decided directly. For all other expressions, points are tried first,
-because points are cheap and can refute quickly. A sample never counts as a proof.
+The equality of polynomials in symbols, sines and cosines is decided directly. For all other expressions, points are
+tried first, because points are cheap and can refute quickly. A sample never counts as a proof.
 """
 
 from __future__ import annotations
@@ -59,12 +59,12 @@ from derive.algebra.samples import (
 )
 from derive.algebra.trig_polynomials import monomial_ratio
 
-MANY = 20  # how many times more points are drawn if most points have no physical meaning
+MANY = 20  # for each point that is needed, at most this many are drawn, because some have no physical meaning
 FIRST, POINTS = 2, 26  # numbers of points before the exact decision, and after an exact decision that failed
 TURNS = 400  # most points drawn to find a point at which a sign differs
-FEWEST = 8  # points at which both sides must have values
+FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined wherever it was tried"
-LETTERS = 6  # number of symbols with respect to which derivatives are compared
+LETTERS = 6  # derivatives are compared with respect to at most this many symbols
 UNDEFINED = (nan, zoo, oo, -oo)
 
 
@@ -115,7 +115,7 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
     The grade of a matrix is that of its least certain entry. Relations are equal if each follows from the other.
-    `nonzero` lists factors that may be divided out because they are known not to vanish, or in an inequality to be
+    `nonzero` lists factors that may be divided out: in an equation they are known not to vanish, in an inequality to be
     positive.
     """
     given: tuple[Any, Any] = (left, right)
@@ -199,8 +199,8 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
     """The values of both sides at points at which both sides are defined.
 
     Values that are not real, such as sqrt(g/l - k/m) for a strong spring, have no meaning. Two forms of one expression
-    may then be on different branches. So points at which neither side is real count only if there are no other points.
-    Points at which the whole problem has no meaning are left out.
+    may then be on different branches. So points at which neither side is real are used only if there are no other
+    points. Points that contradict an assumption of the problem, such as c^2 - v^2 > 0, are left out.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
@@ -227,8 +227,8 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 
 
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
-    """A point where the sides differ, if an argument of `Abs` or `sign` has a sign there that it had at no earlier
-    point."""
+    """Find a point where the sides differ, among points at which an argument of `Abs` or `sign` has a sign that
+    occurred at no earlier point."""
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
         sides = {side for point in seen if (side := _side(inside, point)) is not None}
@@ -287,13 +287,11 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     whole = _seen_ratio(left, right)
     if whole is not None and _is_borne(left.operator, right.operator, _without_factors(whole, nonzero)):
         if left.operator != right.operator and vanishes(left.residual):  # 0 > 0 and 0 < 0 never hold
-            return Verdict(Grade.REFUTED, f"{left.operator} against {right.operator}, both sides being the same")
-        return Verdict(
-            Grade.PROVED, f"multiples of each other by {whole}" if whole**2 != 1 else "polynomial normal form"
-        )
+            return Verdict(Grade.REFUTED, f"{left.operator} against {right.operator}, and both sides are equal")
+        return Verdict(Grade.PROVED, f"equal up to the factor {whole}" if whole**2 != 1 else "polynomial normal form")
     if _same_mark(left.operator, right.operator, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
-    if left.operator == right.operator == "=" and not nonzero:  # a point is found faster than a common factor
+    if left.operator == right.operator == "=" and not nonzero:  # a counterexample is found faster than a common factor
         apart = _counterexample(left.residual, right.residual)
         if apart is not None:  # a refuted verdict is falsy, so compare with None
             return apart
@@ -310,7 +308,7 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
             return apart
         return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}, which may be zero")
     verdict = _equal_scalars(left.residual, whole * right.residual)
-    return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"multiples of each other by {whole}")
+    return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"equal up to the factor {whole}")
 
 
 def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
@@ -339,7 +337,8 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
-    """Rewrite strict inequalities n/d > 0 as n d > 0. The forms are equivalent: neither holds where d vanishes."""
+    """Rewrite strict inequalities n/d > 0 as n d > 0. Both forms are equivalent, because neither is true where d
+    vanishes."""
     strict = {left.operator, right.operator} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):
@@ -376,7 +375,7 @@ def _counterexample(left: Expr, right: Expr) -> Verdict | None:
                 continue
             if abs(zero) < Rational(1, 10**30) < abs(off):
                 where = tuple((str(name), str(value)) for name, value in others.items())
-                return Verdict(Grade.REFUTED, f"where one holds, the other has {off.evalf(6)} for 0", where)
+                return Verdict(Grade.REFUTED, f"where one is true, the other is off by {off.evalf(6)}", where)
     return None
 
 
@@ -422,8 +421,8 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
-    """The ratio of the derivatives with respect to a symbol, if this is also the ratio of the whole expressions. The
-    method finds a common factor that sin(2 x) or a fractional power hides."""
+    """The ratio of the derivatives with respect to a symbol, if this is also the ratio of the whole expressions. These
+    derivatives show a common factor that is hidden in sin(2 x) or in a fractional power."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:

@@ -1,6 +1,6 @@
 """The first terms of an expression where a symbol is small, large, or near a value, from derivatives.
 
-    f = N/D, each expanded in a Taylor series in the small symbol, and one series divided by the other
+    f = N/D: N and D are expanded in Taylor series in the small symbol, and the series are divided
 
 The leading power may be negative or half-integer. SymPy's own `series` is not used. Functions without such an expansion
 are rejected.
@@ -37,7 +37,7 @@ from derive.algebra.node import DimensionOf, Node, ScalarNode, TextOf, explicit
 from derive.algebra.tidy import tidied
 
 HIGHEST = 10  # highest order of a derivative
-LARGEST = 4000  # number of operations of an expression that is expanded
+LARGEST = 4000  # most operations of an expression that is expanded
 SMALL = Dummy("epsilon", positive=True)
 SPOILT = (nan, zoo, oo, -oo, AccumBounds)
 
@@ -45,11 +45,11 @@ Series = dict[Rational, Expr]  # power -> coefficient
 
 
 class NoExpansion(Exception):
-    """The expression has no expansion in powers at this limit, or this module found none within its bounds."""
+    """The expression has no expansion in powers at this limit, or this module finds none within its limits."""
 
 
 class BeginsBeyond(NoExpansion):
-    """The expansion begins with a higher power than was requested, so it is zero up to that power."""
+    """The expansion begins with a power above the requested one, so all requested terms are zero."""
 
 
 class Expansion(ScalarNode):
@@ -91,7 +91,7 @@ class FirstOrder(ScalarNode):
     """The first-order part of f in several small symbols. Arguments: f, which vanishes with these symbols, and the
     symbols.
 
-    It is displayed as f, in the line of a chain before the higher orders are dropped.
+    The node is displayed as f, in the line of a calculation just before the higher orders are dropped.
     """
 
     def _evaluated(self, f: Expr, *small: Expr) -> Expr:
@@ -161,7 +161,7 @@ def tidied_terms(series: Series, x: Symbol, to: Expr) -> Expr:
 
 
 def in_ascending_powers(series: Series, x: Symbol, to: Expr) -> Expr:
-    """The terms in ascending powers, with the factors of the leading term in front if that is shorter."""
+    """The terms in ascending powers, with the leading term in front of a bracket if this form is shorter."""
     small = small_of(x, to)
     terms = [(n, tidied(c)) for n, c in sorted(series.items())]
     plain = Terms(*(c * small**n for n, c in terms))

@@ -103,7 +103,7 @@ def component_names(name: str) -> tuple[Symbol, Symbol, Symbol]:
     return x, y, z
 
 
-@lru_cache(maxsize=4096, typed=True)  # each verb builds the same positions and velocities
+@lru_cache(maxsize=4096, typed=True)  # several verbs build the same positions and velocities
 def column(*components: Any) -> ImmutableMatrix:
     return ImmutableDenseMatrix(3, 1, list(components))
 
@@ -158,8 +158,8 @@ class Cross(VectorNode):
 
 
 class CarriedRate(VectorNode):
-    """dA/dt in space of a vector A that rotates with angular velocity omega. Arguments: A, omega, and the coordinates
-    that move; without coordinates, A is constant in the body.
+    """dA/dt in space of a vector A, given by its components along axes that rotate with angular velocity omega.
+    Arguments: A, omega, and the coordinates that move; without coordinates, A is constant in the body.
 
     Evaluated by rotating A and differentiating, not as omega x A: A(t) = R(t) A, where the columns of R(t) are the
     body's axes after the time t. The rotation is built from Euler rotations: rotate about z and y until omega lies
@@ -341,8 +341,8 @@ class Partial(ScalarNode):
 class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
-    Evaluated by the chain rule: each coordinate, and each of its rates, contributes its partial derivative times the
-    next rate; the partial derivative with respect to time is added.
+    Evaluated by the chain rule: the partial derivative of f with respect to each coordinate and each rate is multiplied
+    by the next rate, and the partial derivative with respect to time is added.
     """
 
     def doit(self, **hints: Any) -> Expr:

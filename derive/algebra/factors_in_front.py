@@ -21,7 +21,7 @@ Terms = dict[frozenset[tuple[Expr, int]], Rational]
 
 
 class Product(NamedTuple):
-    """A number times powers with positive or negative exponents; no base is a sum with a common factor."""
+    """A number times powers with positive or negative exponents; no base is a sum whose terms have a common factor."""
 
     number: Rational
     powers: Powers
@@ -99,7 +99,7 @@ def product_of(value: Expr) -> Product:
 
 
 def _function(value: Function) -> Product:
-    """A function with its arguments in this form, except angles such as 2 a + 2 b, which are unchanged."""
+    """A function whose arguments have common factors in front; angles such as 2 a + 2 b are unchanged."""
     args = [in_front(arg) if isinstance(arg, Expr) and not _is_of_letters(arg) else arg for arg in value.args]
     found = value if args == list(value.args) else value.func(*args)
     return _root(found, 1) if isinstance(found, Function) else product_of(found)

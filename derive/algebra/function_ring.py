@@ -1,12 +1,12 @@
 """Polynomials in symbols and angles, and in roots, absolute values, exponentials and other functions.
 
 A root is split into roots of irreducible factors, and an absolute value into absolute values of irreducible factors, if
-the signs of the factors allow it. Each of these becomes a new letter of the ring that satisfies a relation, r^q = p or
-|p|^2 = p^2. A power becomes a product with one factor for each term of its exponent, exp(u + v) = exp u exp v. For any
-other function, only one property is used: equal arguments give equal values.
+the signs of the factors allow it. Each such root or absolute value becomes a new letter of the ring with a relation,
+r^q = p or |p|^2 = p^2. A power becomes a product with a factor for each term of its exponent, exp(u + v) = exp u exp v.
+For any other function, only one property is used: equal arguments give equal values.
 
-Such letters may depend on one another, so a form with terms may still be zero. A form without terms is zero, provided
-that it contains no division by zero.
+The new letters may depend on one another, so a form with terms may still be zero. A form without terms is zero,
+provided that it contains no division by zero.
 
 Source: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms modulo relations).
 """
@@ -83,7 +83,7 @@ class FunctionRing(TrigRing):
         return bool(terms) and not self.letters_in(terms) & self._dependent and not self.has_parts_of_pi(terms)
 
     def is_unsure(self, terms: Terms) -> bool:
-        return False  # divisors are checked at the end
+        return False  # whether a divisor vanishes is checked at the end
 
     def function(self, expr: Expr) -> Form:
         kind = type(expr)
@@ -104,14 +104,14 @@ class FunctionRing(TrigRing):
             return self._letter_of_power(expr, 2, ONE)
         if isinstance(expr, Abs) and all(part.is_real for part in expr.args[0].as_numer_denom()):
             return self._absolute(expr.args[0])
-        if isinstance(expr, sign) and expr.args[0].is_real:  # only where the argument is not zero
+        if isinstance(expr, sign) and expr.args[0].is_real:  # valid only where the argument is not zero
             return self.product(self.form(expr.args[0]), self.one_over(self._absolute(expr.args[0])))
         return super().function(expr) if isinstance(expr, sin | cos) or expr in {I, pi} else self._opaque(expr)
 
     # --- letters ------------------------------------------------------------------------------------------------
 
     def _letter_of_power(self, key: object, order: int, of: Form, n: int = 1) -> Form:
-        """The n-th power of the letter whose power of this order equals the form `of`."""
+        """The n-th power of the letter x that satisfies x^order = `of`."""
         place = self.related_letter(key, order, of)
         self._dependent |= ONES << place
         return Form({n << place: 1}, 1, abs(n), of.cost)
@@ -136,7 +136,8 @@ class FunctionRing(TrigRing):
         return letter
 
     def _agree(self, a: Any, b: Any) -> bool:
-        """Whether two arguments are equal; other objects, such as a piece of a `Piecewise`, must be identical."""
+        """Whether two arguments are equal; arguments that are not expressions, as in a `Piecewise`, must be
+        identical."""
         return bool(a == b) or isinstance(a, Expr) and isinstance(b, Expr) and self._are_equal(a, b)
 
     def _are_equal(self, a: Expr, b: Expr) -> bool:
@@ -146,7 +147,7 @@ class FunctionRing(TrigRing):
             return False
 
     def angle(self, angle: Expr) -> Expr:
-        """The first angle so far that is equal to this angle."""
+        """The first angle so far that is equal to this angle; otherwise the angle itself."""
         try:
             return super().angle(angle)
         except Outside:
@@ -159,7 +160,7 @@ class FunctionRing(TrigRing):
     # --- powers -------------------------------------------------------------------------------------------------
 
     def _exponential(self, exponent: Expr) -> Form:
-        """A product over the terms of the exponent; an imaginary term gives the letter of its angle."""
+        """The exponential of a sum as a product with one factor for each term; an imaginary term i q gives exp(i q)."""
         powers = 0
         for number, term in terms_of_angle(exponent):
             if I in Mul.make_args(term):
@@ -229,7 +230,8 @@ class FunctionRing(TrigRing):
         return self.product(front, self._letter_of_power(key, q, of, rest)) if rest else front
 
     def _absolute(self, inside: Expr) -> Form:
-        """|p| as a product over irreducible factors f: f itself if its sign is known, else g with g^2 = f^2."""
+        """|p| as a product over irreducible factors f: f itself if it is known not to be negative, else g, g^2 =
+        f^2."""
         product = ONE
         for factor, power in _irreducible_factors(inside):
             factor = -factor if factor.could_extract_minus_sign() else factor
@@ -248,7 +250,7 @@ class FunctionRing(TrigRing):
 
 
 def _number_in_front(form: Form) -> tuple[Rational, Form]:
-    """The positive common number of all terms, and the sum of the remaining terms."""
+    """The positive numerical factor that all terms have in common, and the sum without this factor."""
     content = gcd(*form.terms.values())
     terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
     return Rational(content, form.below), form._replace(terms=terms, below=1)
@@ -269,7 +271,8 @@ def _denested(base: Expr) -> Expr | None:
 def factors_under_a_root(base: Expr, q: int) -> tuple[tuple[Expr, int], ...]:
     """Irreducible factors of the radicand with their powers.
 
-    Only factors that are known to be non-negative may be taken out of a common root; all other factors stay together.
+    Factors that are known to be non-negative are separated. Under a square root, an even power of another real factor f
+    becomes a power of |f|. All other factors stay together.
     """
     found: list[tuple[Expr, int]] = []
     unsure: Expr = Integer(1)

@@ -5,7 +5,7 @@
     sines and cosines   sin(m x), cos(n x) and their products, over any limits
     chords              y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
 
-SymPy's own integrator is slow for the first two kinds, and gives a wrong result or none for the third. For any other
+SymPy's own integrator is slow for most of these kinds, and gives a wrong result or none for chords. For any other
 integral the functions here return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 4.3.127 and
 6.2.1 (powers of sine and cosine).
 """
@@ -29,7 +29,7 @@ def definite(value: Expr, limits: Limits) -> Expr | None:
     return _definite(value, tuple(tuple(limit) for limit in limits))
 
 
-@lru_cache(maxsize=1024)  # an integral is evaluated, checked and compared
+@lru_cache(maxsize=1024)  # each integral is needed for its value, a check and a comparison
 def _definite(value: Expr, limits: Limits) -> Expr | None:
     for i, (x, lower, upper) in enumerate(limits):
         terms = [_term(outside, inside, x, lower, upper, limits[i + 1 :]) for outside, inside in _terms(value, x)]
@@ -133,7 +133,7 @@ def _term(outside: Expr, inside: Expr, x: Symbol, lower: Expr, upper: Expr, oute
 def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
     """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: with y = w sin u it is w^(m+k+1) times a number.
 
-    This requires w >= 0, because otherwise the root is not w cos u. The outer limits must show that w >= 0.
+    This substitution requires w >= 0, because otherwise the root is not w cos u. The outer limits must show w >= 0.
     """
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):
@@ -166,7 +166,8 @@ def sine_and_cosine_integral(m: int, n: int) -> Expr:
 
 
 def _nonnegative_within(w: Expr, outer: Limits) -> bool:
-    """Whether w >= 0 between the limits: by its assumptions, or because w is linear and not negative at either end."""
+    """Whether w >= 0 between the limits: by the assumptions of its symbols, because w is a square root, or because w is
+    linear in one variable and non-negative at both limits of this variable."""
     if w.is_nonnegative or isinstance(w, Pow) and w.exp == HALF:
         return True
     inside = [limit for limit in outer if w.has(limit[0])]

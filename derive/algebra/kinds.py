@@ -1,7 +1,7 @@
-"""The kinds of quantity, with the dimension and unit of each, and the annotation by which a script asks for it.
+"""The kinds of quantity, with their dimensions and units, and the annotations by which a script asks for them.
 
 An author writes a kind under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with a kind
-(`mass: Mass`), which is SymPy's `Expr` to a type checker.
+(`mass: Mass`); a type checker reads the annotation as SymPy's `Expr`.
 """
 
 from __future__ import annotations
@@ -104,12 +104,12 @@ def plural(kind: str) -> str:
 
 
 def kind_of_dimension(dimension: Dimension) -> str | None:
-    """The first kind of that dimension: energy before torque, angular speed before frequency."""
+    """The first kind in `KINDS` with that dimension: energy before torque, angular speed before frequency."""
     return next((name for name, kind in KINDS.items() if kind.dimension == dimension), None)
 
 
 def named(dimension: Dimension) -> str:
-    """A dimension in words: `a length`, or its exponents if no kind has that dimension."""
+    """A dimension in words, such as `a length`, or by its exponents if no kind has that dimension."""
     kind = kind_of_dimension(dimension)
     return kind_with_article(kind) if kind else f"a quantity of dimension {exponents(dimension)}"
 
@@ -137,18 +137,18 @@ def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimen
 
 
 def unit_of_dimension(dimension: Dimension) -> str:
-    """The coherent SI unit of a quantity without a kind: the unit of the kind with its dimension if there is only one
+    """The coherent SI unit of a quantity without a kind: the unit of the kind with this dimension if there is only one
     such kind, else a product of units.
 
-    Energy and torque have the same dimension, so their unit is N m, which is right for both. The unit 1/s does not
-    imply an angle.
+    Energy and torque have the same dimension, so a quantity of this dimension has the unit N m, which is correct for
+    both. In the same way a rate has the unit 1/s, which does not imply an angle.
     """
     kinds = [kind for kind in KINDS.values() if kind.dimension == dimension]
     return kinds[0].unit if len(kinds) == 1 else _product_of_units(dimension)
 
 
 def _product_of_units(dimension: Dimension) -> str:
-    """`N m`, `kg m^2/s`, `1/s`: a unit with the powers of mass and time of a force is written with newtons."""
+    """`N m`, `kg m^2/s`, `1/s`: a unit with the same powers of mass and time as a force is written with newtons."""
     powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time, "A": dimension.current}
     if dimension.mass == 1 and dimension.time == -2:
         powers = {"N": Fraction(1), "m": dimension.length - 1, "A": dimension.current}

@@ -1,6 +1,6 @@
 """The written length of an expression: its signs, fraction bars, powers and functions, counted like `count_ops`.
 
-Lengths of parts are cached, because the forms of one value have most of their parts in common.
+Lengths of parts are cached, because several forms of one value have most parts in common.
 """
 
 from __future__ import annotations
@@ -68,7 +68,8 @@ def _of_fraction(value: Expr) -> int:
 
 
 def _of_product(factors: list[Expr]) -> int:
-    """The length of a numerator or denominator; SymPy multiplies a number into a sum that is the only other factor."""
+    """The length of a numerator or denominator. If it is a number times one sum, SymPy multiplies the number into the
+    sum."""
     is_put_in = len(factors) == 2 and factors[0].is_Rational and factors[1].is_Add
     return length(Mul(*factors)) if is_put_in else _of_factors(factors)
 

@@ -21,7 +21,7 @@ from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.factors_in_front import Product, as_product, product_of, times, written
 from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
 
-PRIME = 2**31 - 1  # the modulus of all images
+PRIME = 2**31 - 1  # the prime modulus of all images of polynomials
 
 __all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "shared_factor", "squares_turned"]
 
@@ -63,7 +63,7 @@ def factored(value: Expr) -> Expr:
 
 
 def shared_factor(values: Sequence[Expr]) -> Product:
-    """The common factor of all values, divided by their common denominator; its number is positive."""
+    """The common factor of all values, divided by their common denominator; the numerical factor is positive."""
     parts = [part for value in values if (part := _with_plus_first(_factors(value))).number]
     if not parts:
         return Product(S.One, {})
@@ -189,7 +189,7 @@ class _Fractions(Expanded):
 
 
 def _by_other_square(terms: Terms, place: int, other: int) -> Terms:
-    """Replace s^2 by 1 - c^2, where s and c have these places."""
+    """Replace s^2 by 1 - c^2, where `place` is the place of s and `other` is the place of c."""
     found: Terms = {}
     for monomial, coefficient in terms.items():
         half = ((monomial >> place) & ONES) // 2
@@ -223,7 +223,8 @@ def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
 
 
 def _quotient(top: Terms, divisor: Terms) -> Terms | None:
-    """The quotient of two sums; None if there is a remainder. Most remainders are already found modulo a prime."""
+    """The quotient of two sums; None if there is a remainder. Most nonzero remainders are already detected modulo a
+    prime."""
     places = _places([*top, *divisor])
     first = next(iter(_places(divisor)), None)
     if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):

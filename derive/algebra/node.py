@@ -32,16 +32,18 @@ from derive.algebra.integrals import definite, has_root
 
 Value: TypeAlias = Any  # an Expr, an ImmutableMatrix or a MatrixExpr: SymPy has no common type for them
 
-# The dimension of a part of a node; a second argument gives the dimensions of the variables that the node binds.
+# A function that returns the dimension of a part of a node; its second argument has the dimensions of the variables
+# that the node binds.
 DimensionOf: TypeAlias = Callable[..., Dimension | None]
-# The plain SymPy text of a part, valid as a factor; a second argument names the variables that the node binds.
+# A function that returns the plain SymPy text of a part, valid as a factor; its second argument has the variables that
+# the node binds.
 TextOf: TypeAlias = Callable[..., str]
 
 NODES: dict[str, Any] = {}  # every kind of node by its name
 
 
 class Node(Basic):
-    """Base class of all unevaluated forms: `doit()` evaluates the operands, then `_evaluated` the form itself."""
+    """Base class of all unevaluated forms: `doit()` evaluates the operands, and `_evaluated` evaluates the form."""
 
     def __init_subclass__(cls, abstract: bool = False, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -100,7 +102,7 @@ class MatrixNode(Node, MatrixExpr, abstract=True):
 
 
 class VectorNode(MatrixNode, abstract=True):
-    """A node whose value is a column of three."""
+    """A node whose value is a column of three entries."""
 
     shape = (Integer(3), Integer(1))
 
@@ -121,7 +123,7 @@ def explicit(expr: Value) -> Value:
     return Integer(expr)
 
 
-@lru_cache(maxsize=16384)  # each line of a chain has most of its parts in common with its neighbours
+@lru_cache(maxsize=16384)  # neighbouring lines of a calculation have most parts in common
 def _carried_out(expr: Basic) -> Value:
     if type(expr) in (Add, Mul, Pow, sin, cos):
         return expr.func(*map(_carried_out, expr.args))
@@ -136,8 +138,8 @@ def _carried_out(expr: Basic) -> Value:
 def _definite(integral: Integral) -> Expr:
     """Evaluate a definite integral by the rules of `derive.algebra.integrals` or, if these do not apply, by SymPy.
 
-    If the rules do not apply to an integral over a root, the result is `nan`, which equals nothing: SymPy may be wrong
-    or may not terminate for such an integral.
+    If the rules do not apply to an integral with a root in the integrand or in a limit, the result is `nan`, which is
+    equal to no value. For such an integral SymPy may be wrong or may not terminate.
     """
     integrand = explicit(integral.function)
     value = definite(integrand, integral.limits)

@@ -42,7 +42,7 @@ from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.sparse_polynomials import Outside
 from derive.algebra.trig_polynomials import asked
 
-LARGEST = 4000  # number of operations of an expression that is rewritten in smaller angles
+LARGEST = 4000  # most operations of an expression that is rewritten in smaller angles
 
 
 def vanishes(expr: Expr) -> bool:
@@ -100,7 +100,7 @@ def _hides_angles(expr: Expr) -> bool:
 
 
 def _with_common_angles(expr: Expr) -> Expr:
-    """Rewrite hidden sines and cosines of sums and multiples in terms of the smallest angles."""
+    """If an expression hides angles (`_hides_angles`), expand its sines and cosines in terms of the smallest angles."""
     if not _hides_angles(expr):
         return expr
     expr = expr.replace(lambda e: isinstance(e, tan), lambda e: sin(e.args[0]) / cos(e.args[0]))

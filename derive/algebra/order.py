@@ -1,7 +1,7 @@
 """Assumed relations between symbols, l < r_0 or v_0^2 < g R, and their consequences for signs and for sample values.
 
-A symbol is replaced by its value from the relation, r_0 = l + u with u > 0. The sign of a polynomial in l and r_0 can
-then be read from its coefficients. Relations are applied one after another: a < b < c gives c = a + u + w.
+A symbol is replaced by its value from the relation, r_0 = l + u with an amount u > 0. The sign of a polynomial in l and
+r_0 can then be read from its coefficients. Relations are applied one after another: a < b < c gives c = a + u + w.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from math import prod
 
 from sympy import Add, Dummy, Expr, Integer, Rational, Symbol, cancel, expand, together
 
-PARTS = 12  # number of sizes of an amount that are tried, each an eighth of the size before
-LARGEST = 400  # number of operations of an expression that is expanded after the replacement
+PARTS = 12  # number of sizes that are tried for an amount; each is an eighth of the previous size
+LARGEST = 400  # most operations of an expression that is expanded after the replacement
 
 SignOf = Callable[[Expr], int | None]
 
@@ -86,8 +86,8 @@ class Order:
         return None if None in signs else prod(sign for sign in signs if sign is not None)
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
-        """Numbers that satisfy the relations. The amount of a replaced symbol is the absolute value of the number that
-        the symbol had, or a fraction of this number if only a fraction gives an allowed value."""
+        """Numbers that satisfy the relations. The amount of a replaced symbol is the absolute value of the number of
+        this symbol at the point. If this amount gives values that do not fit, smaller fractions of it are tried."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]
@@ -103,8 +103,8 @@ class Order:
 def _letter_replaced(
     difference: Expr, strict: bool, sign_of: SignOf
 ) -> tuple[Symbol, Expr, Symbol] | tuple[None, None, None]:
-    """A symbol in which the difference is linear, the value of the symbol, and its amount. The value of a positive
-    symbol must be positive."""
+    """A symbol in which the difference is linear, the value of the symbol, and the amount in this value. The value of a
+    positive symbol must be positive."""
     amount = Dummy("more", positive=True) if strict else Dummy("more", nonnegative=True)
     for letter in sorted((s for s in difference.free_symbols if isinstance(s, Symbol)), key=str):
         slope = difference.diff(letter)

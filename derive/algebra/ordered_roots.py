@@ -1,6 +1,8 @@
-"""A root without a closed form of a polynomial that has only real roots, identified by its place among these roots.
+"""Roots of polynomials that have only real roots, without a closed form; its place in ascending order identifies a
+root.
 
-The value of the root for numerical coefficients is exact: an algebraic number of SymPy, with any number of digits.
+If the coefficients are rational numbers, the value of a root is exact: an algebraic number of SymPy, which can be
+computed to any number of digits.
 """
 
 from __future__ import annotations
@@ -31,7 +33,7 @@ class OrderedRoot(ScalarNode):
 
     @property
     def name(self) -> Symbol:
-        """The symbol of the root, which includes its place among the roots of this polynomial."""
+        """The symbol of the root; its name includes the place of the root."""
         return self.args[2]
 
     @property

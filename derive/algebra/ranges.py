@@ -52,11 +52,12 @@ class Range:
         return self.greatest - 1 / beyond if self.greatest.is_finite else beyond - 1 / beyond
 
     def near(self, number: Expr) -> Expr:
-        """Map a positive number to a number in the range by an increasing function; by the identity for `POSITIVE`."""
+        """Map a positive number to a number in the range by an increasing function; in `POSITIVE` the number is
+        unchanged."""
         return number if self == POSITIVE else self.at(number / (1 + number))
 
 
-LARGEST = 200  # number of operations of a sum in which squares of sines and cosines are replaced
+LARGEST = 200  # most operations of a sum in which squares of sines and cosines are replaced
 POSITIVE = Range(Integer(0), oo, written="(0, infinity)")
 
 _KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  the default is never changed
@@ -67,7 +68,7 @@ _POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
 
 @contextmanager
 def own_meaning() -> Iterator[None]:
-    """Forget, after the `with` block, all assumptions of positivity that were made inside it."""
+    """Begin a `with` block without assumptions of positivity, and restore the earlier assumptions after the block."""
     token = _POSITIVE.set(())
     try:
         yield
@@ -87,12 +88,12 @@ def taken_as_positive() -> tuple[Expr, ...]:
 
 
 def known_ranges() -> Mapping[Symbol, Range]:
-    """The symbols with a known range."""
+    """The symbols that have a known range, each with its range."""
     return _KNOWN.get()
 
 
 def has_meaning(point: Mapping[Expr, Expr]) -> bool:
-    """Whether each expression that is assumed positive is positive at the point, or its value there is unknown."""
+    """Whether the point satisfies all assumptions of positivity, as far as the values at the point are known."""
     told = (each for each in _POSITIVE.get() if each.free_symbols <= point.keys())
     return all(each.xreplace(dict(point)).evalf(20).is_positive is not False for each in told)
 
@@ -170,7 +171,8 @@ def sign_within(expr: Expr) -> int | None:
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The sign from `sign_within`; None if the range of a symbol includes an end, since the value may vanish there."""
+    """The sign from `sign_within`; None if the range of a symbol includes one of its ends, since the expression may
+    vanish at this end."""
     if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
         return None
     return sign_within(expr)
@@ -231,7 +233,7 @@ def _sign_of_sum(total: Expr) -> int | None:
 
 
 def _is_nonnegative(term: Expr) -> bool:
-    """Whether the term is known not to be negative: c^2 sin(alpha)."""
+    """Whether the term is known not to be negative, such as c^2 sin(alpha) for 0 < alpha < pi."""
     if term.is_nonnegative:
         return True
     open_factors = Mul(*(f for f in Mul.make_args(term) if not f.is_nonnegative))
@@ -265,7 +267,7 @@ def _sign_of_function(function: Expr) -> int | None:
 
 
 def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of an expression; None if they are unknown, or if the range of a symbol includes an end."""
+    """The bounds of an expression; None if they are unknown, or if the range of a symbol includes one of its ends."""
     if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
         return None
     return _ends(expr)
@@ -291,7 +293,8 @@ def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _between(rest: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of a symbol, of a sine or cosine that is monotonic in its range, of an arctangent, or of a power."""
+    """The bounds of a symbol, of a sine or cosine that is monotonic in the range of its angle, of an arctangent, or of
+    a power."""
     if (known := _range_of_letter(rest)) is not None:
         return known.least, known.greatest
     if isinstance(rest, atan):

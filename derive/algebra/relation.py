@@ -40,7 +40,7 @@ class Relation(Node):
 
     @property
     def word(self) -> str:
-        """The name of the operator in the formulas of a page."""
+        """The name by which formulas of pages refer to the operator, such as `equals` or `less`."""
         return MARKS[self.operator]
 
     @property

@@ -69,7 +69,8 @@ def decimal_text(number: Rounded) -> str:
 
 
 def off_by_more_than_half_a_unit(exact: Any, shown: Any) -> tuple[str, str] | None:
-    """The first rounded number that differs from its exact value by more than half a unit, and the exact value.
+    """The first rounded number that differs from its exact value by more than half a unit of its last place, and the
+    exact value.
 
     Returns None if there is no such number. In a relation, the right side is the rounded number. mpmath computes the
     exact value here, with extra digits for cancellation; `rounded` uses SymPy's own `evalf`.

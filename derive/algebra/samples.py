@@ -1,8 +1,9 @@
 """Points at which two expressions are compared, and the values of expressions there.
 
-Points are exact rationals, drawn over several scales. The seed is computed from the expressions, so each run has the
-same points for the same expressions. mpmath computes the values with enough digits to exclude rounding errors. A
-difference counts only if more digits confirm it; a difference that shrinks as digits are added counts as zero.
+A point has random rational coordinates of several orders of magnitude. The seed is computed from the expressions, so
+each run has the same points for the same expressions. mpmath computes the values with enough digits to exclude rounding
+errors. A difference counts only if more digits confirm it; a difference that shrinks as digits are added counts as
+zero.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from derive.algebra.ordered_roots import OrderedRoot, root_in_order
 from derive.algebra.ranges import fulfilling, range_of
 
 DIGITS = 50
-WORKING = (60, 160, 420)  # digits: the first precision usually decides, a higher precision confirms the result
+WORKING = (60, 160, 420)  # precisions in digits, tried in this order until a comparison is decided and confirmed
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
 ORDINARY = (0,)
@@ -147,7 +148,8 @@ def _shrinks(before: Any, now: Any) -> bool:
 
 
 def value_at(expr: Expr, point: SamplePoint) -> Expr:
-    """The value of an expression at a point, confirmed with a second precision; if digits cancel, more are used.
+    """The value of an expression at a point, confirmed with a second precision; if digits cancel, higher precisions are
+    used.
 
     Returns zero if the value shrinks as digits are added. Raises `Undefined`, or `NoNumber` if no two precisions agree.
     """
@@ -205,10 +207,10 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-_LARGEST = 300  # largest exponent evaluated: far larger values hide the terms next to them
-_MOST = 60  # most bits of the whole part of an argument
+_LARGEST = 300  # largest exponent that is evaluated: a larger power would hide the other terms of a sum
+_MOST = 60  # most bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
-_OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # no digits of an argument are lost
+_OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # lose no digits of any argument
 _ONE_ARGUMENT = {
     name: getattr(mp, name)
     for name in ("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "sinh", "cosh", "tanh", "coth")
@@ -328,7 +330,7 @@ class Values:
             for letter, value in put_in.items():
                 expr = expr.xreplace({letter: value})
             value = expr.evalf(mp.dps)
-        except (TypeError, AttributeError, RecursionError, NotImplementedError) as error:  # SymPy has no numbers for it
+        except (TypeError, AttributeError, RecursionError, NotImplementedError) as error:  # SymPy has no value
             raise NoNumber(expr) from error
         real, imaginary = value.as_real_imag()
         if not (real.is_Number and imaginary.is_Number):
@@ -345,7 +347,7 @@ def _is_cancelled(total: Any, terms: list[Any]) -> bool:
 
 
 def _bits(x: Any) -> int:
-    """The number of bits of the whole part, negative for a small value."""
+    """The number of bits of the integer part of a number; zero or negative for a number below 1."""
     if isinstance(x, mpmath.mpc):
         return max(_bits(x.real), _bits(x.imag))
     _, mantissa, exponent, length = x._mpf_

@@ -1,8 +1,8 @@
-"""Sparse sums of monomials in many letters, added and multiplied as whole numbers.
+"""Sparse sums of monomials in many letters; each monomial is stored as one whole number.
 
 A letter is a variable of the ring: a symbol, or an expression that counts as a symbol. The powers of all letters of a
-monomial, with their signs, are packed into one whole number, so one addition multiplies two monomials. The work for a
-sum is counted even if its parts are cached, so an expression that takes too much work is rejected in each run.
+monomial, with their signs, are packed into one whole number, so one addition multiplies two monomials. The work for
+cached parts of a sum is counted too, so an expression that takes too much work is rejected in every run.
 
 Source: Monagan, Pearce, *Sparse polynomial division using a heap*, J. Symb. Comp. 46 (2011), section 2 (packed
 monomials).
@@ -18,12 +18,12 @@ from sympy import Expr, Pow, Symbol
 
 from derive.algebra.expressions import PLUS_MINUS
 
-WIDTH = 24  # bits for the power of a letter, including its sign
-PARTS = 64  # the most parts into which a letter for an angle may be divided
+WIDTH = 24  # bits for the power of a letter and the sign of the power
+PARTS = 64  # the most equal parts into which an angle may be divided
 FARTHEST = 2 ** (WIDTH - 2) // PARTS  # highest power of a letter
 HIGHEST = 60  # highest power of a sum, and highest multiple of an angle
 WORK = 200_000  # most products of two terms that are computed for one expression
-LETTERS = 120  # most letters and forms of a ring; then a new ring is begun
+LETTERS = 120  # most letters and forms of a ring; a ring with more is replaced by an empty one
 FORMS = 20_000
 
 Terms = dict[int, int]
@@ -51,7 +51,8 @@ ONE = Form({0: 1})
 class Ring:
     """Letters with their places in a monomial, and the forms already computed.
 
-    The lowest two bits of a monomial count factors i, at most one; each letter has `WIDTH` bits above these.
+    The lowest two bits of a monomial are the power of the imaginary unit i, which is 0 or 1. Above them, each letter
+    has `WIDTH` bits.
     """
 
     highest, work = HIGHEST, WORK

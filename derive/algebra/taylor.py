@@ -64,14 +64,14 @@ def slope(expr: Expr | int, letter: Symbol) -> Expr:
 
 
 def coefficient_along(expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int) -> Expr:
-    """The coefficient of s^n if each symbol is its place plus s times its direction."""
+    """The coefficient of s^order after each symbol is replaced by its place plus s times its direction."""
     return series_along(expr, place, direction, order)[order]
 
 
 def series_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
-    """The coefficients of s^0, ..., s^n if each symbol is its place plus s times its direction."""
+    """The coefficients of s^0, ..., s^order after each symbol is replaced by its place plus s times its direction."""
     try:
         return arithmetic_along(expr, place, direction, order)
     except NoSeries:
@@ -91,7 +91,8 @@ def arithmetic_along(
 
 
 def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
-    """The same coefficients for a quotient whose numerator and denominator both vanish at the place."""
+    """The coefficients of `arithmetic_along` for a quotient whose numerator and denominator both vanish at the
+    place."""
     above, below = together(expr).as_numer_denom()
     lowest, under = next(_beginnings(below, paths, order), (None, ()))
     if lowest is None:
@@ -184,7 +185,7 @@ class _Arithmetic:
         return tuple(found)
 
     def _power(self, x: Series, a: Expr) -> Series:
-        """x y' = a x' y, term by term; a fractional power of a vanishing quantity has no series."""
+        """The series of y = x^a, term by term from x y' = a x' y. Raises `NoSeries` if x vanishes at s = 0."""
         if x[0] == 0 and any(x[1:]):
             raise NoSeries
         found = [x[0] ** a]

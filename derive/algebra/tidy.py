@@ -1,6 +1,6 @@
 """The tidy form of a result: one fraction, common factors in front, no sum of roots in the denominator.
 
-`tidied()` does not change the value. It simplifies a result as you would by hand, and keeps later steps short.
+`tidied()` simplifies a result as you would by hand, without changing its value, and keeps later steps short.
 `derive.render.notation.notation` decides how the result is displayed.
 """
 
@@ -101,7 +101,7 @@ def _by_addition_theorem(value: Expr) -> Expr | None:
 
 
 def _by_secant(total: Expr) -> Expr:
-    """1/cos^2 for 1 + tan^2, also if both terms have a common factor."""
+    """Write 1 + tan^2 as 1/cos^2, also if both terms have a common factor."""
     for tangent in sorted(total.atoms(tan), key=str):
         found = total.as_poly(tangent)
         if found is None or found.degree() != 2 or found.nth(1) != 0 or found.nth(0).has(tan):
@@ -211,7 +211,7 @@ def _expanded_above(value: Expr) -> Expr:
 
 
 def _roots_drawn_out(value: Expr) -> Expr:
-    """Take squares of known sign out of each root: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
+    """Take squares of factors with a known sign out of each root: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
     return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, _drawn_out)
 
 

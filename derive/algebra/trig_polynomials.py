@@ -8,7 +8,8 @@ The letters and the z of angles that are products of letters satisfy no polynomi
 functions of such angles are algebraically independent. So only the form without terms is zero. An angle may also have
 sines and cosines of letters as factors; such angles count as equal only if they are written identically. The z of a
 fraction of pi is a root of unity, and a form is reduced by the irreducible equation of this root. A square root is a
-letter whose square is known. Such roots may depend on one another, so nothing is decided if roots are left.
+letter whose square is known. Square roots may depend on one another, so nothing is decided if a form still contains
+roots.
 
 Sources: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms); Lang, *Algebra*, ch. VI,
 section 3 (cyclotomic polynomials are irreducible) and section 4 (the independence of characters).
@@ -25,7 +26,7 @@ from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_p
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
-WORK = 3_000_000  # products of two terms that a question may take: an undecided sum costs far more elsewhere
+WORK = 3_000_000  # most products of two terms for one question: if it stays undecided, other methods cost far more
 LONGEST, STEEPEST = 60, 8  # most operations in an angle, and highest power in it
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
@@ -83,7 +84,7 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
             raise
 
 
-@lru_cache(maxsize=16384)  # tested first, because computing a form would be useless
+@lru_cache(maxsize=16384)  # tested first, because such an expression has no useful form
 def _has_nested_roots(expr: Expr) -> bool:
     """Whether the expression contains roots of roots, or roots other than square roots."""
     if isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer:
@@ -98,7 +99,8 @@ def _has_roots(expr: Expr) -> bool:
 
 
 def _is_in_angles(base: Expr) -> bool:
-    """Whether the base is a symbol, or the sine or cosine of one, as in phi_dot t cos theta of a steady precession."""
+    """Whether the base is a symbol, or the sine or cosine of a symbol, as in phi_dot t cos theta of a steady
+    precession."""
     return base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
 
 
@@ -128,8 +130,8 @@ class TrigRing(Ring):
         super().__init__()
         self.units = units  # number of parts into which an angle is divided
         self.outside: set[Expr] = set()
-        self._relations: list[tuple[int, int, Form]] = []  # place of a letter, a power, and the form of this power
-        self._related = 0  # the bits of all these letters
+        self._relations: list[tuple[int, int, Form]] = []  # a letter's place, a known power, its form
+        self._related = 0  # the bits of all letters in `_relations`
         self._middle = (0, 0)
 
     # --- from expressions ---------------------------------------------------------------------------------------
@@ -149,7 +151,7 @@ class TrigRing(Ring):
         raise Outside
 
     def _root(self, square: Form, n: int) -> Form:
-        """A power of the square root of a form that is known not to vanish."""
+        """A power of the square root of a form; raises `Outside` if the form may vanish."""
         if not square.terms or self.is_unsure(square.terms) or abs(n) > self.highest:
             raise Outside
         shared = gcd(square.below, *square.terms.values())
@@ -190,7 +192,8 @@ class TrigRing(Ring):
         return self.one_over(self.form(base))
 
     def one_over(self, form: Form) -> Form:
-        """The reciprocal of a form. For a sum it is the reciprocal of the last monomial times a letter for the rest."""
+        """The reciprocal of a form. The reciprocal of a sum is the reciprocal of its last monomial times a letter for
+        the reciprocal of the other factor."""
         if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)
@@ -208,7 +211,7 @@ class TrigRing(Ring):
         return Form({1 << place: form.below // scale}, content // scale, 1, form.cost)
 
     def is_zero(self, form: Form) -> bool:
-        """Whether no terms are left after roots and divisors are eliminated, the last introduced first.
+        """Whether the form is zero after roots and divisors are eliminated, the last introduced first.
 
         Raises `Outside` if roots are left.
         """
@@ -231,7 +234,8 @@ class TrigRing(Ring):
         return form
 
     def related_letter(self, key: object, order: int, of: Form) -> int:
-        """The place of a letter with a known power."""
+        """Return the place of the letter whose power `order` equals the form `of`; a new letter is added to the
+        ring."""
         known = key in self.letters
         place = self.place(key)
         if not known:
@@ -268,7 +272,7 @@ class TrigRing(Ring):
         return bool(present) and any(order > 0 and present >> place & ONES for place, order, _ in self._relations)
 
     def is_zero_by_roots_of_one(self, terms: Terms) -> bool:
-        """Whether the coefficient of each product of the other letters, in powers of exp(i pi/parts) and i, is zero."""
+        """Whether the terms add up to zero because exp(i pi/parts) and i are roots of unity."""
         place, parts = self.letters[(pi,)], self.units.get(pi, 1)
         order = lcm(2 * parts, 4)
         sums: dict[int, dict[int, int]] = {}
@@ -319,7 +323,8 @@ def _monomial_over(monomial: int, form: Form) -> Form:
 
 
 def _vanishes_at_root_of_one(powers: dict[int, int], order: int) -> bool:
-    """Whether a polynomial is zero at exp(2 i pi/order): its remainder by the irreducible polynomial is zero."""
+    """Whether a polynomial is zero at exp(2 i pi/order): its remainder after division by the cyclotomic polynomial is
+    zero."""
     modulus = _irreducible_at(order)
     degree = len(modulus) - 1
     left = [powers.get(n, 0) for n in range(order)]

@@ -25,8 +25,8 @@ Rows = list[tuple[str, ...]]
 
 
 def answers_of(root: Path, problem_id: str) -> Rows:
-    """Return a row for each name, after a row of headings: first the answers that the description offers or the script
-    returns, with the problem's results, then the steps on which they depend."""
+    """Return a row of headings and a row for each name. The answers that the description offers or the script returns
+    come first, with the results of the problem, and then the steps on which these answers depend."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     record = Run()
     with solving(problem, record):
@@ -52,7 +52,7 @@ def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
 
 
 def with_ancestors_of_each(found: dict[str, tuple[Quantity, ...]]) -> dict[str, tuple[Quantity, str]]:
-    """Return every step on which the answers depend, with the first answer that leads to it."""
+    """Return every step on which the answers depend, each with the first answer that depends on the step."""
     steps: dict[str, tuple[Quantity, str]] = {}
     for name, quantities in found.items():
         for key, quantity in with_ancestors(quantities).items():

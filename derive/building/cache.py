@@ -1,8 +1,7 @@
-"""The results that builds keep: each value under a digest of everything that it depends on.
+"""The results that builds store: each value is stored under a digest of everything on which the value depends.
 
-Steps, pages, drawings and PDFs are kept in one folder, signed. A value is never out of
-date, because a change of an input gives another digest. If the folder is too large, the values that were used longest
-ago are removed.
+Steps, pages, drawings and PDFs are stored in one folder and signed. A value is never out of date, because a change of
+an input gives another digest. If the folder is too large, the least recently used values are removed.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ NOT_KEPT = "not-kept"
 
 
 def digest(*parts: str | bytes) -> str:
-    """Return the digest of the parts; it also depends on where one part ends and the next begins."""
+    """Return the digest of the parts; the digest also depends on the boundaries between the parts."""
     sha = sha256()
     for part in parts:
         raw = part.encode() if isinstance(part, str) else part
@@ -37,7 +36,7 @@ def digest(*parts: str | bytes) -> str:
 
 
 def file_digest(path: Path) -> str:
-    """Return the digest of the file's content; empty if the file is missing, so that creating it is a change."""
+    """Return the digest of the file's content; empty if the file is missing, so that creating the file is a change."""
     try:
         return digest(signed.regular_content(path))
     except OSError:
@@ -78,8 +77,8 @@ def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
 
 @dataclass(frozen=True)
 class Cache:
-    """The values stored in a folder, if a folder is given; with `fresh`, no stored value is read, but new ones are
-    stored."""
+    """The values stored in a folder; without a folder, nothing is stored. With `fresh`, no stored value is read, but
+    new values are stored."""
 
     folder: Path | None = None
     fresh: bool = False
@@ -110,8 +109,8 @@ class Cache:
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def evict(self) -> None:
-        """Remove the least recently used values if the folder is too large; once per build, because the folder is
-        listed."""
+        """Remove the least recently used values if the folder is too large. A build calls this once, because listing
+        the folder takes time."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit
@@ -148,7 +147,8 @@ class Kept:
 
 
 def _facts(file: Path) -> tuple[int, int, Path]:
-    """Return when a file was last used, and its size; zeros if another build has just removed the file."""
+    """Return the time of last use, the size and the path of a file. The time and the size are zero if another build has
+    just removed the file."""
     try:
         facts = file.lstat()
     except OSError:

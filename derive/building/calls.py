@@ -1,4 +1,4 @@
-"""The calls of verbs that builds store for a problem: many small texts in one value, which each build replaces.
+"""Recorded calls of verbs, stored for each problem: many small texts in one value, which each build replaces.
 
 Only a build that derives the problem reads this value. The value holds the calls of the last build, and as many earlier
 calls as there is room for, so that the calls from before an edit are still there if you undo the edit.
@@ -15,7 +15,7 @@ from derive.building.cache import Cache, digest, engine_digest
 from derive.steps.memory import Memory
 
 BETWEEN = "\n\n"  # separates calls: their texts contain no empty line
-ROOM = 2 * 1024 * 1024  # the most characters of calls that the last build did not use
+ROOM = 2 * 1024 * 1024  # the most characters of stored calls that the last build did not use
 
 
 @dataclass

@@ -11,7 +11,7 @@ from typing import Any
 
 ADDED, REMOVED, CHANGED = "added", "removed", "changed"
 EQUAL = "equal"
-_ALIKE = 0.4  # two sentences with this share of equal words are one edited sentence
+_ALIKE = 0.4  # two sentences with at least this share of equal words are one edited sentence
 _NO_PART: Mapping[str, Any] = {"answers": [], "ask": "", "says": [], "points": None, "extra": False}
 
 Run = tuple[str, str]
@@ -24,11 +24,11 @@ class Change:
 
     of       the sort: problem (of a set), given, points, asked, part, answer, step, order, sentence, drawing,
              number, reference, warning
-    where    which one: a key, the label of a part, a place on the page
+    where    the place of the difference: a key, the label of a part, a place on the page
     before   the old text; empty if there was none
     after    the new text; empty if the text was removed
     words    for a sentence: its words in runs that are equal, removed or added
-    facets   for a step: each facet that differs, with its old and its new text
+    facets   for a step: each property that differs, with its old and its new text
     """
 
     of: str
@@ -68,7 +68,7 @@ def _table(of: str, before: Mapping[str, str], after: Mapping[str, str], only_ch
     return [each for each in found if each.before != each.after and (not only_changed or each.how == CHANGED)]
 
 
-# --- the texts by which each sort is compared ---
+# --- the texts that are compared, for each sort of difference ---
 
 
 def _given(page: Mapping[str, Any]) -> dict[str, str]:
@@ -113,7 +113,7 @@ def _reference(page: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[Change]:
-    """Return the warnings that are gone and those that are new, wherever they appear."""
+    """Return the new and the removed warnings; a warning that has only moved is not a difference."""
     old, new = ({(w["code"], w["message"]): None for w in page["warnings"]} for page in (before, after))
     yield from (Change("warning", code, "", message) for code, message in new if (code, message) not in old)
     yield from (Change("warning", code, message, "") for code, message in old if (code, message) not in new)
@@ -123,8 +123,8 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
-    """Pair each part with its earlier form by the answers that it asks for: its letter changes if a part is added
-    before it."""
+    """Pair each part with its earlier form by its answers, its question and its letter. The letter alone is not enough,
+    because letters change if a part is added before them."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
     )
@@ -196,7 +196,7 @@ def _result(step: Mapping[str, Any]) -> str:
 
 
 def _facets(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
-    """Return the facets in which two versions of a step differ, each with its old and its new text."""
+    """Return the properties in which two versions of a step differ, each with its old and its new text."""
     if _left_side(old) != _left_side(new):
         yield "name", _left_side(old), _left_side(new)
     if _result(old) != _result(new):
@@ -258,7 +258,8 @@ def _plain(text: str) -> Blocks:
 
 @dataclass(frozen=True)
 class _Sentence:
-    """The words of a sentence, and the keys for comparison: the key of an equation replaces its number."""
+    """The words of a sentence, and the same words for comparison, with the keys of equations in place of their
+    numbers."""
 
     words: tuple[str, ...]
     keys: tuple[str, ...]
@@ -279,7 +280,7 @@ def _sentence_of(block: Mapping[str, Any]) -> _Sentence:
 
 
 def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> Iterator[Change]:
-    """Return the paragraphs that have changed, each with its earlier form."""
+    """Return the sentences that are new, removed or changed; a changed sentence has its earlier form."""
     matcher = SequenceMatcher(None, [each.keys for each in old], [each.keys for each in new], autojunk=False)
     for how, a, b, c, d in matcher.get_opcodes():
         if how == EQUAL:

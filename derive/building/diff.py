@@ -1,4 +1,5 @@
-"""A problem now, compared with its last build or with a revision of git: only this problem is derived."""
+"""The present state of a problem, compared with its last build or with a revision of git; only this problem is
+derived."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ Page = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Diff:
-    """The changes, the earlier state that is compared, and warnings about the comparison itself."""
+    """The changes, the name of the earlier state, and warnings about the comparison itself."""
 
     since: str
     changes: tuple[Change, ...]
@@ -38,9 +39,9 @@ def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -
     path_of(root, problem_id)
     before = built_page(root, problem_id)
     if detail and detail != before["detail"]:
-        message = f"the last build of `{problem_id}` shows its steps in detail `{before['detail']}`, not `{detail}`"
+        message = f"the last build of `{problem_id}` has the detail `{before['detail']}`, not `{detail}`"
         raise Misused(
-            Complaint("other-detail", message, help=f"`derive build {problem_id} --detail {detail}` makes one")
+            Complaint("other-detail", message, help=f"`derive build {problem_id} --detail {detail}` builds that detail")
         )
     after = done(_job(root, root, problem_id, before["detail"], limit))
     recorded = Manifest.read(set_folder(root, problem_id.partition("/")[0])).engine
@@ -49,7 +50,7 @@ def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -
 
 
 def since_revision(root: Path, problem_id: str, revision: str, detail: str | None, limit: float) -> Diff:
-    """Return what has changed since a revision, which is derived with the installed derive."""
+    """Return the changes since a revision; the installed derive derives the problem of the revision too."""
     path_of(root, problem_id)
     with course_at(root, revision, problem_id.partition("/")[0]) as old_root:
         if problem_id not in problem_paths(old_root):
@@ -65,7 +66,7 @@ def built_page(root: Path, problem_id: str) -> Page:
     """Return the page that the last build wrote."""
     set_id, _, name = problem_id.partition("/")
     file = set_folder(root, set_id) / f"{name}.json"
-    fix = f"`derive build {problem_id}` builds it; `--rev HEAD` compares with what git has"
+    fix = f"`derive build {problem_id}` builds it; `--rev HEAD` compares with the last commit"
     try:
         page = json.loads(file.read_text(encoding="utf-8"))
     except FileNotFoundError:
@@ -75,7 +76,7 @@ def built_page(root: Path, problem_id: str) -> Page:
         message = f"`{shown_path(file)}` is not a file that a build wrote"
         raise Misused(Complaint("not-built", message, help=fix)) from None
     if not isinstance(page, dict) or any(key not in page for key in _SAYS):
-        message = f"`{shown_path(file)}` was written by an earlier derive, which kept no sentences"
+        message = f"`{shown_path(file)}` was written by an earlier version of derive, which stored no sentences"
         raise Misused(Complaint("not-built", message, help=fix))
     return page
 
@@ -97,7 +98,7 @@ def _page(root: Path, of: Path, problem_id: str, detail: str | None) -> Page:
 def _derived_at(
     revision: str, root: Path, old_root: Path, job: Callable[[], Job]
 ) -> tuple[Page, tuple[Complaint, ...]]:
-    """Return the page at a revision; if its templates lack phrases that the steps need, use the present templates."""
+    """Return the page at a revision; if this fails with the templates of the revision, use the present templates."""
     try:
         return done(job()), ()
     except (DeriveError, Bug) as error:
@@ -110,12 +111,12 @@ def _derived_at(
         page = done(job())
     except (DeriveError, Bug) as error:
         raise _at(revision, error) from None
-    message = f"the templates of `{revision}` do not fit this derive, so today's templates were used"
+    message = f"the templates of `{revision}` do not fit the installed derive, so the present templates were used"
     return page, (Complaint("other-templates", message, severity="warning"),)
 
 
 def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
-    """Return the same error with a note that names the revision in whose files it occurred."""
+    """Return the same error with a note that names the revision of the files."""
     if isinstance(error, Bug):
         return error
     note = f"this is the state at `{revision}`, derived with the present derive"
@@ -123,5 +124,5 @@ def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
 
 
 def _other_engine() -> Complaint:
-    message = "derive itself has changed since the last build: some of the changes may come from that"
+    message = "derive itself has changed since the last build: this may have caused some of the changes"
     return Complaint("other-engine", message, severity="warning")

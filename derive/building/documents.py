@@ -1,7 +1,7 @@
 """The documents of a set: those listed in the set's file, and those requested with `--only`.
 
 A document that was requested once is made again by each later build of the whole set, so that it is never older than
-the problems. To stop this, remove its PDF.
+the problems. If you remove the PDF of the document, later builds do not make the document again.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def with_asked(documents: Documents, asked: Collection[str]) -> list[list[str]]:
-    """Return these documents and the requested ones."""
+    """Return these documents and the documents that were requested in addition."""
     named = [kind for kind, _ in documents]
     return [*map(list, documents), *([kind, kind] for kind in asked if kind not in named)]
 

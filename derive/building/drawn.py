@@ -1,4 +1,4 @@
-"""The drawings of a page as files, drawn again only if something in them has changed.
+"""The drawings of a page as files; a drawing is made again only if something that it shows has changed.
 
 The bytes of a drawing depend on its description, the known properties of its letters, its size, its words,
 derive's modules and matplotlib.
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
-WIDE, LOW = 7.0, 0.35  # a drawing lower than this share of its width may be wider
+WIDE, LOW = 7.0, 0.35  # a drawing whose height is below the share LOW of its width is made wider
 
 
 def drawing_files(
@@ -80,7 +80,7 @@ def _files(
     if not zero:
         try:
             sheet = _drawn(drawing, known, notation, words, width, alt, partial(_letters, cache))
-        except Rejected as error:  # a mark has no place in the file
+        except Rejected as error:  # the error of a mark has no place in the file
             place = placement.place if placement else problem.place_of("solve")
             raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
         pdf, svg = sheet.pdf, sheet.svg
@@ -134,7 +134,8 @@ def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
-    """Return a number for each letter in a drawing: from the drawing's entry, from the problem, or a stand-in."""
+    """Return a number for each letter in a drawing: from the drawing's entry, from the problem, or a substitute
+    number."""
     said = dict(placement.values) if placement else {}
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}

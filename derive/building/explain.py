@@ -28,7 +28,8 @@ Rows = list[tuple[str, ...]]
 
 
 def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
-    """Return the explanation of the step with that key, or of all steps: a table with one row for each, or JSON."""
+    """Return the explanation of the step with that key; without a key, a table with a row for each step. `as_json`
+    gives JSON instead."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
@@ -45,7 +46,8 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Return the keys of all steps, or of one: with that key, replacing that key, or the first step of that verb."""
+    """Return the keys of all steps, or the key of one step: of the step with that key, of the step that replaces it, or
+    of the first step that the verb of that name made."""
     if key is None:
         return steps
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}

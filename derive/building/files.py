@@ -1,7 +1,7 @@
 """Files that derive writes: each is written completely or not at all, and only when its content has changed.
 
-A file gets its name by one rename, so a reader, a second build and a kill at any instant find the old content or the
-new content. If the disk refuses, the user sees one error.
+A finished file gets its name by one rename, so a reader or a second build always finds either the old or the new
+content, even if a build is killed. If the disk refuses to write, the user sees one error.
 """
 
 from __future__ import annotations
@@ -43,10 +43,10 @@ _SHORT = {
 
 
 def shown_path(path: Path) -> str:
-    """Return a path relative to the user's folder if it is below that folder, else the path unchanged."""
+    """Return a path relative to the working folder if it is below that folder, else the path unchanged."""
     try:
         relative = os.path.relpath(path)
-    except FileNotFoundError:  # the user's folder is gone
+    except FileNotFoundError:  # the working folder does not exist any more
         return str(path)
     return str(path) if relative.startswith("..") else relative
 
@@ -104,7 +104,7 @@ def _unfinished(path: Path) -> tuple[int, str]:
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=UNFINISHED, dir=path.parent)
         if is_held(handle, Path(name)):
             return handle, name
-        os.close(handle)  # another build removed it before it was locked
+        os.close(handle)  # another build removed the file before it was locked
 
 
 def is_held(handle: int, path: Path) -> bool:

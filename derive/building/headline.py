@@ -19,14 +19,14 @@ _OF_POINTS = ("points", "extra", "rubric")
 def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     """Return a problem's points and title; a step that the title mentions is named by its key.
 
-    If the file is at that path and has both keys, only the two keys are read. The rest of the file is read, and the
-    modules for mathematics are loaded, only if the title mentions a step or the file has an error.
+    If the title mentions nothing and the file has no error, only the title and the points are read. Otherwise the whole
+    file is read, and the modules for mathematics are loaded if they are needed.
     """
     return _at_a_glance(root, path or path_of(root, problem_id)) or _in_full(root, problem_id)
 
 
 def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
-    """Return a title without mentions, and the points; None if the title has mentions or anything is wrong."""
+    """Return the points and a title without mentions; None if the title mentions something or the file has an error."""
     faults = Faults()
     try:
         node = mapping_in(root, path, "a problem", quickly=True)

@@ -15,7 +15,7 @@ from derive.errors import BuildFailed, Complaint
 
 @contextmanager
 def locked(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
-    """Hold the lock of a set's folder; workers do not inherit the lock, and it is released when its process ends."""
+    """Lock a set's folder; workers do not inherit the lock, and the system releases the lock when this process ends."""
     path = outputs / ".lock"
     with writing(path):  # do not follow a link, and do not wait for a pipe
         lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)

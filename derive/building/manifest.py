@@ -1,7 +1,7 @@
 """The record of the inputs of each output of a set; the record decides which outputs must be made again.
 
-A problem is current while the content of every file it was derived from, the engine and the options are unchanged; an
-output is current while its own content is unchanged. Only content is compared, never times.
+A problem is up to date if its input files, the modules of derive and the options are unchanged. An output is up to date
+if its own content is unchanged too. Only content is compared, never times.
 """
 
 from __future__ import annotations
@@ -31,17 +31,17 @@ class Manifest:
     folder: Path
     problems: list[str] = field(default_factory=list)
     complete: bool = False  # whether the last build ended without an error
-    engine: str = ""  # digest of the modules that derived its problems
+    engine: str = ""  # digest of the modules that derived the problems
     set_inputs: dict[str, str] = field(default_factory=dict)
     inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> digests of its input files
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all inputs of its page
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
     documents: list[list[str]] = field(default_factory=list)  # each document with the name of its files
-    asked: list[str] = field(default_factory=list)  # documents that only `--only` requested
-    evidence: str = ""  # how much solutions show of their checks, as the file of the set says
+    asked: list[str] = field(default_factory=list)  # documents that `--only` requested and the set does not list
+    evidence: str = ""  # how much solutions show of their checks, by the set's file
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
-    typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its files
+    typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its input files
     typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe
     recipes: dict[str, dict[str, str]] = field(default_factory=dict)  # digest -> its ingredients
 
@@ -72,7 +72,7 @@ class Manifest:
             table.pop(name, None)
 
     def replace_documents(self, documents: list[list[str]]) -> None:
-        """Set the documents of the set, and remove the files of those that it no longer has."""
+        """Replace the list of the set's documents, and remove the files of documents that are no longer in it."""
         files = {file for _, file in documents}
         for kind, file in self.documents:
             if [kind, file] not in documents and file not in files:
@@ -80,7 +80,8 @@ class Manifest:
         self.documents = documents
 
     def page_key(self, problem: str, recipe: str, read: Callable[[str], str]) -> str:
-        """Return the key of a problem's page: a digest of the recipe and of each input, as `read` gives it."""
+        """Return the key of a problem's page: a digest of the recipe and of the digests of the inputs, which `read`
+        returns."""
         inputs = self.inputs.get(problem, {})
         return digest("page", problem, recipe, *(part for path in inputs for part in (path, read(path))))
 
@@ -94,7 +95,7 @@ class Manifest:
         return self.pages[problem]
 
     def was_typeset(self, name: str, recipe: Recipe, engine: str) -> None:
-        """Record the inputs of the document of a problem or of the whole set: its recipe and its files."""
+        """Record the recipe and the input files of the document of a problem, or of a document of the whole set."""
         recipe = of_documents(recipe, engine)
         self.typeset_by[name] = recipe_digest(recipe)
         self.recipes[self.typeset_by[name]] = recipe
@@ -122,7 +123,7 @@ class Manifest:
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
         """Return whether a document exists but some file, phrase or module that it was made from has changed since.
 
-        The options of the document are not compared.
+        Options of the command line are not compared.
         """
         before = self.recipes.get(self.typeset_by.get(document, ""), {})
         was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
@@ -134,7 +135,7 @@ class Manifest:
         return [*(file for _, file in self.documents), INDEX]
 
     def all_outputs(self) -> list[str]:
-        """Return the outputs of every problem, of every document, and of the set for a browser."""
+        """Return the outputs of every problem and of every document, and the page of the set for a browser."""
         of_set = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
         return [*self._outputs_of_problems(), *of_set, f"{INDEX}.html"]
 
@@ -142,7 +143,8 @@ class Manifest:
         return [output for name in self.problems for output in self.outputs_of(name)]
 
     def outputs_of(self, name: str) -> list[str]:
-        """Return all outputs of a problem, including its drawings, or of the set's document of that file name."""
+        """Return all outputs of a problem, including its drawings, or all outputs of the document with that file
+        name."""
         if name == INDEX:
             return [f"{INDEX}.html"]
         if kind := next((kind for kind, file in self.documents if file == name), None):

@@ -20,8 +20,8 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class _Answer:
-    """An answer in the form that a part asks for: the value to be evaluated, the known numbers, whether a number was
-    found."""
+    """An answer in the form that a part asks for: the value to be evaluated, the known numbers, and whether a number
+    was found."""
 
     key: str
     asked: Word
@@ -54,7 +54,8 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place where a form asks for a number; `figures` alone ask for one only if a letter has a number."""
+        """The place where a form asks for a number; `figures` without a unit ask for a number only if a letter of the
+        answer has a number."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place
@@ -64,8 +65,8 @@ class _Answer:
 def faults_of_numbers(
     problem: Problem, derivation: Derivation, values: Mapping[str, Step], drawings: Iterable[Recorded]
 ) -> list[Complaint]:
-    """Return errors for forms that ask for a number that does not exist, and warnings for answers that lack a number
-    although numbers are given that only they use, and for numbers that the sheet does not state.
+    """Return errors and warnings. An error: a form asks for a number that does not exist. Warnings: an answer has no
+    number although a given number serves only this answer; the sheet does not state a number.
 
     values     the numbers of answers, by key
     drawings   the drawings of the problem: a plot needs numbers too
@@ -73,7 +74,7 @@ def faults_of_numbers(
     if not problem.every_amount:
         return []
     answers = list(_answers(problem, derivation, values))
-    served = [answer.part for answer in answers if answer.has_number]  # their forms may be meant for these answers
+    served = [answer.part for answer in answers if answer.has_number]  # parts whose forms may be for these answers
     wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
     said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}
     return [
@@ -98,7 +99,8 @@ def _answers(problem: Problem, derivation: Derivation, values: Mapping[str, Step
 
 
 def _taking_a_number(result: Any) -> Any | None:
-    """Return what is evaluated numerically: for a condition R > a/2 its right side, for other conditions nothing."""
+    """Return the expression that is evaluated numerically: the result or, for a condition such as R > a/2, its right
+    side. Return None for other conditions."""
     if isinstance(result, Relation):
         solved = isinstance(result.left, Symbol) and not result.right.has(result.left)
         result = result.right if solved else None
@@ -110,8 +112,8 @@ def _plotted(drawings: Iterable[Recorded]) -> set[Symbol]:
 
 
 def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of answers without a number, in case a letter was forgotten; an answer in coordinates or named values needs
-    none."""
+    """Warn of answers without a number, because the author may have forgotten the number of a letter. There is no
+    warning if the answer contains coordinates or other letters that the problem does not declare."""
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
     used = plotted.union(*(answer.letters for answer in answers if answer.has_number))
     found: dict[str, list[_Answer]] = {}
@@ -128,7 +130,7 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
 
 
 def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of letters whose numbers the answers need, but which neither the statement nor a question mentions."""
+    """Warn of letters whose numbers the answers need, but which no title, statement or question mentions."""
     texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
     mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
     told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}

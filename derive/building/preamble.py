@@ -1,9 +1,10 @@
 """The common beginning of all documents of a set as a TeX format, so that TeX reads classes and packages only once.
 
 A line of the template marks where documents begin to differ; the lines above it depend on nothing but the level of
-`detail`. TeX loads them and dumps a format, which is stored in the cache of the builds. The format is not compressed,
-because TeX then reads it in half the time. The source then has these lines as comments, so that its line numbers do not
-change. Without such a line, or if TeX cannot dump a format, a document is typeset unchanged.
+`detail`. TeX loads these lines and dumps a format, which is stored in the cache of the builds. The format is not
+compressed, because TeX then reads it in half the time. In the source of a document, these lines become comments, so
+that its line numbers do not change. If the template has no such mark, or if TeX cannot dump a format, a document is
+typeset without a format.
 
 Source: *The TeXbook*, ch. 27 (formats), and the package mylatexformat.
 """
@@ -36,7 +37,7 @@ Environment = Mapping[str, str]
 
 def beginning(templates: Path, detail: str | None) -> str:
     """Return the common beginning of all documents of that level, before any document exists; empty if the template
-    needs more."""
+    needs other data for it."""
     from derive.render.printing.templates import filled_above
     from derive.steps.level import Level
 
@@ -66,7 +67,7 @@ def without_preamble(
         made = cache.get(key)
         if made is None:
             made = _dumped(above, [engine, "-ini", *options], environment, place)
-            if made != CANNOT or shutil.disk_usage(place).free > ROOM:  # otherwise the disk may have been full
+            if made != CANNOT or shutil.disk_usage(place).free > ROOM:  # a failure on a full disk is not stored
                 cache.keep(key, made)
         if made == CANNOT:
             return None
@@ -74,7 +75,7 @@ def without_preamble(
         os.replace(own, file)
     try:
         os.link(file, own)
-    except OSError:  # not all disks have links
+    except OSError:  # not all disks support links
         shutil.copyfile(file, own)
     return "".join(f"%{line}" for line in above.splitlines(keepends=True)) + differs + below
 

@@ -80,8 +80,8 @@ def printed(
 ) -> Rendered:
     """Return the page of a derived problem; raise `Rejected` with every error found on it.
 
-    cache      keeps the files of its drawings
-    failures   the disagreements with the reference, which are reported with its warnings
+    cache      stores the files of the drawings
+    failures   the disagreements with the reference, which are reported with the warnings of the page
     """
     return _Printing(problem, solved, wanted, cache, failures).rendered()
 
@@ -97,7 +97,7 @@ class _Printing:
 
     def rendered(self) -> Rendered:
         problem, solved, document, notation = self.problem, self.solved, self.document, self.notation
-        warnings, files, documents = self._warnings(), self.files, self._documents()  # errors of the author first
+        warnings, files, documents = self._warnings(), self.files, self._documents()  # author's errors come first
         latex, html = self._latex(), self._html()
         return Rendered(
             id=problem.id,
@@ -149,7 +149,8 @@ class _Printing:
         return self.document if self.level is Level.FULL else self._page(Level.FULL, self.document)
 
     def _page(self, level: Level, like: Document | None = None) -> Document:
-        """Return the page of a level, with the equation numbers of `like`; raise `Rejected` with its errors."""
+        """Return the page of a level, with the equation numbers of `like`; raise `Rejected` with the errors of the
+        page."""
         solved, others = self.solved, self.heading.numbers if self.heading else {}
         document, faults = document_of(
             self.problem,
@@ -236,12 +237,12 @@ class _Printing:
 
 @lru_cache(maxsize=4)
 def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
-    """Return the notation, which remembers every expression that it has laid out."""
+    """Return the notation; it caches the layout of every expression."""
     return Notation(dict(dimensions), flat=flat)
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:
-    """Return the errata of the source and the remarks on it, in the order of its lines."""
+    """Return the errata of the source and the remarks on the source, in the order of the source's lines."""
     if not any(told.erratum or told.remark for told in compared):
         return ()
     from derive.render.notation.from_latex import in_plain_text  # needed by few problems

@@ -27,7 +27,8 @@ def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
-    """Return the recipe of a document of the set: it includes the engine, but not which other documents were chosen."""
+    """Return the recipe of a document of the set. The recipe includes the TeX engine, but not the choice of other
+    documents."""
     return {**recipe, ONLY: "", ENGINE: engine}
 
 

@@ -56,7 +56,8 @@ def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> li
 
 
 def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[bytes]:
-    """Yield the content of each object, in the order of `names`; git prints its size at the end of a line before it."""
+    """Yield the content of each object, in the order of `names`. Before each content, git prints a line that ends with
+    the size of the content."""
     found = _git(root, "cat-file", "--batch", told=b"".join(name + b"\n" for name in names))
     said = BytesIO(found.stdout)
     for name in names:

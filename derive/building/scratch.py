@@ -45,9 +45,9 @@ class Scratch:
         self.cleanup()
 
 
-@cache  # once in a process, however often it builds
+@cache  # once per process, even if it builds often
 def sweep(*folders: Path) -> None:
-    """Remove unfinished files in these folders, and the scratch folders of this user, if no process holds them."""
+    """Remove unfinished files in these folders, and the scratch folders of this user, if no process has locked them."""
     for folder in folders:
         with suppress(OSError), os.scandir(folder) as entries:
             for entry in entries:

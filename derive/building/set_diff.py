@@ -1,4 +1,5 @@
-"""A set now, compared with its last build or with a revision of git: its problems, their points, and each problem."""
+"""The present state of a set, compared with its last build or with a revision of git: its problems, their points, and
+each problem."""
 
 from __future__ import annotations
 
@@ -39,7 +40,7 @@ def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -
     built = [f"{set_id}/{name}" for name in Manifest.read(folder).problems]
     if not built:
         message = f"`{set_id}` has not been built, so there is nothing to compare with"
-        help_line = f"`derive build {set_id}` builds it; `--rev HEAD` compares with what git has"
+        help_line = f"`derive build {set_id}` builds it; `--rev HEAD` compares with the last commit"
         raise Misused(Complaint("not-built", message, help=help_line))
     pages = {name: built_page(root, name)["points"] for name in built}
     before = {name: None if points is None else Fraction(str(points)) for name, points in pages.items()}
@@ -48,7 +49,7 @@ def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -
 
 
 def set_since_revision(root: Path, set_id: str, revision: str, detail: str | None, limit: float) -> SetDiff:
-    """Return what has changed since a revision, which is derived with the installed derive."""
+    """Return the changes since a revision; the installed derive derives the problems of the revision too."""
     after = _written(root, set_id)
     with course_at(root, revision, set_id) as old_root:
         before = _written(old_root, set_id)

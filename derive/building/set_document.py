@@ -64,7 +64,7 @@ def problem_document(root: Path, problem: Rendered, heading: ProblemSet) -> str:
 
 
 def set_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """Return a complete .tex of the set: cover block and its problems in order."""
+    """Return a complete .tex of the set: the cover block and the problems in order."""
     return _document(root, "set.tex.j2", heading, _listed(problems))
 
 
@@ -79,7 +79,7 @@ def document_on_request(root: Path, heading: ProblemSet, problems: Sequence[Rend
 
 
 def document_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], kind: str) -> str:
-    """Return one of these documents, or the sheet, as one page for a browser."""
+    """Return a document that is made only on request, or the sheet, as one page for a browser."""
     label = phrases(template_folder(root)).labels["documents"][kind]
     listed = _listed(problems, kind)
     bodies = told_once([(each.name, each.number, each.problem.documents.get(f"{kind}.html", "")) for each in listed])
@@ -143,7 +143,7 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
 
 
 def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[str, Any]:
-    """Return what a template of a whole document may use."""
+    """Return the data that the template of a whole document may use."""
     words: Phrases = phrases(template_folder(root))
     return {
         "set_id": Tex(heading.id),
@@ -160,7 +160,8 @@ def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[
 
 
 def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[str, int]]]:
-    """Return the table of how the set was checked: a line for each problem, and their sums."""
+    """Return the table of how the set was checked: a line for each problem and, if there are several, a line of
+    sums."""
     rows = [(f"{words.labels['problem']} {listed.number}", listed.problem.counts) for listed in problems]
     sums = {name: sum(counts[name] for _, counts in rows) for name in COUNTED}
     return [*rows, (words.labels["report_page"]["all"], sums)] if len(rows) > 1 else rows

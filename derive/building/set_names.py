@@ -8,7 +8,7 @@ from pathlib import Path
 from derive.course.names import NAME
 from derive.errors import Complaint, Misused
 
-# Names of sets that the Makefile already uses for other targets or folders.
+# Names that a set cannot have, because the Makefile uses them for other targets or folders.
 TARGETS = frozenset(
     [
         "all",

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
 
 CACHE = ".derived"  # the folder in which a set stores data between builds
-FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs, before and after the derivations
+FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs that begin before or after all derivations
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Options:
     engine: str | None = None
     detail: str | None = None
     force: bool = False
-    jobs: int = 0  # 0: as many as there are processors
+    jobs: int = 0  # jobs at once; 0: as many as there are processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems to build; empty: all problems of the set
     documents: tuple[str, ...] = ()  # documents to make; empty: those that the set lists
@@ -103,8 +103,8 @@ def built_set(
     edits: Edits | None = None,
     ended: Callable[[Ended], None] = lambda _: None,
 ) -> Report:
-    """Build one set. `tell` shows the user the work under way, and `ended` is called for each finished piece of work;
-    with `edits` it may raise `Superseded`."""
+    """Build one set. `tell` shows the user the work under way, and `ended` is called for each finished piece of work.
+    With `edits` the build may raise `Superseded`."""
     engine = chosen_engine(options.engine)
     check_asked(root, set_id, options.only)
     outputs = folder(set_folder(root, set_id))
@@ -208,7 +208,7 @@ class _Build:
                 self._pages({name: key for name, key in keys.items() if name not in edited})
                 self._whole()
                 self._finish()
-                if self.whole_failed and not self.result.failed:  # otherwise a problem's document reported it
+                if self.whole_failed and not self.result.failed:  # otherwise another error is already reported
                     self._took(self.whole_failed)
                 if not self.result.failed:
                     self.manifest.engine = engine_digest(*PACKAGES)
@@ -219,7 +219,7 @@ class _Build:
                 self.cache.evict()
 
     def _kinds_of_each_problem(self) -> str:
-        """Return the documents that each problem contributes to in addition to the solutions."""
+        """Return the documents, other than the solutions, to which each problem contributes a part."""
         return ",".join(sorted(kind for kind, _ in self.documents if kind in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:
@@ -325,7 +325,8 @@ class _Build:
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _recipe(self) -> Recipe:
-        """Return the recipe of pages; mark it if a module or a template has been edited since the build began."""
+        """Return the recipe of pages; mark the recipe as edited if a module or a template was edited since the build
+        began."""
         if edited_since(self.root, self.started):
             self.made_by[MODULES] = EDITED
         return self.made_by
@@ -337,7 +338,7 @@ class _Build:
         """Return the digest of a file, or `EDITED` after an edit since the build began: the next build must read that
         file again."""
         file = self.root / path
-        is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # a file that is moved here may be old
+        is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # a moved file may have an old mtime
         return EDITED if is_edited else self._digest(path)
 
     def _document(self, name: str) -> None:
@@ -361,7 +362,7 @@ class _Build:
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
         for kind, file in self._wanted():
-            numbers = Kept(self.cache, digest("numbers", kind, self.engine.identity))  # then one run is enough
+            numbers = Kept(self.cache, digest("numbers", kind, self.engine.identity))  # with these, one run is enough
             document = partial(the_document(kind), self.root, self.heading, parts)
             of_set = partial(document_page, self.root, self.heading, parts, kind)
             page = self._page(file, of_set) if kind in ON_A_PAGE else {}
@@ -419,7 +420,7 @@ class _Build:
             return
         if outcome.value:
             self._changed(pdf)
-        with suppress(OSError):  # another process may have just removed it
+        with suppress(OSError):  # another process may have just removed the PDF
             self.cache.keep(source, regular_content(self.outputs / pdf))
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
         if self._record(texts):
@@ -434,7 +435,7 @@ class _Build:
             self.edits.wrote(self.outputs / output)
 
     def _record(self, contents: Mapping[str, str | bytes]) -> bool:
-        """Write outputs of a problem, and return whether the disk accepted them."""
+        """Write outputs, and return whether all were written; if not, add the error to the report."""
         try:
             for name, content in contents.items():
                 if write(self.outputs / name, content):

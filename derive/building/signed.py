@@ -1,8 +1,8 @@
 """Data stored between builds, signed with a key of this machine: only data that derive itself wrote are trusted.
 
-Everything stored is read as data. The key is in the user's state folder, outside every course: a person who can only
-write in the `build` folder of a course cannot sign. If no key can be stored, each process has a key of its own. Then
-nothing that another process stored is trusted, and everything is derived.
+Stored content is only read as data, never executed. The key is in the user's state folder, outside every course: a
+person who can only write in the `build` folder of a course cannot sign. If no key can be stored, each process has a key
+of its own. In this case, no process trusts what another process stored, and everything is derived again.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def _make_key(file: Path) -> None:
     """Write a new key, completely or not at all; if another process has already written one, that key stays."""
     with suppress(OSError):  # no key can be stored, or another process was first
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if os.path.lexists(file):  # damaged or readable by others: whatever this key signed is derived again
+        if os.path.lexists(file):  # damaged or readable by others: what it signed is derived again
             file.unlink()
         with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # only for its owner
             temporary.write(secrets.token_bytes(KEY_BYTES))

@@ -67,7 +67,7 @@ def rendered(
     begun = time.time_ns()
     problem = load_problem(root, problem_id)
     _check_characters(problem)
-    phrases(template_folder(root))  # raises their errors before anything is derived
+    phrases(template_folder(root))  # raises errors in the phrases before anything is derived
     solved, failures = _solved(problem, cache, begun)
     page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents), cache, failures)
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
@@ -76,7 +76,8 @@ def rendered(
 def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[Complaint, ...]]:
     """Return the steps, stored or derived now, and the disagreements with the reference.
 
-    Steps are stored under a digest of the problem's files, unless a file was edited after it was read.
+    Steps are stored under a digest of the problem's files, unless they disagree with the reference or a file was edited
+    after it was read.
     """
     key = steps_key(problem)
     with suppress(KeyError):
@@ -98,7 +99,7 @@ def _edited(problem: Problem, begun: int) -> bool:
     return any(file.exists() and file.stat().st_ctime_ns > begun for file in files)
 
 
-@lru_cache(maxsize=4)  # for a process that needs them more than once
+@lru_cache(maxsize=4)  # for a process that needs the steps more than once
 def _kept(cache: Cache, key: str) -> Solved:
     """Return the steps stored under a key."""
     kept = Solved.from_data(cache.get_data(key))
@@ -159,7 +160,7 @@ def derived(
 
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
-    """Return whether another answer is the same comparison with numbers, because printing it once is enough."""
+    """Return whether another answer has the same comparison of numbers; a page prints a comparison only once."""
     return step.rule == COMPARISON.name and step.chain in [other.chain for other in others]
 
 
@@ -181,7 +182,7 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
 
 
 def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension) -> tuple[str, Expr]:
-    """Return degrees for an angle if an angle is given in degrees; else the coherent unit of the SI."""
+    """Return degrees for an angle if a given angle is in degrees; else the coherent SI unit."""
     given = next((m for m in problem.measured if kind == "angle" and m.unit in IN_DEGREES), None)
     if given is not None:
         return given.unit, given.factor
@@ -205,7 +206,7 @@ def _value(
     numbers = problem.amounts if amounts is None else amounts
     form = part.form_of(asked)
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
-        # An inequality may be solved for a letter once other values are given: only then is its unit used.
+        # An inequality can be solved for a letter only after other values are given; the unit is used only then.
         never = answer.value.operator == "=" and answer.coordinates
         if form.units and never and (asked in part.forms or len(part.answers) == 1):
             message = f"`{answer.key}` is an equation between quantities that vary, so it has no number with a unit"
@@ -221,7 +222,7 @@ def _value(
         units.append((unit, read.factor))
     first, *more = units or [_usual_unit(problem, kind, dimension)]
     figures = form.figures or problem.figures
-    # A condition on letters that all have numbers is compared, unless a number of its bound is asked for.
+    # If all letters of a condition have numbers, its sides are compared, unless the part asks for its bound in a unit.
     compared = None if units else comparison_of(answer, numbers, key)
     if not numbers and not units and not form.figures and is_plain(answer):
         return None

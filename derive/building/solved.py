@@ -24,8 +24,8 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Solved:
-    """A problem's steps, the steps that evaluate its answers numerically, the results of its reference, its
-    drawings."""
+    """A problem's steps, the steps that evaluate its answers numerically, the results of the comparison with its
+    reference, and its drawings."""
 
     derivation: Derivation
     values: Mapping[str, Step]
@@ -33,7 +33,8 @@ class Solved:
     drawings: tuple[Recorded, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
-        """Return data of JSON; raise ValueError or RecursionError if JSON cannot hold its numbers or expressions."""
+        """Return data of JSON; raise ValueError or RecursionError if JSON cannot represent the numbers or
+        expressions."""
         return {
             "derivation": to_json(self.derivation),
             "answers": list(self.values),

@@ -39,8 +39,8 @@ class Asked:
 
 @dataclass(frozen=True)
 class Staleness:
-    """The reasons why outputs would be made again, in words, and the commands that make them; empty if they are up to
-    date."""
+    """The reasons why outputs would be made again, in words, and the commands that make the outputs; both are empty if
+    the outputs are up to date."""
 
     of: str
     reasons: tuple[str, ...]
@@ -90,11 +90,12 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
 
 
 def _below_build(root: Path, what: str) -> tuple[str, str, str] | None:
-    """Return set, "/" and file of a path below build/, relative to the working folder or to the root."""
+    """Return the set, "/" and the file of a path below build/. The path is relative to the working folder or to the
+    root."""
     found = [Path(os.path.relpath(os.path.normpath(base / what), root / "build")) for base in (Path.cwd(), root)]
     below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 2]
     of_a_set = [parts for parts in below if parts and parts[0] in set_names(root)]
-    if of_a_set or below:  # a folder without a set is reported as such
+    if of_a_set or below:  # the caller reports a folder without a set
         set_id, name = (*(of_a_set or below)[0], "", "")[:2]
         return set_id, "/", name
     return None
@@ -149,8 +150,8 @@ def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
 
 
 def _is_unlisted(asked: Asked, manifest: Manifest, name: str) -> bool:
-    """Return whether the set no longer lists this problem; False if its file was edited, because it is not read
-    again."""
+    """Return whether the set no longer lists this problem; False if the set's file was edited, because the edited file
+    is not read."""
     edited = any(file_digest(asked.root / path) != before for path, before in manifest.set_inputs.items())
     return not edited and name not in [*manifest.problems, *manifest.document_files, *DOCUMENTS]
 

@@ -1,8 +1,9 @@
 """From a TeX source to a PDF: the TeX engines that exist, one run of an engine, and the meaning of its errors.
 
-The default engine is part of a Python wheel, so no TeX need be installed; `--engine`, `DERIVE_ENGINE` select another.
-Shell escape is off and files are opened only in the temporary folder and in the engine's own trees. A source marks
-its pieces with comment lines `%% derive: hw9/block part b`; an error is reported at the last such mark above it.
+The default engine is part of a Python wheel, so no TeX installation is needed; `--engine` or `DERIVE_ENGINE` selects
+another engine. Shell escape is off and files are opened only in the temporary folder and in the engine's own trees. A
+source marks its pieces with comment lines `%% derive: hw9/block part b`; the message of a TeX error names the last such
+mark above the error.
 """
 
 from __future__ import annotations
@@ -127,8 +128,9 @@ def typeset(
 ) -> bool:
     """Write the PDF of `tex` to `target`; return whether its content changed. On failure `target` is unchanged.
 
-    `numbers` are the page numbers of the last build, stored for the next: if they are still right, one run is enough;
-    `included` are files that the source includes, such as its drawings; `formats` stores the beginning of documents.
+    `numbers` are the page numbers of the last build, stored for the next build: if they are still right, one run is
+    enough; `included` are files that the source includes, such as its drawings; `formats` stores the beginning of
+    documents.
     """
     kept = (log or target.parent / "log") / target.stem
     with Scratch() as name:
@@ -144,7 +146,7 @@ def typeset(
         output = _by_format(engine, source, tex, timeout, formats, unnumbered)
         if output is not None:
             output = _passes(engine, source, timeout)
-        if output is not None and begun is not None:  # perhaps the numbers were those of another document
+        if output is not None and begun is not None:  # the page numbers may belong to another document
             noted.unlink(missing_ok=True)
             output = _passes(engine, source, timeout)
         pdf = source.with_suffix(".pdf")
@@ -246,7 +248,7 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 def _environment(engine: Engine) -> dict[str, str]:
     """Return environment variables: long messages, a fixed date, and access only to the folder and the engine's
     trees."""
-    kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # another TeX's settings would mislead the wheel's
+    kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # settings of another TeX would affect the wheel's TeX
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",
         "openout_any": "p",
@@ -277,7 +279,7 @@ def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) ->
 
 
 def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, str]:
-    """Return the message, the line of our source, and what TeX had read of that line when it stopped."""
+    """Return the message, the number of the line of our source, and what TeX had read of that line when it stopped."""
     text = report if _ERROR.search(report) else output
     found = _ERROR.search(text)
     if not found:

@@ -1,8 +1,9 @@
 """Builds of sets after each edit, in one process that loads its modules only once.
 
-The modification times of all files are compared many times a second. The comparison takes a hundredth of a processor,
-needs no package and no thread (forking a process with threads is not safe), and detects edits over a network. An edit
-stops the build under way, but finished work is stored, so several files saved together count as one edit.
+The modification times of all files are compared many times a second. The comparison takes 1 % of the time of one
+processor, needs no package and no thread (forking a process with threads is not safe), and detects edits over a
+network. An edit stops the build under way, but finished work is stored. So if you save several files together, only the
+last build is completed.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from derive.errors import BuildFailed, Complaint, DeriveError
 
 __all__ = ["Shown", "watch"]
 
-EVERY, ENGINE_EVERY = 0.04, 1.0  # seconds between two comparisons of the files
+EVERY, ENGINE_EVERY = 0.04, 1.0  # seconds between two comparisons, of the author's files and of derive's modules
 WRITTEN, DEPTH = (".yaml", ".py", ".j2"), 4
 
 Seen = Mapping[str, tuple[int, int, int]]
@@ -86,7 +87,7 @@ class _Watch:
 
         try:
             if folder_digest(self.own, "*.py") != self.loaded:
-                message = "derive itself has been edited, but the derive before the edit is loaded"
+                message = "derive itself has been edited, but its modules from before the edit are loaded"
                 raise BuildFailed(Complaint("restart", message, help="stop this command and start it again"))
             edits = Edits(self._edited, wrote)
             report = built_set(self.root, set_id, options, self.shown.under_way, edits, self.shown.ended)
@@ -101,7 +102,8 @@ class _Watch:
         return seen_in(self.folders) != self.files
 
     def _check_edited(self) -> None:
-        """Discard errors of files that have changed since, such as a file that was only partly written."""
+        """Raise `Superseded` if a file has changed since, for example because it was only partly written: the errors of
+        such a file are discarded."""
         if self._edited():
             raise Superseded
 

@@ -1,9 +1,10 @@
-"""Forked workers: each job runs in a child of one warm process, with a time limit, and can be killed at any moment.
+"""Forked workers: each job runs in a child of one process with loaded modules, has a time limit, and can be killed at
+any time.
 
-The result or the error of a job is sent to the parent. A child leads a process group of its own, so that killing it
-also kills its TeX, and the child ends itself if the parent is gone. The parent has no threads, so forking is safe. The
-limits of a child, and the errors if it gives no answer, are the same for the worker of a preview. The time limit is
-that of `derive.building.time_limit`.
+The result or the error of a job is sent to the parent. A child leads a process group of its own, so that killing the
+child also kills the TeX that it runs. The child ends itself if the parent is gone. The parent has no threads, so
+forking is safe. The limits of a child, and the errors if it gives no answer, are the same for the worker of a preview.
+`derive.building.time_limit` enforces the time limit.
 """
 
 from __future__ import annotations
@@ -60,7 +61,8 @@ class Bug(Exception):
 
 @dataclass(frozen=True)
 class Job:
-    """A piece of work, with a name that the user knows; `file` is its subject, `shown_as` the file's path in messages.
+    """A piece of work, with a name that the user knows; `file` is the problem's file, `shown_as` is its path in
+    messages.
 
     Among waiting jobs, a job of the lowest `rank` begins first.
     """
@@ -74,8 +76,8 @@ class Job:
 
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
-    """Return a job for a problem; if its worker dies, the error names the problem's file; the longest files begin
-    first."""
+    """Return a job for a problem; if its worker dies, the error names the problem's file. Problems with the longest
+    files begin first."""
     from derive.course.problem_set import found_path
 
     path = found_path(root, problem_id) or f"problems/{problem_id}.yaml"
@@ -99,7 +101,7 @@ class _Worker:
     job: Job
     child: ForkProcess
     pipe: Connection
-    trace: int  # where a worker that is stopped or dies writes the lines that were running
+    trace: int  # the pipe to which a worker that is stopped or dies writes its running lines
     started: float = field(default_factory=time.monotonic)
 
     @property
@@ -112,7 +114,7 @@ class Crew:
     files."""
 
     def __init__(self, size: int, tick: Callable[[Mapping[str, float]], None] | None = None):
-        """`tick` is called again and again with the running jobs and their seconds."""
+        """`tick` is called repeatedly with the running jobs and their seconds."""
         self._size = max(1, size)
         self._tick = tick or (lambda _: None)
         self._waiting: list[tuple[float, int, Job]] = []  # a heap
@@ -173,7 +175,7 @@ class Crew:
 
 
 def under_way(running: Mapping[str, float], set_id: str = "") -> str:
-    """Return `block 2 s, pages of top 1 s`: the longest-running job first; problems of that set without its name."""
+    """Return `block 2 s, pages of top 1 s`: the longest-running job first; the name of the given set is omitted."""
     longest = sorted(running.items(), key=lambda each: -each[1])
     named = [(job.removeprefix("the ").replace(f"`{set_id}/", "`").replace("`", ""), s) for job, s in longest]
     return ", ".join(f"{name} {seconds:.0f} s" for name, seconds in named)
@@ -237,7 +239,8 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker without an answer; its place is the line of the script that was running."""
+    """Return the error about a worker without an answer; the place of the error is the line of the script that was
+    running."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what it states about {job.name}"
@@ -266,7 +269,7 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
         kept = "finished, and kept for the next attempt" if late.kept else "finished"
         notes.append(f"{kept}: {last}{before}")
     in_script = not late.doing and not late.answers
-    help_ = "look for an endless loop in its script" if in_script else "ask for less, describe it with fewer letters"
+    help_ = "look for an endless loop in its script" if in_script else "ask for fewer answers, use fewer letters"
     return _stopped(job, TIME, message, f"{help_}, or raise `--time-limit`", trace, notes)
 
 
@@ -328,7 +331,7 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
     os.close(lifeline[1])
     confine(lifeline[0], trace, limit)
     tempfile.tempdir = scratch
-    # A worker is short-lived: collecting garbage in it often costs more than the garbage.
+    # A worker is short-lived, so frequent garbage collection would cost more than it saves.
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
     # Output of a script is shown to the user at the terminal; it is not part of the answer.
@@ -377,7 +380,7 @@ def confine(lifeline: int, trace: int, limit: int) -> None:
     for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(signum, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
-    with contextlib.suppress(OSError, AttributeError):  # Linux ends it even during a long multiplication
+    with contextlib.suppress(OSError, AttributeError):  # Linux kills the process even during a long multiplication
         own = os.open(f"/proc/self/fd/{lifeline}", os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         fcntl.fcntl(own, fcntl.F_SETSIG, signal.SIGKILL)
         fcntl.fcntl(own, fcntl.F_SETOWN, -os.getpgrp())
@@ -403,8 +406,8 @@ def _limit_reached(trace: int, error: MemoryError | RecursionError) -> str:
 
 
 def _trail(error: BaseException) -> str:
-    """Return the lines through which an error propagated, innermost first, as `faulthandler` does; of many, only both
-    ends."""
+    """Return the lines through which an error propagated, innermost first, as `faulthandler` does; of a long list, only
+    the beginning and the end."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')

@@ -13,8 +13,8 @@ from derive.errors import Complaint, Misused
 
 
 def found_root(named: str | None) -> Path | None:
-    """Return the folder that contains `problems`: the named one; default: the working folder, one above it, or derive's
-    checkout."""
+    """Return the folder that contains `problems`: the named folder or DERIVE_ROOT; by default the working folder, a
+    folder above it, or the checkout of derive."""
     asked = named or os.environ.get("DERIVE_ROOT")
     try:
         here = Path.cwd()

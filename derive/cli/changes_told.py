@@ -15,7 +15,7 @@ from derive.building.set_diff import SetDiff
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 
-# Each sort with its heading, its singular and its plural.
+# Each sort of change with its heading, its singular and its plural.
 _SORTS = {
     "given": ("given", "given value", "given values"),
     "problem": ("problems", "problem", "problems"),
@@ -43,11 +43,11 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # the most lines that are shown before the result of a step
+_MOST_LINES = 3  # how many of the lines before the result of a step are shown at most
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
-    """Return the number of changes, then all changes under the headings of their sorts."""
+    """Return the number of changes of each sort, then all changes under the headings of their sorts."""
     found = diff.changes
     if not found:
         return f"{problem_id}: nothing has changed since {diff.since}"
@@ -142,7 +142,7 @@ class _Shown:
                 yield from self._pair(self._head(change), *result, "      ")
             else:
                 yield self._head(change)
-            if result and "lines" in facets:  # the result alone is enough
+            if result and "lines" in facets:  # if the result has changed, its earlier lines are not shown
                 del facets["lines"]
             for facet, (before, after) in facets.items():
                 cut = _few if facet == "lines" else str
@@ -192,7 +192,7 @@ def _abridged(words: str, first: bool, last: bool) -> str:
 
 
 def _few(lines: str) -> str:
-    """Return the lines; of many, only the first and the number of the rest."""
+    """Return the lines; of many, only the first lines and the number of the other lines."""
     listed = lines.splitlines()
     more = len(listed) - _MOST_LINES
     return lines if more <= 1 else "\n".join([*listed[:_MOST_LINES], f"and {more} more"])

@@ -16,8 +16,8 @@ HEADING = (
     "problem", "steps", "proved", "sampled", "approx.", "defined", "claims", "sampled", "compared", "seconds", "verdict"
 )  # fmt: skip
 LEGEND = """\
-steps     each counted by the least sure of its lines and the surest of its second routes and checks
-claims    every line compared, every second route and every check; how many of them are only sampled
+steps     each step has the lower of two grades: of its weakest line and of its strongest route or check
+claims    all compared lines, second routes and checks, and the number of those that are only sampled
 compared  statements of the source that were compared, and remarks on it"""
 _OF_STEPS = ("steps_proved", "steps_sampled", "steps_approximation", "steps_definition")
 _OF_CLAIMS = ("lines", "routes", "checks")

@@ -29,7 +29,7 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
 
 
 def _new(new: argparse.ArgumentParser) -> None:
-    named(new.add_argument("id", metavar="SET/PROBLEM", help="its name; the set may be new too"), "new")
+    named(new.add_argument("id", metavar="SET/PROBLEM", help="name of the problem; its set may be new too"), "new")
     like = new.add_argument(
         "--like",
         default="system",
@@ -40,12 +40,12 @@ def _new(new: argparse.ArgumentParser) -> None:
 
 
 def _preview(preview: argparse.ArgumentParser) -> None:
-    named(preview.add_argument("id", metavar="ID|SET", help="such as hw9/block; Ctrl-C ends it"), "ids and sets")
-    preview.add_argument("--port", type=_port, default=8311, metavar="N", help="of this machine (default 8311; 0: any)")
+    named(preview.add_argument("id", metavar="ID|SET", help="such as hw9/block; end with Ctrl-C"), "ids and sets")
+    preview.add_argument("--port", type=_port, default=8311, metavar="N", help="port to serve (default 8311; 0: any)")
     preview.add_argument("--open", action="store_true", help="open the browser too")
     _detail(preview)
     _time_limit(preview)
-    preview.add_argument("-q", "--quiet", action="store_true", help="show the address and errors, nothing else")
+    preview.add_argument("-q", "--quiet", action="store_true", help="show only the address and errors")
 
 
 def _build(build: argparse.ArgumentParser) -> None:
@@ -63,7 +63,7 @@ def _build(build: argparse.ArgumentParser) -> None:
 
 def _check(check: argparse.ArgumentParser) -> None:
     named(check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem"), "ids and sets")
-    check.add_argument("--report", action="store_true", help="also build/SET/report.pdf: how each was checked")
+    check.add_argument("--report", action="store_true", help="also make build/SET/report.pdf")
     _engine(check)
     _time_limit(check)
     _jobs_and_messages(check)
@@ -104,10 +104,10 @@ def _why(why: argparse.ArgumentParser) -> None:
 
 
 def _list(listed: argparse.ArgumentParser) -> None:
-    of = listed.add_argument("set", nargs="?", metavar="SET|ID", help="only those of a set; with --answers, a problem")
+    of = listed.add_argument("set", nargs="?", metavar="SET|ID", help="only this set; with --answers, one problem")
     named(of, "ids and sets")
-    listed.add_argument("--answers", action="store_true", help="every name that the parts of a problem may ask for")
-    named(listed.add_argument("--topic", metavar="TOPIC", help="only those of a topic, a folder in a set"), "topics")
+    listed.add_argument("--answers", action="store_true", help="list all names that a problem's parts may ask for")
+    named(listed.add_argument("--topic", metavar="TOPIC", help="only this topic, which is a folder in a set"), "topics")
     _time_limit(listed)
 
 
@@ -118,7 +118,7 @@ def _schema(schema: argparse.ArgumentParser) -> None:
 
 def _clean(clean: argparse.ArgumentParser) -> None:
     named(clean.add_argument("sets", nargs="*", metavar="SET", help="default: every set"), "sets")
-    clean.add_argument("--cache", action="store_true", help="only what is kept for the next build; documents stay")
+    clean.add_argument("--cache", action="store_true", help="remove only data stored for the next build")
 
 
 def _completion(completion: argparse.ArgumentParser) -> None:
@@ -134,11 +134,11 @@ def _detail(command: argparse.ArgumentParser) -> None:
 
 
 def _evidence(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--evidence", choices=EVIDENCE, help="how much is shown of the checks")
+    command.add_argument("--evidence", choices=EVIDENCE, help="how much to show of the checks")
 
 
 def _engine(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--engine", metavar="NAME", help="of TeX; `derive doctor` lists them")
+    command.add_argument("--engine", metavar="NAME", help="TeX engine; `derive doctor` lists all")
 
 
 def _time_limit(command: argparse.ArgumentParser) -> None:
@@ -152,8 +152,8 @@ def _text_or_json(command: argparse.ArgumentParser) -> None:
 def _jobs_and_messages(command: argparse.ArgumentParser) -> None:
     command.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
     told = command.add_mutually_exclusive_group()
-    told.add_argument("-v", "--verbose", action="store_true", help="show each piece that is done, with its time")
-    told.add_argument("-q", "--quiet", action="store_true", help="show errors, and nothing else")
+    told.add_argument("-v", "--verbose", action="store_true", help="show each finished job, with its time")
+    told.add_argument("-q", "--quiet", action="store_true", help="show only errors")
 
 
 _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
@@ -172,7 +172,7 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "completion": _completion,
 }
 
-# --- what an option may be --------------------------------------------------------------------------------------------
+# --- allowed values of options ----------------------------------------------------------------------------------------
 
 
 def named(action: argparse.Action, names: str) -> None:

@@ -26,7 +26,7 @@ def offer(parser: argparse.ArgumentParser) -> None:
 
 
 def offered(names: str, prefix: str, root: str | None, problem: str = "") -> list[str]:
-    """Return the names of a sort that begin with a prefix; nothing without a course. Steps are looked up in
+    """Return the names of a sort that begin with a prefix; nothing without a course. Names of steps are those of
     `problem`."""
     try:
         folder = found_root(root)

@@ -1,4 +1,4 @@
-"""The output of a command: to standard output or into a file, never over a file written by hand."""
+"""Write the output of a command to standard output or to a file, but never over a file written by hand."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def check_output(output: str | None, root: Path) -> None:
 
 
 def _kept_from(path: Path, root: Path) -> str:
-    """Return the reason why a path must not be written to; empty if it may be."""
+    """Return the reason why a path must not be written to; the text is empty if writing is allowed."""
     if os.path.islink(path):
         return f"`{path}` is a link, and its target is not replaced"
     by_hand = path.suffix in _WRITTEN_BY_HAND and not _is_ours(path)
@@ -45,7 +45,7 @@ def _is_ours(path: Path) -> bool:
 
 
 def _belongs_to(path: Path, root: Path) -> bool:
-    """Return whether a file is part of the course, or of derive."""
+    """Return whether a file is a Makefile or is in a folder of the course or of derive."""
     folders = (root / "problems", root / "templates", Path(FOLDER))
     return path.name == "Makefile" or any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
 

@@ -24,7 +24,7 @@ from derive.errors import BuildFailed, Complaint, DeriveError
 _REPORT = "   = help: this is a bug in derive: report it with the traceback and the files of the problem"
 _UNWRITTEN = {errno.EBADF, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
 
-# The function of each command; only the module of the command that is asked for is loaded.
+# The module and the function of each command; only the module of the requested command is loaded.
 COMMANDS = {
     "list": "listing.list_problems",
     "solve": "solving.solve",
@@ -58,7 +58,7 @@ def exit_code(arguments: argparse.Namespace) -> int:
         print("interrupted", file=sys.stderr)
         return 130
     except BrokenPipeError:
-        # The reader of our output has closed it; the interpreter must not report that again.
+        # The program that reads our output has closed the pipe; the interpreter must not report this error again.
         silence(1)
         return 141
     except MemoryError:
@@ -89,8 +89,8 @@ def _told(error: DeriveError) -> int:
 
 
 class Ending:
-    """The signal that asked this process to end, if any. It raises no exception, because a library may lose an
-    exception that a signal handler raises."""
+    """The number of the signal that asked this process to end; 0 without such a signal. A server checks this number,
+    because a library may lose the exception that the signal handler raises."""
 
     number = 0
 
@@ -102,12 +102,12 @@ ending = Ending()
 
 
 class _Interrupted(KeyboardInterrupt):
-    """Ctrl-C. If a KeyboardInterrupt itself passes through `exec`, Python kills the process at its end, although the
-    exception was caught; it does not do so for a subclass."""
+    """Ctrl-C. If a KeyboardInterrupt passes through `exec`, Python kills the process when it exits, even if the
+    exception was caught. Python does not do so for a subclass of KeyboardInterrupt."""
 
 
 def _signaled(number: int, _: FrameType | None) -> NoReturn:
-    """Unwind the stack, so that no worker is left behind."""
+    """Raise an exception that unwinds the stack, so that every worker is stopped."""
     ending.number = number
     raise _Interrupted if number == signal.SIGINT else SystemExit(128 + number)
 

@@ -12,7 +12,8 @@ from io import StringIO, TextIOWrapper
 
 
 def read(parse: Callable[[], argparse.Namespace]) -> argparse.Namespace:
-    """Return the parsed command line; check that output printed at once, such as the version, is written."""
+    """Return the parsed command line; if parsing prints a text and exits, as for the version, check that the text is
+    written."""
     _open_streams()
     shown = StringIO()
     try:
@@ -43,7 +44,7 @@ def _unwritten(error: OSError) -> int:
 
 
 def silence(descriptor: int) -> None:
-    """Discard what is still to be written to a descriptor."""
+    """Discard all further output to a descriptor, also buffered output."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
 
 
@@ -53,7 +54,7 @@ def _open_streams() -> None:
         try:
             os.fstat(descriptor)
         except OSError:
-            os.open(os.devnull, mode)  # opened for reading, so that writing to descriptor 1 fails
+            os.open(os.devnull, mode)  # descriptor 1 is opened for reading, so that writing to it fails
     sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):

@@ -12,14 +12,14 @@ from collections.abc import Iterable, Sequence
 from derive.errors import Complaint
 
 _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
-MOST = 50  # the most errors that are shown
+MOST = 50  # the greatest number of errors that are shown
 WIDTH = 98
 _INDENT = 22  # indent of the lines about an error of the source
 _PAINT = {"error": "1;31", "warning": "1;33", "done": "32"}
 
 
 def complain(complaints: Iterable[Complaint]) -> None:
-    """Print each error once, in order, on standard error; of very many, print the first ones and the number of the
+    """Print each error once, in order, on standard error; print at most `MOST` errors, and then the number of the
     rest."""
     coloured = in_colour()
     found = list(dict.fromkeys(complaints))
@@ -48,7 +48,7 @@ def tell(text: str) -> None:
 
 
 def note(how: str, of: str, seconds: float) -> None:
-    """Print a permanent line about a finished piece of work, with its time if it is not zero."""
+    """Print a permanent line about a finished piece of work; if its time is not zero, the line shows the time."""
     tell("")
     colour = _PAINT["error"] if how == "failed" else _PAINT["done"]
     painted = f"\x1b[{colour}m{how}\x1b[0m" if in_colour() else how
@@ -56,7 +56,7 @@ def note(how: str, of: str, seconds: float) -> None:
 
 
 def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
-    """Return the errata of a problem's source and the remarks on it, each with its line, its text, and why."""
+    """Return the errata and the remarks about a problem's source, each with its line, its text, and the reason."""
     sorts = [sort for sort, *_ in faults]
     words = {"erratum": ("erratum", "errata"), "remark": ("remark", "remarks")}
     counts = [f"{n} {words[sort][n > 1]}" for sort in words if (n := sorts.count(sort))]
@@ -70,7 +70,7 @@ def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
 
 
 def _wrapped(text: str, before: str) -> list[str]:
-    """Wrap the whole text of a file, because a slip may be at its end; remove control codes for terminals."""
+    """Wrap a text without shortening it, because a slip may be at its end; replace control codes by blanks."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return textwrap.wrap(plain, WIDTH, initial_indent=before, subsequent_indent=" " * _INDENT) or [before.rstrip()]
 

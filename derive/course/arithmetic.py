@@ -64,8 +64,8 @@ class Term:
 
 
 class Arithmetic:
-    """The operations of a reader on terms of one text; each rejects, at its place in the text, operands without a
-    meaning."""
+    """The operations of a reader on terms of one text. If operands have no meaning together, the operation rejects them
+    and reports their place in the text."""
 
     max_terms = MAX_TERMS
 
@@ -113,7 +113,7 @@ class Arithmetic:
         return replace(term, expr=1 / term.expr, dimension=NUMBER / term.dimension)
 
     def raised(self, base: Term, exponent: Term) -> Term:
-        """Return the power, after a check that it is small; `9**9**9` is rejected here before it is computed."""
+        """Check that a power is small, and return the power; `9**9**9` is rejected before it is computed."""
         number = exponent.expr
         if not number.is_number and exponent.dimension == NUMBER:
             return self._raised_to_letters(base, exponent)
@@ -134,7 +134,7 @@ class Arithmetic:
         return self.real(replace(term, dimension=base.dimension ** fraction(number), kind=None))
 
     def _raised_to_letters(self, base: Term, exponent: Term) -> Term:
-        """Return a power such as (r/a)**n: if the exponent has letters, the base must be a positive number."""
+        """Return a power whose exponent has letters, such as (r/a)**n; its base must be dimensionless and positive."""
         if base.dimension != NUMBER:
             message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a base that is a number"
             self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)

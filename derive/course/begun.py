@@ -66,7 +66,7 @@ def _pattern(templates: Path, like: str) -> tuple[str, str]:
 
 
 def _copied(root: Path, like: str) -> tuple[str, str]:
-    """Return the text of a problem and of its script; references to other problems of its set become plain words."""
+    """Return the texts of a problem and of its script; references to other problems of the set become plain words."""
     file = root / path_of(root, like)
     text = re.sub(r"\A# yaml-language-server:.*\n", "", _read(file))
     heading = problem_set(root, like.partition("/")[0])

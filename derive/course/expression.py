@@ -5,8 +5,8 @@
     unary    ("-" | "+") unary | atom ("**" unary)?
     atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
 
-A number may be followed by the unit of an angle, `sin(30 deg)`. A number with another unit is replaced by a letter, if
-the reader of the file has letters for numbers.
+A number may be followed by the unit of an angle, `sin(30 deg)`. A number with another unit is replaced by a letter if
+`letter_for` is given; otherwise it is rejected.
 
 The grammar reads every character; no text ever reaches Python or SymPy as code. Every value is bounded
 before it is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
@@ -84,7 +84,7 @@ def read_expression(
 ) -> tuple[Expr, Dimension]:
     """Return the value and dimension of an expression in the declared symbols; raise `Rejected` if it has an error.
 
-    letter_for   finds the letter that replaces a number with its unit
+    letter_for   a function that returns the letter for a number with its unit
     """
     return _Parser(scalar, symbols, letter_for).whole()
 
@@ -133,7 +133,7 @@ class _Parser(Arithmetic):
         faults.stop()
 
     def is_measured(self, number: _Token, unit: _Token) -> bool:
-        """Return whether a number is followed by its unit and not by a letter: `30 deg`."""
+        """Return whether two tokens are a number and its unit, such as `30 deg`, and not a number and a letter."""
         is_unit = unit.text not in self.symbols and unit.text.replace("°", "deg") in UNIT_NAMES
         return number.kind == "number" and unit.kind == "name" and is_unit
 

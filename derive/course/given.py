@@ -1,6 +1,6 @@
 """Given values: each becomes a checked value of the kind that the script's `solve()` asks for.
 
-A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. To a type checker `Mass` is a SymPy `Expr`. A number
+A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. For a type checker, `Mass` is a SymPy `Expr`. A number
 with a unit becomes a symbol with a stored number (`Measured`), so the derivation stays symbolic until its end.
 """
 
@@ -55,9 +55,10 @@ class Measured:
 
 @dataclass(frozen=True)
 class Given:
-    """One key of `given:`: the argument for `solve()`, the numbers of its letters, and its word if it is a word.
+    """One key of `given:`: the argument for `solve()`, and the numbers of the letters in this argument.
 
-    For a value that is used exactly, such as pi/4, `written` is the original form, such as 45 deg.
+    If the value is a word, `word` is this word. For a value that is used exactly, such as pi/4, `written` is the
+    original form, such as 45 deg.
     """
 
     name: str
@@ -69,14 +70,14 @@ class Given:
 
     @property
     def letters(self) -> list[Symbol]:
-        """The letters of the given value, in the order of its entries."""
+        """The letters of the given value, in the order of the entries of the value."""
         value = self.value.components or () if isinstance(self.value, Direction) else self.value
         entries = value if isinstance(value, tuple) else (value,)
         return [s for entry in entries for s in sorted(entry.free_symbols, key=str) if isinstance(s, Symbol)]
 
 
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
-    """Return the symbol of a declared letter: `t` is time itself; any other letter of that kind is a duration."""
+    """Return the symbol of a declared letter: `t` is the time itself; any other letter of kind time is a duration."""
     if name == TIME.name and kind == "time":
         return TIME
     if about_kind(kind).positive or lies is not None and lies.is_above_zero:
@@ -97,7 +98,7 @@ def read_givens(
     """Return the givens in the order of `nodes`, and all symbols, including those that were introduced for numbers.
 
     `notes` states for each name where `solve()` asks for it; `used` are symbols that already have a number.
-    `numbers` are the numbers of these symbols in the SI: they must not make a positive kind negative.
+    `numbers` are the SI numbers of these symbols; with these numbers, no value of a positive kind may be negative.
     """
     read: dict[str, tuple[Expr | Number, ...] | Direction] = {}
     for name, node in nodes.items():
@@ -191,7 +192,7 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
 
 
 def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
-    """Read a scalar as an expression or as a number with its unit; check the kind and the sign."""
+    """Read a scalar as an expression or as a number with its unit; check its kind and its sign."""
     if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
         point = f"{comma[1]}.{comma[2]}{comma[3]}"
         wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
@@ -217,8 +218,8 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
 
 
 def _check_sign(value: Expr, scalar: Scalar, wanted: Wanted) -> None:
-    """Reject a value if its letters or their numbers show that its sign is wrong; `a - b` is allowed: it may be
-    positive."""
+    """Reject a value if its letters or their numbers show that its sign is wrong or an angle is out of range. `a - b`
+    is allowed, because it may be positive."""
     text = " ".join(scalar.text.split())
     value = value.xreplace(dict(wanted.numbers))
     if about_kind(wanted.kind).positive and not about_kind(wanted.kind).signed and value.is_nonpositive:
@@ -288,8 +289,8 @@ class NumbersAsLetters:
         self.measured: list[Measured] = []
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
-        """Return the letter or exact angle for a number with a unit, which is one of `of` numbers; None for an
-        expression."""
+        """Return the letter or exact angle for a number with a unit; None if the text is an expression. The number is
+        one of `of` numbers that belong together."""
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
@@ -303,7 +304,7 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """Return the kind of a script's parameter, with its usual letters, for `count` values."""
+    """Return the annotation of a kind for `count` values, with the usual letters of this kind."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))

@@ -35,7 +35,8 @@ class Number:
 
 @dataclass(frozen=True)
 class Wanted:
-    """The value that is being read, as messages need it: its name, its kind, and where `solve()` asks for it."""
+    """The value that is being read: its name, its kind, its bounds, and notes for messages, such as where `solve()`
+    asks for it."""
 
     name: str
     kind: str
@@ -57,7 +58,7 @@ class Wanted:
 
 
 def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Number | None:
-    """Read a number with its unit, `1.5 kg`; return nothing if the text is an expression."""
+    """Read a number with its unit, such as `1.5 kg`; return None if the text is an expression."""
     match = _NUMBER_UNIT.fullmatch(scalar.text)
     if not match or not match["unit"].strip() or len(scalar.text) > 80:
         return None
@@ -86,7 +87,7 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
 
 def is_more_than_unit(text: str, symbols: Mapping[str, Declared]) -> bool:
     """Return whether a number with its unit is only the beginning of an expression: `3 cm*sin(phi)`, `2 m + a`."""
-    names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first is the unit
+    names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first name is the unit
     return any(name in RESERVED or name in symbols and name not in UNIT_NAMES for name in names)
 
 

@@ -14,13 +14,13 @@ SOLUTIONS, SHEET, REPORT = OF_EVERY_SET = ("solutions", "problems", "report")
 # points alone.
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 DOCUMENTS = (*OF_EVERY_SET, *MORE)
-ON_A_PAGE = (SHEET, *MORE)  # documents that a browser also shows, each on one page
+ON_A_PAGE = (SHEET, *MORE)  # documents that are also built as one page each for a browser
 INDEX = "index"  # the page of a set for a browser
 
 
 class EvidenceShown(StrEnum):
     """How much a solution shows about its verification; the report of its set always shows everything."""
 
-    NONE = "none"  # says that it was checked, and where the evidence is
-    END = "end"  # counts, in a note at its end
-    MARGIN = "margin"  # counts, and next to each display its grade and its second route
+    NONE = "none"  # states that the solution was checked, and where the evidence is
+    END = "end"  # a note at the end of the solution has the numbers of checks
+    MARGIN = "margin"  # the note, and next to each display its grade and its second route

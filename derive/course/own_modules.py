@@ -12,7 +12,8 @@ from pathlib import Path
 
 
 def own_modules(script: Path) -> tuple[Path, ...]:
-    """Return the modules that the script imports, and those that they import; for a package, each of its files."""
+    """Return the files of the modules in the script's folder that the script imports, directly or through other
+    modules. If the script imports a package, each file of the package is returned."""
     found: set[Path] = set()
     waiting = [script]
     while waiting:
@@ -25,7 +26,8 @@ def own_modules(script: Path) -> tuple[Path, ...]:
 
 @contextmanager
 def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
-    """Search the script's folder last, so that no problem hides an installed package; afterwards forget its modules."""
+    """Append the script's folder to the module search path, so that no module of a problem hides an installed package.
+    At the end, remove the folder from the path, and its modules from `sys.modules`."""
     if not modules:
         yield
         return

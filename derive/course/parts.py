@@ -103,7 +103,7 @@ _FORM_BY_ANSWER = mapping_of(_FORM, _FORM_IS)
 
 
 def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm]:
-    """Return forms by the answer's key; a form for all answers has the key `None`."""
+    """Return the form of each answer by its key; one form for all answers has the key `None`."""
     if not isinstance(node, Mapping):
         wrong_type(faults, f"`{name}`", _FORM_IS, node)
         return {}
@@ -128,7 +128,7 @@ class Question(Record):
         "`true` if the part asks for more than the source does; it carries no points and is marked", YES_OR_NO
     )
     detail: Level = key(
-        "`full` or `standard`: an extra part, shown only on pages of that detail or more; its steps are always derived",
+        "`full` or `standard`: an extra part appears only at this detail or a higher one; its steps are always derived",
         DETAIL,
     )
     forms: Table[str | None, AnswerForm] = key(
@@ -173,12 +173,13 @@ _LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
 def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
-    """Return the parts; parts for more detailed pages come last, so that no part depends on a part that is left out."""
+    """Return the parts; reject a part that is followed by a part of lower detail, so that omitted parts are always
+    last."""
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):
             message = f"this part is shown at the detail `{part.detail}`, but the next part is shown at less detail"
-            faults.error("detail", message, part.places["detail"], help="put it after the others")
+            faults.error("detail", message, part.places["detail"], help="put this part after the parts of lower detail")
     return parts
 
 

@@ -106,7 +106,8 @@ def _values(
     """Read numbers or proportions for letters, in the order of the file; a proportion is expressed in other letters."""
     found: list[tuple[Symbol, Expr]] = []
     for name, value in written.items():
-        # A coordinate of the script is not declared; whether the drawing has it is known only after the script ran.
+        # A coordinate of the script is not declared; whether the drawing contains this coordinate is known only after
+        # the script has run.
         declared = symbols.get(name) or Declared(str(name), scalar(str(name)), "angle")
         with faults:
             expr = read_value(name, value, declared.kind, symbols)

@@ -134,7 +134,7 @@ class Problem:
         }
 
     def cases_of(self, part: Question) -> dict[str, dict[Symbol, Amount]]:
-        """Return the numbers of each case of a part, by its label.
+        """Return the numbers of each case of a part, by the label of the case.
 
         A case states only the numbers that differ from those of the first case.
         """
@@ -212,7 +212,7 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys]) -> tuple[Word
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    for name in (*answers, *limited):  # the step of a limit may be one that leads to an answer
+    for name in (*answers, *limited):  # the step of a limit may also be an answer of a part
         first.setdefault(str(name), name)
     return tuple(first.values())
 
@@ -237,7 +237,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps that are made inside the block to that record, together with everything that is given."""
+    """Add the steps of the block to `record`, with the problem's numbers, places of givens, letters and assumptions."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -252,7 +252,7 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
 
 @contextmanager
 def deriving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps that are made inside the block to that record, with the ranges of the problem's letters."""
+    """Add the steps of the block to `record`; inside the block, the ranges and the order of the letters are known."""
     with recorded(record), within(problem.ranges), in_order(problem.order):
         yield
 
@@ -304,7 +304,8 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
 
 @dataclass(frozen=True)
 class Pinned:
-    """The input of `solve()`: its letters, what is given or described, and the numbers behind letters."""
+    """The input of `solve()`: the letters, the given values or the description, and the numbers that letters
+    replace."""
 
     symbols: dict[str, Declared]
     givens: tuple[Given, ...]
@@ -355,7 +356,7 @@ def _coordinates_in(given: Mapping | None) -> set[str]:
 def _described_by(
     script: StockScript, given: Mapping, symbols: dict[str, Declared], values: tuple[Measured, ...], faults: Faults
 ) -> Pinned:
-    """Read a description; each declared letter is given, and prose may mention it."""
+    """Read a description; every declared letter becomes a given, so that prose may mention the letter."""
     own = Faults()
     written = read_record(script.stock.keys, given, "`given`", own)
     if own:

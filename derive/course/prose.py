@@ -1,7 +1,7 @@
 """Prose as an instructor writes it: plain text in which `<<name>>` stands for a symbol or a derived result.
 
 `<<eq torque>>` is the equation number of the step `torque`, `<<problem top>>` the number of another problem of the set.
-Text is data. It has no mathematics, TeX or template commands of its own; the code that prints it escapes it.
+Text is data. Prose has no mathematics, TeX or template commands of its own; it is escaped when it is printed.
 """
 
 from __future__ import annotations
@@ -98,7 +98,8 @@ def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def latex_in(prose: Prose) -> Complaint | None:
-    """Return a warning about the first LaTeX in a text, because a text is data and is printed unchanged."""
+    """Return a warning about the first LaTeX in a text, because LaTeX in prose is printed unchanged; None without
+    LaTeX."""
     found = [*_LATEX.finditer(_MENTION.sub(lambda mention: "x" * len(mention[0]), prose.text))]
     if not found:
         return None
@@ -115,7 +116,7 @@ def latex_in(prose: Prose) -> Complaint | None:
 
 
 def _letter(latex: re.Match[str]) -> str:
-    """Return the letter that the LaTeX command probably means, if that is clear, else an arbitrary letter."""
+    """Return the letter that the LaTeX stands for, if the letter is clear; otherwise return `R` as an example."""
     inner = latex[0].strip("$").strip()
     whole = latex["below"] or latex["letter"]
     return inner if whole and re.fullmatch(r"\w+", inner) else "R"

@@ -18,7 +18,7 @@ _MARKS = {"==": "=", "!=": "!=", "<": "<", ">": ">", "<=": "<=", ">=": ">="}
 def require(condition: Boolean | bool, given: str, must: str) -> None:
     """Reject a given value if its letters or their numbers show that a condition fails.
 
-    If they show neither, the condition is assumed, and the page states it.
+    If it is unknown whether the condition holds, the condition is assumed, and the page states this assumption.
 
     condition   a comparison of givens, `disc_at <= rod_length`, or several that must all hold, joined by `&`
     given       the parameter that the error names

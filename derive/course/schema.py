@@ -139,16 +139,16 @@ def _formula(node: Tree, name: str, faults: Faults) -> Formula | None:
     return None
 
 
-# Text needs no quotes where YAML itself would read a number: `title: 2015`.
+# A text that YAML would read as a number needs no quotes: `title: 2015`.
 TEXT = Reader({"type": ["string", "number", "boolean"], "pattern": r"\S"}, _text)
-LEFT_EMPTY = "null"  # the type, for editors, of a key with nothing after its `:`
+LEFT_EMPTY = "null"  # in JSON schemas, the type of a key with nothing after its `:`
 FORMULA = Reader({"type": ["string", "number"], "pattern": r"\S"}, _formula)
 YES_OR_NO = Reader({"type": "boolean"}, _yes_or_no, bool)
 FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _figures)
 
 
 def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
-    """Return a node of the shape `wanted` unread, because reading it needs information that is not in the file."""
+    """Return a reader that checks the shape of a node and returns the node unread; later code reads its contents."""
 
     def read(node: Tree, name: str, faults: Faults) -> Tree | None:
         odd = _misfit(node, schema)
@@ -199,7 +199,8 @@ def one_of(words: tuple[str, ...]) -> Reader[str]:
 
 
 def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
-    """Read a mapping with arbitrary names; the mapping may be left empty, unless `wanted` describes it."""
+    """Return the reader of a mapping with arbitrary names. The mapping may be left empty, unless `wanted` states what
+    the mapping must be."""
 
     def read(node: Tree, name: str, faults: Faults) -> dict[Word, T]:
         if isinstance(node, Mapping):
@@ -214,7 +215,7 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
 
 
 def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
-    """Return a mapping unread, because reading it needs information that is not in the file; it may be left empty."""
+    """Return a reader that returns a mapping unread; later code reads its values. The mapping may be left empty."""
 
     def read(node: Tree, name: str, faults: Faults) -> Mapping | None:
         if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.left_empty):
@@ -239,7 +240,8 @@ def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = 
 
 
 def record_of(record: type[R], what: str, wanted: str, called: str = "") -> Reader[R]:
-    """Read a mapping with the keys of a record; `called` names the value in the error that it is not a mapping."""
+    """Return the reader of a mapping with the keys of a record. `called` is the name of the value in the error for a
+    value that is not a mapping."""
 
     def read(node: Tree, name: str, faults: Faults) -> R | None:
         if isinstance(node, Mapping):

@@ -1,7 +1,7 @@
 """The script next to a problem: imported as Python, with every failure reported at the script's own line.
 
-A script is trusted code, but its errors must not look like errors in derive: a failure shows no traceback, only the
-innermost line that belongs to the script, and the kinds that its `solve()` asks for.
+A script is trusted code, but its errors must not look like errors in derive. The report of an error has no traceback;
+it shows the innermost line that belongs to the script. This module also reads the kinds that `solve()` asks for.
 """
 
 from __future__ import annotations
@@ -85,13 +85,13 @@ def run(script: Script, values: Mapping[str, Any]) -> object:
     except DeriveError as error:
         raise _placed(error, script.file, script.source) from error
     except (MemoryError, OutOfTime):
-        raise  # the error is the limit, not a line of the script
+        raise  # a limit is reached; no line of the script is wrong
     except BaseException as error:
         raise Rejected(_failure(error, script.file, script.source)) from error
 
 
 def _placed(error: DeriveError, file: Path, source: Source) -> DeriveError:
-    """Place the error of a verb, which does not know the file, at the line of the script that called it."""
+    """Add a place to an error of a verb: the line of the script that called the verb. Verbs do not know the file."""
     place = _innermost(error, file, source)
     if place is None:
         return error
@@ -196,7 +196,7 @@ def _failure(error: BaseException, file: Path, source: Source) -> Complaint:
 def _message(error: BaseException) -> str:
     try:
         return str(error)
-    except Exception:  # of an exception that the script defines
+    except Exception:  # `__str__` of an exception of the script may fail
         return "an exception that has no message"
 
 

@@ -40,7 +40,7 @@ class Described:
     letters   the symbols that the description introduces itself, such as coordinates and their rates
     chosen    the symbols that replace the numbers of the description; `measured` are these numbers
     told      given values other than symbols, which prose can mention by their keys
-    several   names of bodies; the name of each answer begins with the name of its body
+    several   the names of the bodies if there are several; the name of each answer then begins with the name of a body
     results   quantities computed from answers; each has a name, and the names of the answers that it uses
     without   keys, each with the names of the answers that do not depend on the key
     assumed   relations between symbols that are assumed to hold
@@ -124,9 +124,9 @@ def in_keys(help_line: str | None) -> str | None:
 
 
 class InLetters:
-    """Reads the values of a description in its symbols, of which `t` is always the time.
+    """Reads the values of a description as expressions in its symbols; the symbol `t` is always the time.
 
-    Each method that reads returns a value or raises an error.
+    Each reading method returns a value or raises an error.
     """
 
     def __init__(self, letters: Mapping[str, Declared]):
@@ -134,7 +134,7 @@ class InLetters:
         self.numbers = NumbersAsLetters(self.letters)
 
     def also(self, letters: Mapping[str, Declared]) -> InLetters:
-        """Return a reader that also has these symbols; equal numbers still get the same symbol."""
+        """Return a reader that has these symbols too; both readers replace equal numbers by the same symbol."""
         found = InLetters({**self.letters, **letters})
         found.numbers = self.numbers
         return found
@@ -182,7 +182,7 @@ class InLetters:
     def of_kind(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
         """Read a number, or an expression with the dimension of a kind. Zero may have any dimension.
 
-        of   how many such values there are; the symbol of a number depends on this
+        of   the number of values that belong together; the symbol of each number depends on `of`
         """
         wanted, is_a = dimension_of_kind(kind), kind_with_article(kind)
         if isinstance(node, Scalar) and (letter := self.numbers.letter(node, name, kind, of)) is not None:

@@ -1,7 +1,8 @@
 """Units, exactly: the size of each in the SI, as a rational number and a power of pi.
 
 `rpm` is pi/30 rad/s and not 0.10472, so a number substituted at the end is exact (docs/decisions/0003-units.md).
-An angle is a number, but a unit records its power of an angle: no length is in `cm/rev`, no cosine in degrees.
+An angle is a number, but each unit records its power of an angle, so that `cm/rev` is rejected as the unit of a length,
+and degrees as the unit of a cosine.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ _FORCE, _ENERGY = dimension_of_kind("force"), dimension_of_kind("energy")
 MAX_TEXT = 40
 HIGHEST_POWER = 9
 
-# name -> (its SI value as a fraction and a power of pi, dimension, power of an angle). A radian is 1 and `Hz` is 1/s: a
-# turn is written as `rev`.
+# name -> (its SI value as a fraction and a power of pi, dimension, power of an angle). A radian is 1, and `Hz` is 1/s.
+# A turn is written as `rev`.
 _UNITS: dict[str, tuple[Fraction, int, Dimension, int]] = {
     "m": (Fraction(1), 0, _LENGTH, 0),
     "mm": (Fraction(1, 1000), 0, _LENGTH, 0),
@@ -123,7 +124,7 @@ class Misfit:
 
 
 def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
-    """Return why a unit does not measure a quantity of a kind or of a dimension; None if the unit does."""
+    """Return why a unit does not measure a quantity of a kind or of a dimension; None if the unit is suitable."""
     is_a = kind_with_article(kind) if kind else named(dimension)
     if unit.dimension != dimension:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")

@@ -15,7 +15,7 @@ from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 
 GRAVITY, ACCELERATION = "gravity", "acceleration"
-OF_STATES = ("at", "results", "conserved", "coordinates")  # keys that say where a coordinate is, not what depends on it
+OF_STATES = ("at", "results", "conserved", "coordinates")  # keys that may mention a coordinate that nothing uses
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
 _RATES = ("", "_dot", "_ddot")
 
@@ -44,7 +44,8 @@ def unused_in(
 
 
 def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> set[str]:
-    """Return the names that parts ask for, and the answers that these need; `both_x_1` may be a component of `both`."""
+    """Return the names that parts ask for, and the names of the answers from which they are computed; `both_x_1` may be
+    a component of `both`."""
     found, waiting = set[str](), [str(name) for name in asked]
     while waiting:
         name = waiting.pop()
@@ -141,7 +142,7 @@ def _keys(described: Described, needed: Collection[str]) -> Iterator[Complaint]:
 
 
 def _names(node: Tree | None) -> Iterator[str]:
-    """Return every name in the texts of a node; keys of mappings are not texts."""
+    """Yield every name in the texts of a node; the keys of mappings are left out."""
     if isinstance(node, Scalar):
         yield from _NAME.findall(node.text)
     elif isinstance(node, Sequence):

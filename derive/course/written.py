@@ -44,8 +44,8 @@ _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 class SortOfLetter(str):
     """The kind of a letter; `ends` is the text after `in`: the range of the letter.
 
-    `positive` was written before the kind: the letter stands for a positive number. If the kind is not `known`, an
-    error has been reported.
+    If `positive` is true, this word is before the kind, and the letter stands for a positive number. If `known` is
+    false, the kind is not valid, and the error has been reported.
     """
 
     ends: Scalar | None = None
@@ -54,7 +54,7 @@ class SortOfLetter(str):
 
 
 def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] = tuple(KINDS)) -> SortOfLetter:
-    """Read a kind; for a mistyped kind, report an error and return another kind, with which nothing may be derived."""
+    """Read a kind; for an unknown kind, report an error and return an arbitrary kind whose `known` is false."""
     text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
     positive, _, rest = text.strip().partition(" ")
     kind = rest.strip() if positive == POSITIVE else text.strip()
@@ -156,7 +156,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
 
 
 def _way(*keys: str) -> dict[str, Any]:
-    """Return the schema of a limit that has these keys, and none of the keys of the other ways."""
+    """Return the schema of a limit with these keys and without the keys of the other forms of a limit."""
     others = {"of", "letter", "where", "step"} - {*keys}
     return {"required": list(keys), "not": {"anyOf": [{"required": [key]} for key in sorted(others)]}}
 

@@ -1,7 +1,7 @@
 """YAML with places: every node has its place in the file, and all errors of a file are reported at once.
 
 YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used on purpose,
-because its messages name the wrong character; `_syntax_complaint` makes ours from them. If hundreds of files
+because its messages name the wrong character; `_syntax_complaint` rewords these messages. If hundreds of files
 are only listed, libyaml reads them in a tenth of the time; a file that libyaml rejects is read again in Python.
 """
 
@@ -182,7 +182,8 @@ def _raw_width(raw: str, at: int, style: str, char: str) -> int:
 
 
 class Formula(Word):
-    """An expression of a file, read when its letters are known; expressions are compared only by their text."""
+    """An expression of a file that is read later, when its letters are known; two expressions with the same text are
+    equal."""
 
     scalar: Scalar
 
@@ -274,7 +275,7 @@ def read_yaml(path: Path, shown_as: str, quickly: bool = False) -> Tree:
     """Return the tree of a YAML file; `shown_as` is its path in messages."""
     source, quick = read_source(path, shown_as), getattr(yaml, "CSafeLoader", None)
     if quickly and quick and not _ODD.search(source.text):
-        with suppress(Rejected):  # libyaml's error has no message of ours, so read the file again in Python
+        with suppress(Rejected):  # errors of libyaml are not reworded, so the Python parser reads the file again
             return _Reader(source, Faults(), quick).tree()
     return yaml_tree(source)
 
@@ -391,7 +392,8 @@ def _nothing_is_empty(node: Tree) -> Tree:
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return a value that a comma has split: its bracket is closed in the text that looks like the next key."""
+    """Return the whole value if a comma inside a bracket has split it: the end of the value then looks like the next
+    key."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start

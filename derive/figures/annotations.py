@@ -234,7 +234,7 @@ class Weight(Arrow):
         line, *_ = found = super().pieces(paper)
         (x, y), (u, v) = line.spots
         along = direction(*line.spots)
-        half = 0.85 * (u - x), 0.85 * (v - y)  # the label may move to the tip
+        half = 0.85 * (u - x), 0.85 * (v - y)  # the label may move along the arrow, almost to its tip
         beside = Tag(self.label, midway(*line.spots), (along[1], -along[0]), way=half)
         return [beside if isinstance(piece, Tag) else piece for piece in found]
 
@@ -347,7 +347,7 @@ class CentreMark(PointMark):
 
 @dataclass(frozen=True)
 class Support(_Single):
-    """The support of a pivot: a triangle on hatched ground, which is below all bodies of the drawing."""
+    """The support of a pivot: a triangle on hatched ground. The ground is lower on the paper than all bodies."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = spot = paper.spot(paper.numbers.vector(self.at))

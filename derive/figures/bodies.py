@@ -38,7 +38,7 @@ ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
 THIN = Rational(1, 40)  # half the drawn thickness of a disc, relative to its radius
 EDGE = 32  # number of steps along each curve of the edge of a flat body
-CUT, SLICE = Rational(11, 20), Rational(1, 20)  # place and thickness of a slice, relative to the height
+CUT, SLICE = Rational(11, 20), Rational(1, 20)  # height and thickness of a slice, relative to the height of the body
 BESIDE_IT = 17.0  # distance between the dimension lines of a slice and of the whole height, in points
 CURVED = 48  # number of circles for a curved side; they are closer together at the ends, which may be tips
 
@@ -127,7 +127,7 @@ class Pose:
 
 
 def _pose(point: Point) -> Pose:
-    """Return the pose of a body in a drawing whose origin and axes are those of a point of the body."""
+    """Return the pose of a body in a drawing that has its origin at this point, and the axes of this point."""
     return Pose(point.seen, point.axes.T * Z)
 
 
@@ -217,7 +217,8 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
 
 
 def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
-    """Return the marks of a removed part; an empty list unless it is a closed cavity or is seen in its plane."""
+    """Return the marks of a removed part. The list is empty unless the part is a closed cavity, or the drawing is in
+    the plane of the part."""
     boundary, pose = body.boundary, _pose(point)
     if isinstance(boundary, Faces) and in_plane:
         return [Hole(mark) for mark in in_space(boundary, pose, words_of(body)) if isinstance(mark, Surface)]

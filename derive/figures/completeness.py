@@ -137,7 +137,8 @@ def _neighbours(system: System, links: Collection[Link], places: Sequence[Locati
 
 
 def _shows_something(system: System, marks: Sequence[Mark], links: Collection[Link]) -> bool:
-    """Return whether the drawing shows a pivot, a free body in space, or more than particles, bodies and angles."""
+    """Return whether the drawing shows a pivot, a free body in space, links or forces between particles without bodies,
+    or any mark other than particles, bodies and angles."""
     outlines = [mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))]
     if any(not isinstance(mark, ALONE) and mark not in outlines for mark in marks):
         return True

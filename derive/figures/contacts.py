@@ -24,7 +24,8 @@ from derive.steps.step import is_zero
 
 ZERO = Integer(0)
 ACROSS = column(0, 0, 1)
-# Distances of a rotation arrow and of the end of its axis from the fixed point, relative to that of the centre of mass.
+# Distances of a rotation arrow and of the end of its axis from the fixed point, relative to the distance of
+# the centre of mass from the fixed point.
 ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
 
 

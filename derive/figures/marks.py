@@ -64,7 +64,8 @@ class Mark:
         return ()
 
     def tip(self, numbers: InNumbers, reach: float) -> Vector | None:
-        """Return the position of the arrowhead, which must not coincide with a corner of a body of size `reach`."""
+        """Return the position of the arrowhead, which must not be at a corner of a body; `reach` is the size of the
+        bodies."""
         return None
 
     def in_words(self) -> InWords | None:

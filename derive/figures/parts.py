@@ -32,7 +32,7 @@ SHORT = 3  # greatest number of characters in a name that is written on a block
 
 @dataclass(frozen=True)
 class _Piecewise(Surface):
-    """A part of a machine, with the name of its class as its description."""
+    """A part of a machine that the name of its class describes."""
 
     @property
     def told_as(self) -> str:

@@ -60,7 +60,7 @@ class ThickBar(BarMark):
     layer: ClassVar[int] = 2
 
     def _beside(self, spots: tuple[Spot, ...], gap: float) -> Tag:
-        """Return the label at a distance from the middle, because the centre of mass is marked there."""
+        """Return the label at a third of the line, because the centre of mass is marked at the middle of the line."""
         (x, y), (u, v) = spots
         return beside(self.label, (x + (u - x) / 3, y + (v - y) / 3), (u, v), gap)
 
@@ -188,7 +188,8 @@ def with_its_shape(placed: Any) -> Any:
 
 
 def _far_end(placed: Any) -> Location:
-    """Return the end of the axis of a body that is far from the fixed point; the centre of mass if it is unknown."""
+    """Return the end of a body's axis that is farthest from the fixed point; the centre of mass if this end is
+    unknown."""
     parts = getattr(placed.body, "parts", ()) or (placed.body,)
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position
@@ -200,7 +201,8 @@ def _far_end(placed: Any) -> Location:
 
 
 def _ends_on_axis(part: Any) -> list[Expr]:
-    """Return the lower and the upper end of a round part, as z of the whole body; empty if they are not on its axis."""
+    """Return the ends of a round part, as z in the axes of the whole body; ends that are not on the z axis are left
+    out."""
     body = getattr(part, "body", part)
     if not isinstance(getattr(body, "boundary", None), Round):
         return []
@@ -283,7 +285,7 @@ def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
 
 
 def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
-    """Yield the rotation angle of a bar, at its start, or of a disc, at its centre."""
+    """Yield the rotation angle: for a bar, drawn at its start; for a disc, drawn at its centre."""
     for mark in outline:
         if isinstance(mark, ThickBar):
             start, end = Location(tuple(mark.start)), Location(tuple(mark.end))

@@ -162,7 +162,8 @@ def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
 
 
 def angle_of_link(system: System, link: Link) -> tuple[Expr, Location] | None:
-    """Return the angle by which a link rotates, and the fixed direction of the link at zero angle; None without one."""
+    """Return the angle by which a link rotates, and the fixed direction of the link at zero angle; None without such an
+    angle."""
     e = tuple(tidied(c / link.length) for c in link.way.components)
     for angle in _angles(e):
         zero = tuple(c.xreplace({sin(angle): ZERO, cos(angle): Integer(1)}) for c in e)
@@ -214,7 +215,8 @@ def is_rod(system: System, a: Location, b: Location) -> bool:
 def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
     """Return pairs of particles with the same coordinate, one on each side of a pulley.
 
-    One particle moves towards the foot of its line, and the other away from the foot of its own line.
+    The foot of a line is its point nearest to the origin. One particle moves towards the foot of its line, and the
+    other away from the foot of its own line.
     """
     found: list[tuple[int, int]] = []
     for i, one in tracks.items():
@@ -240,7 +242,8 @@ def strings_of(system: System, tracks: dict[int, Track]) -> list[tuple[int, int]
 
 
 def kept_length(system: System, length: Expr) -> Expr | None:
-    """Return the value that a constraint gives to a distance: R for r - R = 0; None without such a constraint."""
+    """Return the constant value that a constraint gives to a distance, such as R for r - R = 0; None without a
+    constraint."""
     for each in system.constraints:
         if not each.in_rates and set(each.coordinates) == {length}:
             share = each.along(length)

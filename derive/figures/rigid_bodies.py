@@ -17,7 +17,7 @@ from derive.steps.step import Quantity
 
 __all__ = ["principal_outline"]
 
-THICK = Rational(1, 12)  # fraction of the sum of the moments that gives flat and thin bodies a thickness
+THICK = Rational(1, 12)  # added fraction of the sum of the moments, so that flat and thin bodies get a thickness
 LONG = Rational(6, 5), Rational(19, 20)  # lengths of arrows, relative to the body
 
 

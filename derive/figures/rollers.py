@@ -103,7 +103,8 @@ def _roller(system: System, hub: Location, turned: Expr) -> Roller | None:
 
 
 def _rates_of(system: System, angle: Symbol, q: Symbol) -> Expr | None:
-    """Return the derivative of an angle with respect to a coordinate, from a constraint; None without one."""
+    """Return the derivative of an angle with respect to a coordinate, from a constraint; None without such a
+    constraint."""
     if angle == q:
         return Integer(1)
     for each in system.constraints:

@@ -103,7 +103,8 @@ class Sliding:
             yield DistanceMark(column_of(start), column_of(at), aside, off, label=track.by)
 
     def _lies(self, track: Track) -> bool:
-        """Return whether a particle is drawn as a block: with weights, with fixed ends, or on a rising line."""
+        """Return whether a particle is drawn as a block: if its line rises, or if the system has weights or fixed
+        ends."""
         walls = [end for each in self.system.between for end in (each.start, each.end) if is_fixed(self.system, end)]
         return bool(self.system.weights or walls) or track.way.components[1] != 0
 
@@ -116,7 +117,8 @@ class Sliding:
             yield DistanceMark(start, at, ImmutableDenseMatrix([0, 1]), CLEAR + 10 + 16 * len(before), label=track.by)
 
     def _free_side(self, i: int) -> int:
-        """Return the free side of a hanging particle, 1 for right or -1 for left: without a string end or a pulley."""
+        """Return the free side of a hanging particle: 1 (right) if the other particle of its string is on the left,
+        else -1 (left). For a particle without a string, the bodies decide in place of the other particle."""
         other = next((k for pair in (*self.ropes, *self.strings) if i in pair for k in pair if k != i), None)
         beside = [self._at(other)] if other is not None else [placed.centre for placed in self.system.bodies]
         ways = [numeric((place - self._at(i)).components[0], self.small) for place in beside]
@@ -125,7 +127,7 @@ class Sliding:
     def _is_measured(self, i: int) -> bool:
         """Return whether the coordinate is labelled at this particle.
 
-        For two particles on a string there is one label, if possible where the coordinate is zero at the foot.
+        Two particles on a string have only one label, if possible at the particle whose coordinate is zero at the foot.
         """
         for pair in self.ropes:
             if i in pair:
@@ -148,7 +150,7 @@ class Sliding:
         return FloorMark(tuple(column_of(each) for each in (*above, *walls, *corners)), off, (left, right))
 
     def _walls_at(self, track: Track) -> list[Location]:
-        """Return the fixed ends of springs at the height of a floor, which ends there."""
+        """Return the fixed ends of springs at the height of a floor; the floor ends at these points."""
         ends = [end for each in self.system.between for end in (each.start, each.end)]
         height = track.start.components[1]
         return [end for end in ends if is_fixed(self.system, end) and vanishes(end.components[1] - height)]
@@ -213,7 +215,8 @@ class Sliding:
         yield from (wheel, BarMark(wheel.centre, top), FixedEnd(top, ImmutableDenseMatrix([0, -1])))
 
     def _moved_apart(self) -> dict[int, Location]:
-        """Return sideways shifts for two particles of a string whose lines coincide, to both sides of a pulley."""
+        """Return opposite sideways shifts for two particles of a string whose lines coincide, one to each side of a
+        pulley."""
         found: dict[int, Location] = {}
         for i, j in self.ropes:
             one, other = self.tracks[i], self.tracks[j]
@@ -227,7 +230,8 @@ class Sliding:
 
     @property
     def values(self) -> dict[Symbol, Expr]:
-        """Return values of coordinates and radii in the drawing: fractions of lengths in the positions at zero."""
+        """Return values of coordinates and radii for the drawing, as fractions of lengths that remain in the positions
+        when all coordinates are zero."""
         found: dict[Symbol, Expr] = {}
         for q, kind in self.system.coordinates.items():
             slides = any(track.by == q and _is_slope(track) and i in self.carriers for i, track in self.tracks.items())
@@ -245,7 +249,8 @@ class Sliding:
         return found
 
     def _string(self, q: Symbol, size: Expr) -> Expr:
-        """Return the length of the string that the coordinate divides, if it is a multiple of `size`; else `size`."""
+        """Return the length that the coordinate divides between two particles on a string, if this length is a multiple
+        of `size`; otherwise return `size`."""
         for i, j in self.ropes:
             if self.tracks[i].by == q:
                 whole = abs(tidied((self.tracks[i].start - self.tracks[j].start).components[1]))
@@ -258,7 +263,8 @@ class Sliding:
         return abs(tidied(between / 2))
 
     def _at_zero(self, q: Symbol) -> list[Expr]:
-        """Return, for each component with q, a symbol that remains when all coordinates are zero, or else zero."""
+        """Return, for each component of a position with q, a symbol that remains when all coordinates and time are
+        zero; zero if no symbol remains."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         holding = [c for place in self.system.places for c in place.components if q in c.free_symbols]
         return [min(c.xreplace(zero).free_symbols, key=str, default=ZERO) for c in holding]

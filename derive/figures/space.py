@@ -21,7 +21,8 @@ STEPS = 96  # number of straight segments in a circle
 
 
 def numeric(value: Expr, known: Mapping[Symbol, Any] = MappingProxyType({})) -> float:
-    """Return the value, with distinct numbers from 0.6 upwards for its symbols, which suit lengths and acute angles.
+    """Return the number of an expression. Its symbols get distinct numbers from 0.6 upwards, which suit both lengths
+    and acute angles.
 
     known   symbol -> value, for some symbols; a value may contain other symbols
     """

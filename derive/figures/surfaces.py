@@ -13,7 +13,7 @@ from derive.figures.space import NOUGHT, Spot, Vector, dot, hull, plus, rim, uni
 
 UPWARDS = (0.0, 0.0, 1.0)
 SIGHT = 120  # number of steps along the line of sight
-EVERY = 8  # step between the points of a circle that determine the size of the drawing
+EVERY = 8  # only each eighth point of a circle is used for the size of the drawing
 
 
 @dataclass(frozen=True)

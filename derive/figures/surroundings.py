@@ -185,7 +185,8 @@ class AngleBetween(Mark):
         if not size_of(a) or not size_of(b) or size > pi - 1e-6:
             return []
         reach = far if self.dashed else min(far, size_of(a) * paper.scale)
-        # The arc of a small angle has a large radius, so that the arc is visible, but less than the lines.
+        # The arc of a small angle has a larger radius, so that it is visible; the radius is less than the lengths of
+        # the lines.
         points = min(max(0.4 * reach, ARC[0]), ARC[1]) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
         along, across = unit(a), unit(plus(b, unit(a), -dot(b, unit(a))))
         radius = points / paper.scale

@@ -84,7 +84,8 @@ def following_axes(placed: Any) -> list[ImmutableDenseMatrix]:
 
 
 def seen_upright(mark: Mark) -> Mark:
-    """Return an angle as a mark that does not affect the view, because the body already faces the viewer."""
+    """Replace an angle by a mark that does not affect the view, because the body already faces the viewer. Return any
+    other mark unchanged."""
     return UprightAngle(**{f.name: getattr(mark, f.name) for f in fields(mark)}) if type(mark) is AngleBetween else mark
 
 

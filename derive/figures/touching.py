@@ -45,7 +45,7 @@ ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
 PAST = Rational(6, 5)  # height of a wall, relative to the height of the point that touches it
 ROLLING = 60.0  # length of the ground on either side of a rolling body, in points
-TENSIONS = ("S", "T")  # first letters of forces of strings; such a constraint is not a floor or a wall
+TENSIONS = ("S", "T")  # first letters of tensions; a constraint by a string is not a floor or a wall
 
 
 @dataclass(frozen=True)
@@ -277,7 +277,8 @@ def leanings(system: System) -> Iterator[Leaning]:
 
 
 def _solved(constraint: Constraint, known: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """Return a coordinate with its formula in the other coordinates, from a constraint; empty if impossible."""
+    """Solve a constraint for one coordinate, and return its formula in the others; an empty mapping if this is
+    impossible."""
     for q in constraint.coordinates:
         share = constraint.along(q)
         if share.is_number and q not in known:

@@ -81,7 +81,8 @@ def turning_marks(system: System, link: Link, which: Particle, named: Sequence[L
 def is_rod_for(system: System, link: Link, name: str) -> bool:
     """Return whether a link of constant length is a rod or a string, not the radius of a hoop on which a bead slides.
 
-    The name of the particle decides, or a mass at the start of the link, or the symbol of the length, such as l.
+    The name of the particle decides; otherwise a link is a rod or a string if a mass is at its start, or if the symbol
+    of its length begins with l. A radius of a round body is neither.
     """
     if _is_called(name, THREADED) or _is_rim(system, link):
         return False
@@ -117,11 +118,12 @@ def downwards(rows: int) -> ImmutableDenseMatrix:
 
 
 def angle_marks(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the angle between a link and a fixed direction, and in space also that of its horizontal projection."""
+    """Yield the angle between a link and a fixed direction; in space, also yield the angle of the link's horizontal
+    projection."""
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned
-        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # the axis shows the rate
+        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # otherwise the axis shows the rate
             yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
     if len(link.way.components) == 3:
         yield from _round_the_vertical(system, link)

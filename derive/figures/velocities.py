@@ -117,7 +117,7 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location) ->
 
 
 def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
-    """Yield each body that is hit at a point, with the symbol for the distance from its fixed point to there."""
+    """Yield each body that is hit at a point, with the symbol for the distance from its fixed point to this point."""
     for placed in system.bodies:
         far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
         if is_fixed(system, placed.at) and far.is_Symbol and not moving_in(system, far):
@@ -125,14 +125,16 @@ def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
-    """Return whether a mark shows a coordinate that has a rate just before the impact, or is zero at the impact."""
+    """Return whether a mark shows a displacement with a rate just before the impact, or a displacement or an angle that
+    is zero at the impact."""
     if isinstance(mark, DistanceMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0
 
 
 def moment_drawn(system: System, moment: Moment) -> dict[Symbol, Expr]:
-    """Return the values for the drawing of an impact: at its instant, except that moving parts are shown before it."""
+    """Return the values for the drawing of an impact. They are the values at the impact, but parts whose displacement
+    has a rate are drawn before the impact."""
     found = {q: moment.at.get(q, ZERO) for q in system.coordinates if q in moment.at}
     for placed, letter in (each for at in moment.meeting for each in _met(system, at)):
         length = getattr(placed.body, "length", None)

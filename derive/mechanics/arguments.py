@@ -1,4 +1,5 @@
-"""Check of the arguments of a verb against its signature, so that errors are in the terms of the script.
+"""Check the arguments of a verb, a function that scripts call, against its signature: errors use the terms of the
+script.
 The annotations of a verb declare what each argument must be: a step (`Quantity`), a coordinate, an expression, a body.
 An argument of another type, such as a matrix in place of a step or a number with a decimal point, is an error. The
 message names the verb and the argument.
@@ -31,7 +32,7 @@ _CALLED = {
 }
 
 
-# nouns whose results contain all their arguments unchanged
+# functions that return a part of a system: it contains all their arguments unchanged
 KEEPING = {
     "angular_impulse",
     "charge",
@@ -98,9 +99,9 @@ def _names(given: Any) -> Iterator[str]:
 
 
 def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:
-    """Check that a noun contains its arguments unchanged.
+    """Check that a part of a system, such as a force, contains its arguments unchanged.
 
-    Law and second route both read the noun, so the comparison of their results would not detect a changed sign.
+    A law and its second route both read this part, so the comparison of their results would not detect a changed sign.
     """
     kept = set(_values(made))
     for value in _values(tuple(arguments.values())):

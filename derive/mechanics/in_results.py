@@ -5,7 +5,7 @@
 
 The decorator gives each argument its key, and the description of this key in the manual. The signature gives the rest:
 an argument without a default is a required key, and the annotation of the argument is the kind of value of the key. The
-reader of files, the schema for editors, the manual and the errors follow from decorator and signature.
+decorator and the signature determine the reader of files, the schema for editors, the manual and the errors.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ class Holds(Enum):
 
     ANSWER = auto()  # the name of one answer
     ANSWERS = auto()  # the names of one or more answers
-    NAME = auto()  # the name of an answer; the verb asks for this answer itself
+    NAME = auto()  # the name of an answer that the verb requests itself
     LETTER = auto()  # a symbol, a rate, or an expression such as `cos(theta)`
     LETTERS = auto()
     COORDINATE = auto()
     VALUE = auto()  # an expression or infinity
-    VALUES = auto()  # values by the names of letters, coordinates and rates
+    VALUES = auto()  # a mapping from names of letters, coordinates and rates to values
     ENDS = auto()  # a lower and an upper value
     ORDER = auto()  # a whole number
     WORD = auto()
@@ -59,7 +59,7 @@ Name = Annotated[str, Holds.NAME]
 Point = Annotated[str | None, Holds.POINT]
 Axis = Annotated[Any, Holds.AXIS]
 Symbols = Annotated[Sequence[str], Holds.SYMBOLS]
-Ask = Callable[[str], Quantity]  # the argument `ask` is not a key: this function returns a further answer by name
+Ask = Callable[[str], Quantity]  # an argument `ask` is not a key, but a function: name -> answer
 
 
 @dataclass(frozen=True)
@@ -85,14 +85,14 @@ class ResultVerb:
 
     name: str
     yields: str
-    function: Callable[..., Any] = field(repr=False)  # whose address differs in each process
+    function: Callable[..., Any] = field(repr=False)  # not in the text: its address differs in each process
     called: Mapping[str, str]
     one_of: tuple[str, ...] = ()
     excludes: tuple[tuple[str, str], ...] = ()
 
     @cached_property
     def arguments(self) -> dict[str, ResultKey]:
-        """Return the key of each argument that has one."""
+        """Return a mapping from arguments to keys, for the arguments that have a key."""
         hints = get_type_hints(self.function, include_extras=True)
         parameters = signature(self.function).parameters
         found = {}
@@ -104,7 +104,7 @@ class ResultVerb:
 
     @property
     def keys(self) -> dict[str, ResultKey]:
-        """Return all keys except the one that names the verb, with required keys first."""
+        """Return all keys except the key that names the verb, with required keys first."""
         others = [key for key in self.arguments.values() if key.name != self.name]
         return {key.name: key for needed in (True, False) for key in others if key.needed is needed}
 
@@ -118,7 +118,7 @@ class ResultVerb:
         return next(key for key in self.arguments.values() if key.name == self.name)
 
     def takes(self, argument: str) -> bool:
-        """Whether the function has an argument of this name that is not a key."""
+        """Whether the function has an argument of this name, such as `ask`, which is not a key."""
         return argument in signature(self.function).parameters
 
 

@@ -1,7 +1,7 @@
 """Theorems in general form. A page states each theorem once, before the first step that uses it.
-A theorem is a formula in symbols. It is not a step, because it is not about a body or system of the problem, but each
-step that uses it is checked. The rule of such a step quotes the theorem in its record.
-`tests/mechanics/test_theorems.py` substitutes bodies and motions in the formulas.
+A theorem is a formula in symbols. A theorem is not a step, because it is not about a body or system of the problem. But
+each step that uses a theorem is checked, and the rule of this step names the theorem under `quotes`.
+`tests/mechanics/test_theorems.py` substitutes bodies and motions into the formulas.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from derive.steps.step import Step, is_zero
 
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
-    """Return a function of a step and an expression that replaces formulas by the symbols of earlier steps."""
+    """Return a function of a step and an expression; the function replaces formulas by symbols of earlier steps."""
     letters: list[tuple[Any, Any]] = []
     known: dict[str, list[tuple[Any, Any]]] = {}
     for step in steps:
@@ -23,7 +23,7 @@ def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
 
 
 def _written(value: Any, letters: Sequence[tuple[Any, Any]]) -> Any:
-    """Replace each named formula under a root by its symbol, also if the formula is written differently."""
+    """Replace each named formula under a square root by its symbol, even if the formula has another form there."""
     if not letters or not hasattr(value, "atoms"):
         return value
     found = {}

@@ -21,7 +21,7 @@ EQUATION_OF = "equation_of_"  # prefix: <<equation_of_ROLE>> in a reason gives t
 
 @dataclass(frozen=True)
 class ChainLine:
-    """`left relation right` with its reason; a line that continues a chain has a left side only if it is a relation."""
+    """`left relation right` with a reason; in a line that continues a chain, only a relation has a left side."""
 
     left: Any | None
     relation: str
@@ -49,7 +49,7 @@ class Equations:
         return self.framed == 1 and last.left is None and _is_bare_number(last.right)
 
     def beside(self, other: Equations) -> Equations:
-        """Return both steps under one number; they share a row if there is room."""
+        """Return the lines of both steps under one number; the steps share a row if there is room."""
         first, *others = other.lines
         return replace(self, lines=(*self.lines, replace(first, beside=True), *others))
 
@@ -159,7 +159,7 @@ class ChainWriter:
 
 
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
-    """Return the symbols of limits and series that other steps or numbers use, so that the page introduces them."""
+    """Return the symbols of limits and series that other steps or numerical answers use and the page must introduce."""
     own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
     found = {step.symbol for step in values.values()} & own
     for step in steps if own else ():

@@ -2,7 +2,8 @@
 
 The grade of a step is the lower of two: the lowest grade of its lines, and the highest grade of its second routes and
 checks. Each route and each check is counted once for every result that it tests. Checks start from the result and
-are counted separately from routes. Motions that the witness follows numerically are counted separately too.
+are counted separately from routes. Motions that the witness (`derive.witness`) follows numerically are also counted
+separately.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Row:
-    """Consecutive steps of one rule that were checked by the same methods, with their inputs and the number of lines.
+    """Consecutive steps of one rule, checked by the same methods, with all inputs and the number of lines.
 
     `routes` names the second routes, then the motion if the witness followed it numerically; `checks` names the checks.
     """
@@ -48,7 +49,7 @@ _NOT_ALIKE: Mapping[str, Any] = {
     "steps": (),
     "made_from": (),
     "lines": 0,
-}  # steps of one row may differ in these fields
+}  # steps that share a row may differ in these fields
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ class Checks:
         return sum(bool(erratum.answer) for erratum in self.errata)
 
     def counts(self) -> dict[str, int]:
-        """Return the counts for the table on the last page, by the name of each column."""
+        """Return the counts for the table on the last page, each under the name of its column."""
         return {
             **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in LEAST_SURE_FIRST[1:]},
             "lines": sum(self.lines.values()),
@@ -94,7 +95,7 @@ class Checks:
         }
 
     def closing(self, words: Phrases, evidence: EvidenceShown) -> tuple[Inline, ...]:
-        """Return the note at the end of a problem that it was checked, with counts if `evidence` requests them."""
+        """Return the closing note, which says that the problem was checked, with counts if `evidence` requests them."""
         if evidence is EvidenceShown.NONE:
             return filled(words.labels["closing_line"], {})
         names: dict[str, Any] = {
@@ -136,7 +137,7 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
 
 
 def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
-    """Return the words for the second routes of a step and for the motion if it was followed, or for its checks."""
+    """Return the words for the checks of a step (`sort`), or for its second routes and the motion if followed."""
     found = tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
     followed = sort is Compared.ROUTE and any(e.compared is Compared.WITNESS for e in step.evidence)
     return (*found, words.labels["motion"]) if followed else found
@@ -160,5 +161,5 @@ def _by_grade(counts: Mapping[Grade, int], words: Mapping[str, str]) -> str:
 
 
 def _columns_of_steps(words: Phrases) -> dict[str, str]:
-    """Return the word for each grade above the counts of steps; definitions are counted as named."""
+    """Return the heading above the number of steps of each grade; for definitions the heading is `named`."""
     return {**words.grades, Grade.DEFINITION: words.labels["named"]}

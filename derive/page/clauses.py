@@ -30,7 +30,10 @@ class Clauses:
         self.set_up: list[Inline] = []
 
     def set_aside(self, step: Step, is_told: bool) -> None:
-        """Store the words of a step without lines; if `is_told`, its symbol is defined at its first use."""
+        """Store the words of a step without lines.
+
+        If `is_told` and these words do not define the symbol of the step, a clause defines the symbol at its first use.
+        """
         phrase = self.words.setup(step)
         self.set_up += filled(phrase, self._names(step))
         if "definition" in names_asked(phrase):
@@ -49,13 +52,13 @@ class Clauses:
         return (*said, Text(" ")) if said else ()
 
     def behind(self, lines: Any) -> tuple[Inline, ...]:
-        """Return the definitions of symbols in these lines as a clause that continues the sentence of the lines."""
+        """Return a clause that continues the sentence of these lines and defines the symbols in the lines."""
         return self._sentence("where", self._due(lines))
 
     def around(self, sentence: tuple[Inline, ...], lines: Any) -> tuple[Inline, ...]:
-        """Return the sentence after some lines; a clause before it defines the symbols in the lines.
+        """Return the sentence that follows some lines, with a clause that defines the symbols in these lines.
 
-        If the sentence continues the sentence of the lines, the clause comes after it.
+        The clause comes first, except if the sentence begins with a small letter and so continues the lines.
         """
         due = self._due(lines)
         first = sentence[0]

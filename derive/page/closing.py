@@ -64,7 +64,7 @@ def limiting_cases(
 
 
 def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, Number]) -> Nodes:
-    """Return the sentence that a limit agrees with a known result, which a number, symbol or formula names."""
+    """Return the sentence that a limit agrees with a known result, with this result's number, symbol or formula."""
     known = derivation.step(step.inputs[-1])
     named: Inline = Ref(known.key) if known.key in numbers or known.symbol is None else Math(known.symbol)
     return filled(words.phrase(step), {"known": named, "formula": Math(step.chain[0].expr)})
@@ -87,7 +87,7 @@ def _result(step: Step) -> Nodes:
         return (Math(last.expr),)
     what = dict(step.roles).get(
         "bound", name_before(step)
-    )  # for the least value of a symbol the left side is its bound, which the page shows
+    )  # the left side; a step for the least value of a symbol has a `bound` that the page shows
     match sign_before(last):
         case "tends":
             return (Math(Approach(what, last.expr)),)

@@ -12,7 +12,7 @@ from derive.steps.step import Step
 
 
 class References:
-    """The references of one page. They are checked at the end, since prose may refer to a later equation.
+    """The references of one page, which are checked at the end because prose may refer to a later equation.
 
     others   numbers of the set's problems, by their names
     figures  numbers of the drawings that have a caption, by their names
@@ -31,7 +31,7 @@ class References:
         self.equations: list[Mention] = []
 
     def node(self, mention: Mention) -> Inline | None:
-        """Return the text for a mention."""
+        """Return the reference that a mention prints: to a problem, a figure or an equation."""
         if mention.of == PROBLEM:
             return self._problem(mention)
         if mention.of == FIGURE:
@@ -40,7 +40,7 @@ class References:
         return Ref(mention.name)
 
     def note(self, pieces: Iterable[str | Mention], names: Mapping[str, object]) -> None:
-        """Record which mentioned names refer to equations: a relation has no symbol, so its number is mentioned."""
+        """Record the mentions that print an equation number: a relation is named by number, as it has no symbol."""
         mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
         self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
 
@@ -50,7 +50,7 @@ class References:
         return {mention.name for mention in self.equations}
 
     def check_title(self, mentions: Iterable[Mention], names: Mapping[str, object]) -> None:
-        """Reject references by number in the title, because lists, bookmarks and heads of pages also show the title."""
+        """Reject references by number in the title, because lists, bookmarks and page headers also show the title."""
         for mention in mentions:
             if mention.of or isinstance(names.get(mention.name), Ref):
                 message = "a title cannot refer to an equation or to a problem"
@@ -87,7 +87,7 @@ class References:
 
 
 def found_before(steps: Iterable[Step], shown_in: Mapping[str, str], words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return a sentence for each earlier part that derived some of these steps; it refers to their equations."""
+    """Return a sentence for each earlier part that derived some of these steps, with references to the equations."""
     found: dict[str, list[tuple[Inline, ...]]] = {}
     for step in (each for each in steps if each.key in shown_in):
         names = {"name": name_of(step), "has_symbol": step.symbol is not None, "ref": Ref(step.key)}
@@ -112,7 +112,7 @@ def each_number_once(nodes: Sequence[Inline], numbers: Mapping[str, Number]) -> 
 
 
 def _repeats(before: Sequence[Inline], node: Inline, numbers: Mapping[str, Number]) -> bool:
-    """Return whether the reference before the last comma or word has the same number as this reference."""
+    """Return whether only a comma or a word separates this reference from a reference with the same number."""
     match (*before, node):
         case (Ref(one), Text(between), Ref(other)):
             return len(between.split()) == 1 and numbers[one] == numbers[other]

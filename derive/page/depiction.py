@@ -1,7 +1,7 @@
 """The position, caption and alternative text of each drawing on a page.
 
 The alternative text is derived from the marks themselves, with the same expressions, so it changes with the inputs.
-A drawing appears in the statement if it shows only inputs. Otherwise it appears in the first part by whose end all its
+A drawing appears in the statement if it shows only inputs. Otherwise it appears in the first part after which all its
 steps are derived. A problem may move a drawing to a later part, but never to an earlier one.
 """
 
@@ -114,19 +114,19 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
 
 
 def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for each symbol that the problem gives a value for a drawing in which it does not occur."""
+    """Return an error for each name that has a value for a drawing but is a symbol of neither drawing nor problem."""
     placement = placement_of(problem, drawing.key)
     letters = {symbol.name for symbol in drawing.letters}
     return [
         Complaint("unknown-letter", f"the drawing `{drawing.key}` has no symbol `{name}`", place,
                   help=did_you_mean(name, letters) or "its symbols are " + ", ".join(f"`{x}`" for x in sorted(letters)))
         for name, place in (placement.names.items() if placement else ())
-        if name not in letters and name not in problem.symbols  # may be absent for the current inputs
+        if name not in letters and name not in problem.symbols  # for some inputs a drawing lacks a symbol
     ]  # fmt: skip
 
 
 def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each symbol of the problem with a value for a drawing in which it does not occur."""
+    """Return a warning for each symbol of the problem that has a value for a drawing but does not occur there."""
     found = []
     for drawing in drawings:
         placement = placement_of(problem, drawing.key)
@@ -139,7 +139,7 @@ def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[
 
 
 def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key for plots that the problem specifies for a drawing that is not a plot."""
+    """Return a warning for each `range` and `cases` that the problem specifies for a drawing other than a plot."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
@@ -152,7 +152,7 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the first part by whose end all steps of the drawing are derived; None if there is none."""
+    """Return the index of the first part after which all steps of the drawing are derived; None if there is none."""
     known: set[str] = set()
     for index, keys in enumerate(((), *derivation.parts), FOUND):
         known |= set(keys)
@@ -184,7 +184,7 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows a step that is derived later, or one on which no answer depends."""
+    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None
@@ -228,7 +228,7 @@ def alternative(
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
-    """Return the marks with only the first of the curves along which something can move."""
+    """Return the marks without duplicates, and with only the first of the dashed curves without a label."""
     found: dict[Any, m.Mark] = {}
     for mark in marks:
         told = mark.in_words()
@@ -259,12 +259,12 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 
 
 def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:
-    """Return each symbol with its number."""
+    """Return `symbol = number` for each of these numbers."""
     return [(Math(n.symbol), Text(" = "), Math(Amount(n.number, n.unit, n.factor))) for n in numbers]
 
 
 def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return the numbers that all curves share; they are not written above the panels."""
+    """Return words for the numbers that all curves share, which are not written above the panels."""
     if not curves.shared:
         return []
     numbers = joined(_put_in(curves.shared), words.labels["and"])
@@ -301,7 +301,7 @@ def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words
 
 
 def _mark(mark: m.Mark, words: Phrases) -> tuple[Inline, ...]:
-    """Return the words for one mark; an auxiliary line has none."""
+    """Return the words for one mark; an auxiliary line has no words."""
     told = mark.in_words()
     if told is None:
         return ()

@@ -170,7 +170,7 @@ class _Writer:
         )
 
     def needs(self, document: Document) -> tuple[set[str], set[str]]:
-        """Return the hidden steps whose symbols the page uses, and the hidden steps to whose equations it refers."""
+        """Return the hidden steps whose symbols the page uses, and those to whose equations the page refers."""
         shown = (document.title, document.statement, document.strategy, document.illustrations)
         whole = (shown, document.parts, document.limits, document.note)
         moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
@@ -252,9 +252,9 @@ class _Writer:
         return self.selection.standing_for(set(asked) - measured)
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False) -> None:
-        """Add the words and lines of a step; a step that continues the one before it needs no words.
+        """Add the words and lines of a step; a step that continues the step before needs no words.
 
-        A result that a part asks for is always on the page: if its step is hidden, it appears without words.
+        A result that a part asks for is always on the page: if the step is hidden, the result appears without words.
         """
         mode = self.problem.show.get(step.key, "")
         if mode == "hidden" and step.key not in self.asked:
@@ -307,13 +307,13 @@ class _Writer:
         return not any(line.reason for line in equations.lines) and equations.lines[-1].left is not None
 
     def _following(self, key: str) -> Step | None:
-        """Return the next step shown in the part, if one sentence may describe it together with this step."""
+        """Return the next step shown in the part if one sentence may describe this step and the next together."""
         if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
             return None
         return self.rest[0] if self.rest[0].display.told_along else None
 
     def _completed(self, key: str) -> set[str]:
-        """Return the steps that are now complete: a step without lines is complete when its words are shown."""
+        """Return the steps that the page has now described: a step without lines is described once its words appear."""
         self.unplaced.add(key)
         if key not in self.numbers:
             return set()
@@ -334,7 +334,7 @@ class _Writer:
         return filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
-        """Return the numbers with units that no earlier step has substituted."""
+        """Return the unit conversions of the numbers that this step is the first to substitute."""
         used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
         new, self.converted = used - self.converted, self.converted | used
         return joined(conversions(self.problem, new), self.words.labels["and"])
@@ -351,7 +351,7 @@ def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
 
 
 def _parts_nothing(blocks: Sequence[Block], i: int) -> bool:
-    """Return whether a drawing may precede this block: it must not separate words from the lines that they describe."""
+    """Return whether a drawing may precede this block: words stay next to the lines that they describe."""
     introduced = i > 0 and isinstance(blocks[i - 1], Paragraph) and isinstance(blocks[i], Display)
     return not introduced and not (i > 0 and _goes_on(blocks[i]))
 

@@ -28,9 +28,9 @@ class Need:
 
 @dataclass(frozen=True)
 class Explanation:
-    """The explanation of a step in `part`; `own_words` is the place in the problem that rewords the `sentence`.
+    """The explanation of a step in `part`; `own_words` is the place where the problem rewords the `sentence`.
 
-    A problem cannot reword a step that only gives the number of an answer; `names` is empty for such a step.
+    A rewording may mention `names`. The names are empty for the number of an answer, which cannot be reworded.
     """
 
     step: Step
@@ -113,7 +113,7 @@ def _label(index: int) -> str:
 
 
 def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step]) -> dict[str, str]:
-    """Return the first part that asks for each answer, by the key of the answer and by the key of its number."""
+    """Return the first part that asks for each answer, under the key of the answer and the key of its number."""
     answers = [derivation.answering(part.answers) for part in problem.parts]
     asked = {step.key: _label(i) for i, steps in reversed(list(enumerate(answers))) for step in steps}
     return asked | {value.key: asked[key] for key, value in values.items()}

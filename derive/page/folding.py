@@ -32,7 +32,7 @@ def with_details(document: Document, full: Document) -> Document:
 def _merged(
     full: PartPage, numbers: Mapping[str, Number], lines: Mapping[str, Sequence[ChainLine]]
 ) -> dict[str, tuple[Block, ...]]:
-    """Return, for the key of each step, the blocks to fold after it; blocks before the first have the empty key."""
+    """Return, for the key of each step, the blocks to fold after the step; before the first step the key is empty."""
     found: dict[str, list[Block]] = {}
     at = ""
     for sentence in sentences(full.blocks):
@@ -54,7 +54,7 @@ def _merged(
 
 
 def _naming_once(block: Block, numbers: Mapping[str, Number]) -> Block:
-    """Refer to a number once in a row, also if two equations of the full page share that number on this page."""
+    """Keep one of adjacent references to the same number: two equations of the full page may have one number here."""
     if isinstance(block, Paragraph):
         return Paragraph(each_number_once(block.nodes, numbers))
     if not isinstance(block, Display):
@@ -71,7 +71,7 @@ def _has_more(full: Sequence[ChainLine], shown: Sequence[ChainLine]) -> bool:
 
 
 def _placed(blocks: Sequence[Block], folded: Mapping[str, tuple[Block, ...]]) -> tuple[Block, ...]:
-    """Return the blocks of a part; after each sentence come the blocks to fold after its steps."""
+    """Return the blocks of a part; each sentence is followed by the blocks to fold after its steps."""
     found: list[Block] = [Folded(folded[""])] if "" in folded else []
     for sentence in sentences(blocks):
         found += sentence

@@ -71,7 +71,7 @@ class _Hints:
         return replace(part, blocks=found)
 
     def _what(self, sentence: Sentence) -> list[Block]:
-        """Return the first hint of a sentence: the words before each display, and its left sides with ? as results."""
+        """Return the first hint of a sentence: the words before each display, and the display with ? as results."""
         found: list[Block] = []
         before: list[Block] = []
         for block in sentence:
@@ -92,7 +92,7 @@ class _Hints:
         return (ChainLine(BLANK, firsts[0].relation, firsts[0].right if firsts[0].right == 0 else BLANK),)
 
     def _cut(self, sentence: Sentence, rung: slice) -> list[Block]:
-        """Return the law of each chain in a sentence, or the lines after the law, without results."""
+        """Return the law of each chain in a sentence, or the lines after the law; results are left out."""
         found: list[Block] = []
         for display in (block for block in sentence if isinstance(block, Display)):
             groups = tuple(cut for group in display.groups if (cut := self._part_of(group, rung)))
@@ -103,7 +103,7 @@ class _Hints:
         return found
 
     def _due(self, shown: Any) -> list[Step]:
-        """Return the steps whose symbols appear here for the first time, and mark these symbols as introduced."""
+        """Return the steps whose symbols first appear in `shown`, and mark these symbols as introduced."""
         due = wanting(shown, set(), self.steps, self.introduced)
         found = [step for step in self.steps if step.key in due]
         self._introduce({letter for step in found for letter in letters_of(step.symbol)})

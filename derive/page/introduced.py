@@ -31,7 +31,7 @@ def letters_in(exprs: Iterable[Any]) -> set[Any]:
 
 
 def _seen(expr: Any) -> Iterator[Any]:
-    """Yield the printed parts of an expression: of an integral over the mass only the integrand."""
+    """Yield the printed parts of an expression; an integral over the mass prints only its integrand."""
     parts = preorder_traversal(expr)
     for part in parts:
         yield part

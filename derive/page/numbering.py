@@ -30,7 +30,7 @@ class Numbering(dict[str, Number]):
         self._like = like
 
     def add(self, key: str) -> None:
-        """Assign the number after the largest in use; the last number is assigned again if it has become free."""
+        """Assign the number after the largest in use; if the last equation was removed, its number is used again."""
         last = max(self.values(), default=Number(0))
         self[key] = self._next(key, last)
 

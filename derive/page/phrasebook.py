@@ -86,7 +86,7 @@ def read_phrases(folder: Path) -> PhraseTable:
         if file.name != OF_EVERY_PAGE:
             _add(page, _phrases_of(file))
     for name in _SHAPE:
-        page[name]  # a missing table raises an error
+        page[name]  # this access raises an error if the table is missing
     if len(page["labels"]["points"]) != 2:
         _wrong(page.source, ("labels", "points"), "a word for one point and one for several points")
     page["reasons"]["general"]
@@ -99,7 +99,7 @@ def _phrases_of(file: Path) -> PhraseTable:
     try:
         loaded = yaml.load(source.text, Loader=yaml.CSafeLoader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        yaml_tree(source)  # raises an error with the line, if it can
+        yaml_tree(source)  # if possible, this call raises an error with the line
         lines = str(error).splitlines() or [type(error).__name__]
         raise Rejected(Complaint("yaml", f"the phrases cannot be read: {lines[0]}", Place(shown_as, 1))) from None
     table: PhraseTable = _Checked(source).phrases(loaded, _SHAPE, ())

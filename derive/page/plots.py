@@ -1,7 +1,7 @@
 """The curves of a plot: the range, and the numbers and extrema of each curve.
 
-A case states only the numbers that differ from the first case. A symbol without a number in any case must have one in
-the problem.
+A case states only the numbers that differ from the first case. If no case has a number for a symbol, the problem must
+have one.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Curves:
-    """The curves of a plot, the numbers that several of them share, and the unit of the horizontal axis.
+    """The curves of a plot, the numbers that all curves share, and the unit of the horizontal axis.
 
     `unit` is the name of the unit of the horizontal axis; one SI unit equals `per_unit` of these units.
     """

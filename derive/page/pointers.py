@@ -17,7 +17,10 @@ from derive.steps.step import Step
 
 
 def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
-    """Return the inputs whose lines show the result, one for each distinct value; none if a value is not among them."""
+    """Return the inputs whose lines show the result.
+
+    For a list of results, return one input for each distinct value, or no inputs if a value is not among their results.
+    """
     inputs = [each for key in step.inputs if (each := derivation.step(key)).rule in step.display.result_in]
     if not isinstance(step.symbol, MatrixBase):
         return tuple(inputs)

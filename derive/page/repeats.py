@@ -1,4 +1,4 @@
-"""Each formula appears once on a page: a chain neither begins nor ends by repeating a known formula of its symbol.
+"""Each formula appears once on a page: the first and last line of a chain do not repeat a formula shown before.
 
 If a result is already on the page, the page refers to the number of its equation.
 """
@@ -20,22 +20,22 @@ AGAIN = "again"  # the outcome of a step whose sentence refers to the earlier eq
 
 
 class Stated:
-    """The results that the page has shown so far, with the key of the first step for each."""
+    """The results that the page has shown so far, each with the key of the step that showed it first."""
 
     def __init__(self) -> None:
         self._found: dict[Formula, str] = {}
 
     def noted(self, key: str, lines: Lines) -> str | None:
-        """Return the earlier step with the result of these lines; if there is none, record the result for this step."""
+        """Return the key of the earlier step with this result; if there is none, record the result under `key`."""
         before = self._found.setdefault(_result(lines), key) if lines else key
         return None if before == key else before
 
     def without_repeats(self, lines: Lines, letters: Collection[Any]) -> Lines:
-        """Drop a first line that repeats the general formula of T, and a last line that repeats a known formula of I'.
+        """Drop the first or the last line of a chain if the page has already shown its formula.
 
         T = (general formula) = (with values) loses its first line; I' = I = (known formula of I') loses its last line.
 
-        letters  the symbols of the page; a last line may be dropped only after one of them
+        letters  the symbols of the page; the last line is dropped only after a line that is one of these symbols
         """
         if len(lines) > 1 and lines[1].left is None and _result(lines[:1]) in self._found:
             lines = (replace(lines[1], left=lines[0].left), *lines[2:])
@@ -58,7 +58,7 @@ def results(step: Step, lines: Lines) -> int:
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
     """Return the sentence of a repeated result, which refers to the earlier equation, so that no line need follow.
 
-    Return nothing if the step has another outcome, or if the level is `full`.
+    Return nothing if the outcome is not `again`, or if the level is `full`.
     """
     before, _ = around_chain(nodes)
     if step.outcome != AGAIN or level is Level.FULL or not before or not isinstance(before[-1], Text):

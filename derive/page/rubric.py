@@ -17,8 +17,8 @@ from derive.page.chain_lines import ChainLine, Equations
 from derive.page.tree import Display, Document, PartPage
 from derive.steps.step import Step
 
-UNITS = (Fraction(1, 2), Fraction(1, 4))  # in points; quarters if halves do not suffice
-ANSWER, STEP, NUMBER = 2, 1, 0  # shares; a number after its formula has no share
+UNITS = (Fraction(1, 2), Fraction(1, 4))  # points; quarters are used if there are too few halves
+ANSWER, STEP, NUMBER = 2, 1, 0  # numbers of shares; a number that follows its formula has no share
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def credits_of(
 
 
 def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighed]:
-    """Return the steps of a part with their shares; if a number follows its formula, the formula is the answer."""
+    """Return the steps of a part with their shares; if a number follows its formula, the answer is the formula."""
     groups = _groups(part)
     keys = {group.key for group in groups}
     formulas = {group.key: keys & set(into.get(group.key, ())) for group in groups}
@@ -93,7 +93,7 @@ def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
 
 
 def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Divide points by the method of largest remainders; if they are equal, answers and later steps come first."""
+    """Divide points by the method of largest remainders; of equal remainders, answers and later steps come first."""
     if not groups or points <= 0:
         return {}
     weights = [group.weight for group in groups]
@@ -104,7 +104,7 @@ def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fractio
     for i in order[: int(points / unit) - sum(counts)]:
         counts[i] += 1
     shares = {group.equations.key: unit * count for group, count in zip(groups, counts, strict=True)}
-    shares[groups[-1].equations.key] += points - sum(shares.values(), Fraction(0))  # what is left is less than one unit
+    shares[groups[-1].equations.key] += points - sum(shares.values(), Fraction(0))  # the rest is less than one unit
     return {key: share for key, share in shares.items() if share}
 
 

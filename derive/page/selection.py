@@ -4,7 +4,7 @@
     standard   what a good teacher writes; mental arithmetic is left out
     full       every line of every step
 
-The record of each rule specifies how its steps are shown, for every problem. Some steps have lines of their own at
+Each rule specifies how its steps are shown, in every problem. Some steps have lines of their own at
 every level: answers, steps that the author rewords or refers to by number, and steps whose symbol or number the page
 needs (`Needed`). So a page never uses a symbol or a number that it has not introduced.
 """
@@ -40,7 +40,7 @@ LONGEST_CLAUSE = 24  # most nodes of an expression that a sentence may contain
 class Needed:
     """Hidden steps that the page needs because it uses their symbols or refers to their equations."""
 
-    letters: Mapping[str, int]  # key -> in how many attempts at the page its symbol was missing
+    letters: Mapping[str, int]  # key of a step -> number of attempts at the page that lacked its symbol
     numbers: frozenset[str] = frozenset()
 
     def with_more(self, letters: Iterable[str], numbers: Iterable[str]) -> Needed:
@@ -57,7 +57,7 @@ class Selection:
     """The steps of a derivation with the lines that a page of this level shows.
 
     asked   keys of the answers
-    shown   the problem's `show:`, by key
+    shown   the values under the problem's `show:`, by key of the step
     worded  keys of the steps that the problem rewords
     values  the numbers of answers, by key: a number may be shown instead of the formula
     """
@@ -111,13 +111,14 @@ class Selection:
         return self.manner(key) is OWN and self.shown.get(key) != "hidden"
 
     def could_stand(self, key: str) -> bool:
-        """Return whether the level hides the lines of a step, and the author does not."""
+        """Return whether the level, but not the author, hides the lines of a step."""
         return self.manner(key) is not OWN and self.shown.get(key) != "hidden"
 
     def _can_be_pointed_out(self, step: Step) -> bool:
         """Return whether earlier lines show the result of a step, so that its sentence can point to these lines.
 
-        If a part asks for the step and the answer has no numerical value, the lines must be in the same part.
+        If a part asks for the step and the answer has no numerical value, one part must contain both the step and the
+        lines.
         """
         having_it = {each.key for each in self._having_it[step.key]}
         if not having_it or step.key in self.shown or step.key in self.needed.numbers or self.level is Level.FULL:
@@ -161,7 +162,7 @@ class Selection:
         return found
 
     def _lines(self, step: Step, repeats: bool, in_turn: bool) -> tuple[Form, ...]:
-        """Return the lines of the level; after the first step of one form, the others show only the lines of `brief`.
+        """Return the lines at this level; a step of the same form as an earlier step may show only the `brief` lines.
 
         A step directly after a step of the same rule and outcome may show only its result.
         """

@@ -1,8 +1,8 @@
 """Theorems in their general form: a page states each theorem once, before the first step that uses it.
 
 A page is part of several documents: the document of its problem and the documents of its set. In a document of a set
-the first problem states a theorem, and later problems refer to that problem. So a page contains both sentences, and
-the document chooses.
+the first problem states a theorem, and later problems refer to that problem. So a page contains both texts for each
+theorem, and each document prints one of the texts.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def _paragraphs(blocks: Iterable[Block]) -> Iterator[Block]:
 
 
 class Theorems:
-    """The theorems that a page states before its steps; a brief page only names them, in the sentences of its steps.
+    """The theorems that a page states before its steps; a brief page only names theorems in its sentences.
 
     A full page shows the law of each step, so it does not state that law before the step.
     """
@@ -50,7 +50,7 @@ class Theorems:
         self._told: set[str] = set()
 
     def before(self, step: Step) -> tuple[Inline, ...]:
-        """Return the theorems to state first in the step's sentence, which the page has not stated yet."""
+        """Return the theorems that the page has not stated yet and must state before this step."""
         used = [theorem for theorem in self._due(step) if theorem.name not in self._told]
         self._told |= {theorem.name for theorem in used}
         told: list[Inline] = []
@@ -70,7 +70,7 @@ class Theorems:
         return replace(step, chain=step.chain[1:])
 
     def _due(self, step: Step) -> list[Theorem]:
-        """Return the theorems that this level states before the step: those it uses, and one it prepares."""
+        """Return the theorems to state before this step: theorems that the step uses, and one that it prepares."""
         if self._level is Level.BRIEF:
             return []
         own = [theorem for theorem in step.theorems if not theorem.prepared]

@@ -33,7 +33,7 @@ class Display:
         return min(self.grades, key=LEAST_SURE_FIRST.index)
 
     def with_more(self, other: Display, beside: bool = False) -> Display:
-        """Join two displays, in one row if `beside`; the margin names the routes of the first, else of the second."""
+        """Join two displays, in one row if `beside`; keep routes and checks of `other` if this display has none."""
         groups = (
             (*self.groups[:-1], self.groups[-1].beside(other.groups[0])) if beside else (*self.groups, *other.groups)
         )
@@ -42,7 +42,7 @@ class Display:
 
     @property
     def stops(self) -> tuple[str, ...]:
-        """Return the punctuation after each step: commas between steps, and at the end what the sentence needs."""
+        """Return the punctuation after each step: commas between steps, and `end` after the last step."""
         return (",",) * (len(self.groups) - 1) + (self.end,)
 
 
@@ -69,7 +69,7 @@ class Folded:
     """Additional lines of a more detailed page, folded until the reader opens them."""
 
     blocks: tuple[Block, ...]
-    title: str = ""  # the heading, unless the lines continue the equations before them
+    title: str = ""  # the heading; empty if the lines continue the equations before them
 
 
 Block = Paragraph | Display | Illustration | Folded

@@ -1,7 +1,7 @@
 """From steps to words: the phrase for a rule and an outcome, with its names filled from the derivation.
 
 A phrase becomes nodes that do not depend on a format: `Text`, `Math`, `Ref` and one `Chain`. Only verified quantities
-have names here, so prose can mention only those: an unknown name is an error.
+have names here, so prose can mention only verified quantities: an unknown name is an error.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class ProblemRef:
 
 @dataclass(frozen=True)
 class Chain:
-    """Marks where a sentence contains the lines of its step."""
+    """The place in a sentence where the lines of its step are printed."""
 
 
 AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
@@ -137,7 +137,8 @@ class Phrases:
     def phrase(self, step: Step, before: Step | None = None) -> str:
         """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before.
 
-        A phrase can require that the step before has the same rule and a certain outcome, or a certain other rule.
+        A phrase may apply only after a step of the same rule with a certain outcome, or only after a step of a certain
+        other rule.
         """
         of_rule = self.rules.get(step.rule, {})
         preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule
@@ -177,7 +178,7 @@ class Phrases:
         return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
 
     def compared(self, rule: str) -> set[str]:
-        """Return the names whose words are only compared in the phrases of a rule, and are not shown to a reader."""
+        """Return the names whose values the phrases of a rule compare with words."""
         tables = (self.rules, self.setups, self.clauses)
         return {name for table in tables for phrase in table.get(rule, {}).values() for name in names_compared(phrase)}
 
@@ -186,7 +187,7 @@ class Phrases:
         return filled(self.terms.get(word, word), AXIS_NAMES)
 
     def body(self, id: str) -> str:
-        """Return the text for a kind of body: `thick_shell` is "a hollow ball"; a kind without a text has its id."""
+        """Return the text for a kind of body: `thick_shell` is "a hollow ball"; by default the id with an article."""
         return self.bodies.get(id) or with_article(id)
 
     def size(self, id: str) -> str:
@@ -219,7 +220,7 @@ class _Nodes:
 
     def token(self, value: Any) -> Any:
         if value == ():
-            return ""  # false in a phrase that tests whether there is a value
+            return ""  # an empty text is false in a condition of a phrase
         if not isinstance(value, Inline | tuple):
             return value
         self.found.append(value)
@@ -314,7 +315,7 @@ def joined(items: Iterable[tuple[Inline, ...] | Inline], last: str = "and") -> t
 
 
 def name_of(step: Step) -> Inline:
-    """Return the name of a step's result in prose: its symbol, or for a relation, which has no symbol, its number."""
+    """Return the name of a step's result in prose: the symbol, or the equation number of a relation."""
     return Ref(step.key) if step.symbol is None else Math(step.symbol)
 
 
@@ -345,14 +346,14 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
     for each in values:
         at = (
             each.right if each.operator == "=" and isinstance(each.right, Symbol) else each
-        )  # symbols with equal numbers are not joined
+        )  # only values that are symbols are joined, not equal numbers
         joined_at[at] = Relation(Relation(joined_at[at].left, "=", each.left), "=", at) if at in joined_at else each
     others = [(role, told) for role, told in roles if not (role.startswith(VALUE) and isinstance(told, Relation))]
     return [*others, *((f"{VALUE}{i}", told) for i, told in enumerate(joined_at.values(), 1))]
 
 
 def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
-    """Return the coordinates of a step and of the next steps, which have no words of their own: `theta, x and y`."""
+    """Return the coordinates of a step and of the next steps, if these have no words of their own: `theta, x and y`."""
     steps = [step]
     for each in following:
         if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:
@@ -385,8 +386,8 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
 def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
     """Show the number of a symbol only at its first occurrence: `a = 10 cm`, then `a`.
 
-    `last` is the word before the symbols after an expression, as in `a/2 with a = 10 cm`. If the only symbol after this
-    word is known, both are removed.
+    `last` is the word between an expression and its symbols, as in `a/2 with a = 10 cm`. If a known symbol is the only
+    symbol after this word, the word and the symbol are removed.
     """
     kept: list[Inline] = []
     known: set[Any] = set()
@@ -434,7 +435,7 @@ def around_chain(nodes: tuple[Inline, ...]) -> tuple[tuple[Inline, ...], tuple[I
 
 
 def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
-    """Remove empty text at both ends, and at the beginning also text of punctuation only."""
+    """Remove blank text at both ends; at the beginning, also remove text that contains only commas and full stops."""
     kept = list(nodes)
     while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):
         kept.pop(0)

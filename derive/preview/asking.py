@@ -38,7 +38,7 @@ class Shown:
 
 
 class _Worker:
-    """The process, and our ends of its pipes: questions, answers, trace, and a lifeline.
+    """The worker's process, and the server's ends of its pipes: questions, answers, trace, and a lifeline.
 
     Nothing is written to the lifeline: when the lifeline closes, the process knows that the server has ended.
     """
@@ -73,12 +73,11 @@ class _Worker:
 
     def ask(self, **question: Any) -> None:
         self._asked += 1
-        with suppress(BrokenPipeError):  # reading its answer shows that the process has ended
+        with suppress(BrokenPipeError):  # reading the answer will show that the process has ended
             os.write(self._asks, json.dumps({"number": self._asked, **question}).encode() + b"\n")
 
     def answer(self, seconds: float) -> bytes | None:
-        """Return the line that the process writes within that time; None if it writes none, an empty line if it has
-        ended."""
+        """Return the next line from the process; None if none comes in time, an empty line if the process has ended."""
         if select.select([self._answers], [], [], seconds)[0]:
             more = os.read(self._answers, 1 << 16)
             if not more:
@@ -125,7 +124,7 @@ class _Worker:
 
 
 def _pipes(number: int) -> list[tuple[int, int]]:
-    """Return that many pipes; if there are too few descriptors, close the pipes already made and raise the error."""
+    """Return `number` pipes; if there are too few descriptors, close the pipes already made and raise the error."""
     found: list[tuple[int, int]] = []
     try:
         while len(found) < number:
@@ -139,7 +138,7 @@ def _pipes(number: int) -> list[tuple[int, int]]:
 
 @dataclass
 class Warm:
-    """A worker; its process is started at the first question or before, but never after the end of the preview."""
+    """A worker whose process is started at the first question or earlier, but never after the end of the preview."""
 
     root: Path
     limit: float
@@ -148,7 +147,7 @@ class Warm:
     _over: bool = False
 
     def page(self, problem_id: str, detail: str | None, idle: Callable[[], bool] = lambda: False) -> Shown | None:
-        """Return the page of a problem; None if the question became `idle` meanwhile, or if the preview is over."""
+        """Return the page of a problem; None if `idle` says that nobody waits for it, or if the preview is over."""
         started = time.monotonic()
         with self._asking:
             try:

@@ -20,13 +20,13 @@ from derive.preview.server import HOST, Pages, Server, server
 
 
 class Ending(Protocol):
-    """Whether the preview should end."""
+    """An event that is set when the preview should end."""
 
     def is_set(self) -> bool: ...
 
 
 WRITTEN = (".yaml", ".py", ".j2", ".css", ".js")
-SETTLED = 20  # an edit is complete after so many milliseconds without another change
+SETTLED = 20  # milliseconds without another change after which an edit is complete
 
 
 def preview(
@@ -57,7 +57,7 @@ def preview(
         with _serving(served) as at:
             ready(f"http://{HOST}:{at}/{first}.html")
             for _ in _edits(root, ending):
-                with suppress(DeriveError, OSError):  # use the last heading if the present one cannot be read
+                with suppress(DeriveError, OSError):  # keep the old heading if the new one cannot be read
                     heading = problem_set(root, set_id)
                 pages.names = {*heading.numbers, first}
                 pages.edited()

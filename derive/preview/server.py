@@ -36,7 +36,7 @@ _LOCAL = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.ASCII | re.IGNORE
 ALIVE = 15.0  # seconds after which a message is sent even without news, so that a closed browser is noticed
 PROMPT = 5.0  # seconds within which a browser must send the next request on an open connection
 TAKEN = 30.0  # seconds within which a browser must receive an answer
-MOST = 64  # the most connections at a time; each open page has one
+MOST = 64  # the most connections at a time; each page open in a browser uses one
 FULL = 0.1  # seconds to wait for free descriptors
 CACHED = "no-store"
 NONE = "'none'"
@@ -53,7 +53,7 @@ class Pages:
     detail: str | None = None
     told: Callable[[str, Shown], None] = lambda name, shown: None
     _last: dict[str, Shown] = field(default_factory=dict)
-    _good: dict[str, str] = field(default_factory=dict)  # the last main part of each page that had no error
+    _good: dict[str, str] = field(default_factory=dict)  # for each page, the last main part without an error
     _edition: int = 0
     _changed: threading.Condition = field(default_factory=threading.Condition)
     _asking: threading.Lock = field(default_factory=threading.Lock)
@@ -78,7 +78,7 @@ class Pages:
             self._changed.notify_all()
 
     def next(self, name: str, seen: int, timeout: float) -> tuple[int, Shown | None]:
-        """Return the content after the edition that the browser has; None if nothing has changed meanwhile."""
+        """Wait for an edition after `seen`; return its number and content, or `seen` and None after `timeout`."""
         with self._changed:
             self._changed.wait_for(lambda: self._edition > seen, timeout)
             edition = self._edition
@@ -235,7 +235,7 @@ def policy_of(page: str) -> str:
 
 
 class Server(ThreadingHTTPServer):
-    """A server whose threads end with the program; their number is limited."""
+    """A server whose threads end with the program; the number of threads is limited."""
 
     daemon_threads = True
     allow_reuse_address = True
@@ -282,6 +282,6 @@ def server(pages: Pages, whole: Callable[[str, str], str], first: str, port: int
     try:
         return Server((HOST, port), handler)
     except OSError as error:
-        help_line = "name another with `--port`, or 0 for any that is free"
+        help_line = "name another port with `--port`, or 0 for any free port"
         message = f"port {port} {'is taken' if error.errno == EADDRINUSE else 'may not be used'}"
         raise BuildFailed(Complaint("port", message, help=help_line)) from None

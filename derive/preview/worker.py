@@ -5,8 +5,8 @@ kill the process at any instant, because it writes only into the cache of the bu
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 
-MEMORY is the limit of memory in bytes; the next four are file descriptors: one for questions and one for answers (one
-per line), and the two that a build's worker also has.
+MEMORY is the limit of memory in bytes. The next four arguments are file descriptors: questions and answers, one per
+line, and the trace and the lifeline that a build's worker also has.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ from derive.building.workers import TIME, Bug, attempt, confine, job_of
 def main(arguments: Sequence[str]) -> None:
     root, (memory, questions, answers, trace, lifeline) = Path(arguments[0]), map(int, arguments[1:])
     for descriptor in (questions, answers, trace, lifeline):
-        os.set_inheritable(descriptor, False)  # programs that a script starts do not inherit them
+        os.set_inheritable(descriptor, False)  # programs that a script starts do not inherit the descriptors
     confine(lifeline, trace, memory)
-    os.dup2(2, 1)  # output of a script is for the user at the terminal, not an answer
+    os.dup2(2, 1)  # a script's output goes to standard error: it is for the user, not an answer
     told = os.fdopen(answers, "w", encoding="utf-8")
     for packages in (("sympy", "mpmath"), ("matplotlib",)):
-        engine_digest(*packages)  # the digest of the modules before they are loaded
+        engine_digest(*packages)  # compute the digest of these modules before they are loaded
     preload(root, derives=True, draws=False)
     for question in os.fdopen(questions, encoding="utf-8"):
         asked = json.loads(question)
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str]) -> None:
 
 @cache
 def _settle(root: Path) -> None:
-    """Load the drawing code while you read the first page; exclude loaded objects from the search for garbage."""
+    """Load the drawing code while the user reads the first page; exclude loaded objects from garbage collection."""
     preload(root, derives=True, draws=True)
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)

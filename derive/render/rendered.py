@@ -1,6 +1,6 @@
-"""A problem solved and printed in every format: a worker process returns it to its parent, and builds store it.
+"""A solved and printed problem as data, which a worker process returns to its parent, and which builds store.
 
-It contains only text and numbers, so JSON can store it.
+The data contain only text and numbers, so JSON can store them.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Rendered:
     """One problem, solved and printed in the requested formats.
 
     texts                   the page in each format, by the name of the format
-    latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
+    latex, sheet, report    fragments for documents: the solution, the questions alone, and how the solution was checked
     html, title_html        the solution and its title, for a page in a browser
     documents               fragments of the other requested documents, in TeX by name and in HTML by `name.html`
     counts                  the counts of its checks, see `Checks.counts`

@@ -20,7 +20,7 @@ LITTLE = Rational(1, 10**12)
 
 
 def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, or None if no condition is needed; and whether v is never in this interval."""
+    """The condition for -1 < v < 1, None if the symbols decide it; and whether v is never in this interval."""
     sign = sign_for_all(value)
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
     known = sign_for_all(room)

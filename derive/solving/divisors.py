@@ -23,7 +23,7 @@ def may_vanish(*values: Expr) -> Relation | None:
 
 
 def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
-    """The condition that a sentence states: the factors of the denominators that may vanish are not zero.
+    """The condition that a sentence states: those factors of denominators that may vanish are not zero.
 
     The result is empty if no factor may vanish.
     """
@@ -35,7 +35,7 @@ def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relati
 
 
 def different_from_zero(value: Expr) -> Relation | None:
-    """The condition that a divisor does not vanish, omega^2 != k/m; None if its sign is known."""
+    """The condition that a divisor does not vanish, omega^2 != k/m; None if the sign of the divisor is known."""
     if sign_known(value) is not None:
         return None
     condition = positive(tidied(value).as_numer_denom()[0])

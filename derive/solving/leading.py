@@ -51,7 +51,7 @@ def entry_by_entry(change: Callable[[Expr], Expr], value: Any) -> Any:
 
 
 def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | None) -> list[Series]:
-    """The terms of each entry; if no order is given, only terms with the lowest power that occurs in any entry."""
+    """The terms of each entry's series; without an order, only terms with the lowest power that occurs in any entry."""
     is_one = not isinstance(value, MatrixBase)
     each = [expansion_of(of, entry, x, place, order, is_one) for entry in entries_of(value)]
     if order is None:
@@ -65,8 +65,8 @@ def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | No
 def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None, is_one: bool = True) -> Series:
     """The terms up to an order, by default the leading term only; an error if no expansion in powers exists.
 
-    is_one   whether the value is a single number: then the first term must be within the order; an entry of a vector
-             may have no term within the order
+    is_one   whether the value is a single number, whose first term must be within the order; an entry of a vector may
+             have no term within the order
     """
     try:
         return expanded(value, x, place, None if order is None else Rational(order))
@@ -99,7 +99,7 @@ def _of_squares_drawn(value: Expr) -> Expr:
 
 
 def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: Expr, power: Rational) -> Any | None:
-    """The same terms, computed by series arithmetic without derivatives; None if its rules do not suffice."""
+    """The same terms, computed by series arithmetic without derivatives; None if this arithmetic does not suffice."""
     first = min((n for each in series for n in each), default=Rational(0))
     if not first.is_Integer or not power.is_Integer:
         return None
@@ -127,7 +127,7 @@ def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
 
 
 def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rational) -> Verdict:
-    """Compare the remainder at two distances: the remainder over the last power kept must shrink with the distance.
+    """Compare the remainder at two distances: the remainder divided by the last power kept must shrink.
 
     The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink less than the distance. Both sides
     of the value `place` are tested, because |m - M| has two leading terms at m = M; at the end of a range only one side
@@ -152,7 +152,7 @@ def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
 
 
 def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int) -> Verdict:
-    """Compare the remainder close to the value `place`, or farther away if the remainder has no number close to it."""
+    """Compare the remainder close to `place`, or farther away if the remainder has no value close to `place`."""
     seen = 0
     letters = (letters_of(value) | letters_of(found) | letters_of(place)) - {x}
     for point in islice(points(letters, seed_of(value)), POINTS):
@@ -172,7 +172,7 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
 def _shrinks(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
 ) -> bool | None:
-    """Whether the remainder over the given power of the small quantity shrinks from the farther to the closer distance.
+    """Whether the remainder, divided by the power of the small quantity, is smaller at the closer distance.
 
     The result is None if the remainder has no value.
     """

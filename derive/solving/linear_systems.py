@@ -98,7 +98,7 @@ class Factor:
 
     @property
     def is_free(self) -> bool:
-        """Whether the only root of the factor is zero."""
+        """Whether zero is the only root of the factor."""
         return all(is_zero(c) for c in self.coefficients[1:])
 
     @cached_property
@@ -201,7 +201,7 @@ class LinearSystem:
         return Mul(*(each.written(letter) for each in self.factors))
 
     def of_kind(self, kind: type[Kind], **more: Any) -> Kind:
-        """The same matrices as a system of one of the three classes."""
+        """The system of the given class with the same matrices."""
         return kind(self.mass, self.turning, self.stiffness, self.exists, **more)
 
     @cached_property
@@ -597,7 +597,7 @@ def _tidy_ratio(ratio: Expr) -> Expr:
 class Damped(LinearSystem):
     """The matrix M s^2 + C s + K.
 
-    A factor a s^2 + b s + c of its determinant has the roots -b/2a +- i omega, with omega^2 = c/a - b^2/4a^2.
+    A factor a s^2 + b s + c of the determinant has the roots -b/2a +- i omega, with omega^2 = c/a - b^2/4a^2.
     """
 
     @cached_property
@@ -631,9 +631,9 @@ class Damped(LinearSystem):
         return spread(c / a) - spread(b**2 / (4 * a**2))
 
     def column(self, root: CharacteristicRoot) -> MatrixBase | None:
-        """The amplitudes, which are real if they are the same for both exponents of a factor.
+        """The amplitudes, if they are the same for both exponents of the factor; such amplitudes are real.
 
-        The result is None if they depend on the exponent, or if there is not exactly one column.
+        The result is None if the amplitudes depend on the exponent, or if there is not exactly one column.
         """
         columns = _null_columns(self.at(S), Poly(root.factor.at(S), S)) if root.times == 1 else []
         return None if len(columns) != 1 or columns[0].has(S) else ImmutableDenseMatrix(columns[0].applyfunc(tidied))

@@ -65,7 +65,7 @@ def presented(value: Expr, *, in_sums: bool = True) -> Expr:
 def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:
     """Drop the factors that are positive for all values of the symbols: the sign of the value stays the same.
 
-    in_equation     whether to drop nonzero numbers too: the value still vanishes at the same points
+    in_equation     whether to drop negative numbers too: the sign may change, but the value vanishes at the same points
     """
     factors = (f for f in Mul.make_args(value) if not (in_equation and f.is_Rational and f.is_nonzero))
     return Mul(*(f for f in factors if sign_for_all(f) != 1))

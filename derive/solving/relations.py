@@ -49,7 +49,7 @@ def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
 
 
 def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
-    """The value of a symbol at which the expression vanishes; None unless there is one such value other than zero.
+    """The value of a symbol at which the expression vanishes; None if this value is zero or is not unique.
 
     The symbol may occur to the first power only, or, if it is positive, to the second power only.
     """
@@ -95,7 +95,7 @@ def _solved(core: Expr, letter: Symbol) -> Relation | None:
 
 
 def border_of(condition: Relation) -> Relation | None:
-    """The equation of a symbol of the condition and its value at the boundary; None if no symbol can be isolated."""
+    """The equation `symbol = value` at the boundary of the condition; None if no symbol can be isolated."""
     left, right = condition.sides
     if isinstance(left, Symbol):
         return Relation(left, "=", right)
@@ -167,7 +167,7 @@ def _without_sign(value: Expr) -> Expr | None:
 
 
 def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
-    """The factor difference/(alone - solved) with its sign made positive; empty if its sign is unknown."""
+    """The factor difference/(alone - solved), times -1 if negative; empty if the sign of the factor is unknown."""
     slope = tidied(difference.diff(alone)) if alone.is_Symbol else alone
     factor = slope if slope != 0 and not slope.has(alone) else tidied(difference / (alone - solved))
     return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())
@@ -180,4 +180,4 @@ def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None) -> Rejec
         help_line = f"declare the sign of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
         return Rejected(Complaint("no-condition", message, help=help_line))
     message = f"`{of.key}` cannot be solved for {unknown}: it is not linear in {unknown}"
-    return Rejected(Complaint("no-condition", message, help="give another symbol that it depends on"))
+    return Rejected(Complaint("no-condition", message, help="give another symbol on which this result depends"))

@@ -1,7 +1,8 @@
-"""Unknowns: expressions that an equation may be solved for or that may be substituted, such as a symbol or a cosine.
+"""Unknowns: expressions for which an equation may be solved or a value may be substituted, such as a symbol or a
+cosine.
 
-An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). The unknown is replaced wherever it
-occurs. If an equation also contains the symbol in another form, it cannot be solved for this unknown.
+An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). A substitution replaces the unknown
+wherever it occurs. An equation that also contains the symbol in another form cannot be solved for this unknown.
 """
 
 from __future__ import annotations
@@ -43,23 +44,24 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """The unknown of the equation of which this quantity is a root: the root can replace it under any name."""
+    """The unknown of an equation, kept with a root of this equation. The root can replace the unknown even if the
+    symbol of the root is another one."""
 
     missing = "is not a root of an equation"
     unknown: Expr
 
 
 def unknown_of(verb: str, given: Any) -> Expr:
-    """The expression of an unknown: the symbol of a coordinate or quantity, or any other valid expression unchanged."""
+    """The symbol of a given coordinate or quantity, or a given expression unchanged; rejects any other argument."""
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found
-    message = f"the unknown of `{verb}` must be a symbol, a rate, a square of these or a cosine, but it is {found}"
+    message = f"the unknown of `{verb}` must be a symbol, or a power, sine, cosine or tangent of one, but it is {found}"
     raise Rejected(Complaint("wrong-argument", message))
 
 
 def _letter_within(unknown: Any) -> Symbol | None:
-    """The symbol of a power such as theta_dot^2 or a function such as cos(theta); None for any other expression."""
+    """The symbol in a power such as theta_dot^2 or in a function such as cos(theta); None for any other expression."""
     if isinstance(unknown, Pow) and isinstance(unknown.base, Symbol) and unknown.exp.is_Integer and unknown.exp > 0:
         return unknown.base
     if isinstance(unknown, Function) and unknown.func in INVERSE and isinstance(unknown.args[0], Symbol):
@@ -71,12 +73,12 @@ def letter_of(unknown: Expr) -> Symbol:
     """The only symbol of an unknown."""
     found = unknown if isinstance(unknown, Symbol) else _letter_within(unknown)
     if found is None:
-        raise Rejected(Complaint("wrong-argument", f"{unknown} contains more than one symbol"))
+        raise Rejected(Complaint("wrong-argument", f"{unknown} is neither a symbol nor a function of a symbol"))
     return found
 
 
 def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
-    """The symbol of an unknown and its value, given the value of the unknown: theta from cos(theta) = 2/3."""
+    """Symbol of the unknown -> value of this symbol, from the value of the unknown: theta from cos(theta) = 2/3."""
     if isinstance(unknown, Symbol):
         return {unknown: value}
     letter = letter_of(unknown)
@@ -86,7 +88,8 @@ def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
 
 
 def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
-    """Substitute a value for the unknown: for theta_dot^2 also in theta_dot^4, for a cosine also in sin^2."""
+    """Substitute a value for the unknown. The value of theta_dot^2 is also substituted in theta_dot^4, and the value of
+    cos(theta) in the even powers of sin(theta)."""
     if isinstance(unknown, Symbol):
         return expr.xreplace({unknown: value})
     if isinstance(unknown, Pow):
@@ -145,7 +148,9 @@ def mark_for(unknown: Expr) -> Dummy:
 def polynomial_in(
     verb: str, equation: Quantity, unknowns: Sequence[Expr], or_value: bool = False
 ) -> tuple[Expr, list[Dummy]]:
-    """The residual of an equation in which a mark replaces each unknown, and these marks."""
+    """The residual of an equation with a dummy symbol in place of each unknown, and these dummy symbols. Factors that
+    contain the symbol of an unknown but not the unknown itself are dropped; unless `or_value`, they are assumed not to
+    vanish."""
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]
     for unknown, mark in zip(unknowns, marks, strict=True):
@@ -160,9 +165,10 @@ def polynomial_in(
 
 
 def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
-    """The factors that may vanish and contain the symbol but not the unknown.
+    """The factors of the numerator that may vanish and that contain the symbol of the unknown but not the unknown
+    itself.
 
-    For the unknown cos(theta) such a factor is the sine in sin(theta)(a cos(theta) - b).
+    If the unknown is cos(theta), the only such factor of sin(theta)(a cos(theta) - b) is sin(theta).
     """
     mark = mark_for(unknown)
     _, beside = without_factors_beside(with_unknown(value, unknown, mark), unknown, mark)
@@ -171,9 +177,9 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 
 def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
-    """Split off the factors that contain the symbol but not the unknown.
+    """Split off the factors that contain the symbol of the unknown but not the unknown itself.
 
-    For the unknown cos(theta), sin(theta)(a cos(theta) - b) gives the bracket and the sine.
+    If the unknown is cos(theta), sin(theta)(a cos(theta) - b) is split into a cos(theta) - b and the factor sin(theta).
     """
     for form in (left, factored(left)) if left.is_Add and left.count_ops() <= LARGEST else (left,):
         factors = Mul.make_args(form)
@@ -185,7 +191,8 @@ def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr
 
 
 def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:
-    """The kind of a symbol in `known`, or of the rate or acceleration of such a symbol; None if unknown."""
+    """The kind of an unknown that is a symbol in `known`, or the rate or acceleration of such a symbol; otherwise
+    None."""
     if not isinstance(unknown, Symbol):
         return None
     if unknown in known:

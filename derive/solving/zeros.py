@@ -1,8 +1,8 @@
 """All real zeros of a force in closed form: each factor is solved, or the whole force is rejected.
 
-A product vanishes only if one of its factors vanishes. A factor may be a polynomial in the cosine or in the sine, a sum
-a cos q + b sin q, a polynomial, or a square root minus a constant. Each factor is solved completely, so all zeros are
-found.
+A product vanishes only if one of its factors vanishes. A factor may be a polynomial in q, in cos q or in sin q, the sum
+a cos q + b sin q, a sum of two powers of q, or a square root minus a constant. Each factor is solved completely, so all
+zeros are found.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ from derive.solving.root_of_factor import roots_of
 from derive.steps.record import assume
 from derive.steps.signs import sign_for_all
 
-HIGHEST = 6  # highest power of a coordinate that is solved
-LARGEST_PRODUCT = 60  # number of operations up to which a sum is tested for being a product
+HIGHEST = 6  # highest degree of a polynomial in the coordinate that is solved
+LARGEST_PRODUCT = 60  # a sum with more operations than this is not tested for being a product
 ZERO, ONE = Integer(0), Integer(1)
 
 
 class Unsolved(Exception):
-    """Reports a factor whose zeros have no closed form, or no closed form that this module can find."""
+    """Reports a factor whose zeros this module cannot find in closed form."""
 
     def __init__(self, factor: Expr):
         self.factor = factor
@@ -79,7 +79,8 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros of a function; for a periodic function only the zeros within about three half turns on each side.
+    """All real zeros of a function; for a periodic function, only zeros in about three half periods on each side of one
+    zero.
 
     A product of sines and cosines that cannot be solved is written as a sum and tried again.
     """
@@ -94,7 +95,8 @@ def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
 
 
 def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
-    """The zeros of sin(k x + c) or cos(k x + c) up to three half turns from the first; none for any other function."""
+    """The zeros of sin(k x + c) or cos(k x + c) at most three half periods away from the zero where k x + c is 0 or
+    pi/2; none for any other function."""
     slope = function.args[0].diff(x) if isinstance(function, sin | cos) else x
     if slope.has(x):
         return []
@@ -158,7 +160,7 @@ def _factors_or_none(value: Expr) -> list[Expr]:
 
 
 def _part(angles: set[Expr], q: Symbol) -> Expr:
-    """The largest fraction q/n such that each angle is an integer multiple of it, up to an added constant."""
+    """The largest fraction q/n such that each angle is an integer multiple of q/n, up to an added constant."""
     numbers = [angle.coeff(q) for angle in (expand(angle) for angle in angles)]
     if not all(number.is_Rational and number != 0 for number in numbers):
         raise Unsolved(next(iter(angles)))
@@ -181,7 +183,7 @@ def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _is_one_turn(value: Expr, parts: int) -> bool:
-    """Whether an angle, `parts` times the angle that was solved for, is within one full turn."""
+    """Whether -pi < value <= pi; also true if `parts` = 1 or if the value contains symbols."""
     return parts == 1 or not value.is_number or bool(-pi < value and value <= pi)
 
 
@@ -229,7 +231,7 @@ def _sure_roots(factor: Expr, x: Expr) -> list[Expr]:
 def _roots(factor: Expr, x: Expr) -> list[tuple[Zero, int | None]]:
     """The real roots of a polynomial of first or second degree in x, each with the condition under which it is real.
 
-    The number next to each root is its sign where the root is real; None if the sign is unknown.
+    The second entry of each pair is the sign of the root where the root is real, or None if the sign is unknown.
     """
     polynomial = factor.as_poly(x)
     if polynomial is None or polynomial.degree() > 2:
@@ -330,9 +332,10 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
 
 
 def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
-    """Keep a zero of the given sign if the coordinate can have its value.
+    """Return a zero, whose sign is given, if the coordinate can have this value; otherwise return nothing.
 
-    A positive coordinate can have a positive value only; if the sign is unknown, the condition v > 0 is added.
+    A positive coordinate can have a positive value only. If the sign is unknown, the zero gets the condition that its
+    value is positive.
     """
     if not q.is_positive:
         return [zero]
@@ -347,7 +350,7 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
 def _is_square_of_letters(value: Expr) -> bool:
     """Whether the value is positive if its symbols do not vanish, such as l^2 for a momentum l.
 
-    In this case the step records the assumption that these symbols do not vanish.
+    If so, record the assumption that these symbols do not vanish.
     """
     above, below = value.as_numer_denom()
     parts = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]

@@ -68,7 +68,7 @@ def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any
 def check_last_line(
     key: str, chain: Sequence[Form], result: Any, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
 ) -> None:
-    """Check that the result equals the last line, apart from lines with rounded numbers or a truncated series."""
+    """Check that the result equals the last line that is neither a number in a unit nor a truncated series."""
     last = next(
         form for form in reversed(chain) if form.because not in NUMBERS and not isinstance(form.expr, Truncated)
     )
@@ -117,8 +117,9 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Check the sign between a line with an expansion and the next line. An equals sign requires that the next line
-    equals the whole expression. A limit must not contain the symbol that goes to its limit."""
+    """Check a line that follows a line with an expansion and contains no expansion. If an equals sign joins the two
+    lines, the new line must equal the whole expression. If the new line is a limit, it must not contain the symbol that
+    goes to its limit."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return
@@ -130,8 +131,9 @@ def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
 
 
 def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
-    """Check a truncated series. At the point of expansion, the series and its derivatives up to the order must have the
-    values of the whole expression and its derivatives. The series must have no term beyond that order."""
+    """Check a truncated series. At the point of expansion, the series must have the value of the whole expression, and
+    its derivatives up to the order of the series must equal those of the whole expression. The series must have no term
+    beyond its order."""
     polynomial, x, place, order = series.args
     if not vanishes(diff(explicit(polynomial), x, int(order) + 1)):
         raise Unverified(Complaint("unverified", f"`{key}`: the series has terms beyond order {order} in {x}"))
@@ -155,10 +157,10 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """Return the symbol that the result approximates, whether the symbol of the result only approximates its first
-    line, and the evidence. The symbol of a truncated result must differ from that of the whole expression. A result
-    with the symbol of a truncated result approximates the same whole. Every other result derived from a truncated one
-    is approximate too.
+    """Return three things: the symbol of the whole expression that the result approximates; whether the symbol of the
+    result is only approximately equal to the first line; and the evidence. The symbol of a truncated result must differ
+    from the symbol of the whole expression. If a result has the same symbol as a truncated parent, both approximate the
+    same whole expression. Every other result that is derived from a truncated result is approximate too.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
@@ -176,7 +178,8 @@ def approximation_evidence(
 def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
-    """Return the evidence of a route or a check; `found` is two values to compare, or a numerical verdict."""
+    """Return the evidence of a route or a check; `found` is a pair of values to compare, or a verdict that was found
+    numerically."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

@@ -1,4 +1,5 @@
-"""Predicates of outcomes for the rules of every topic, such as whether the result vanishes or has a certain sign."""
+"""Predicates with which rules of every topic judge an outcome, such as whether the result vanishes or has a certain
+sign."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ Asked = ParamSpec("Asked")
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
-    """Judge the condition numerically, with 30 digits; the numbers are already substituted."""
+    """Judge with 30 digits whether the condition is true or, if not `wanted`, false; the numbers are already
+    substituted."""
     truths = {
         "=": lambda d: d == 0,
         "<": lambda d: d < 0,
@@ -100,7 +102,7 @@ def lasts(facts: Judged) -> bool:
 
 
 def never_vanishes(v: Any) -> bool:
-    """Whether some component of a vector cannot vanish, for any values of the symbols."""
+    """Whether a component of a vector is nonzero for all values of the symbols, so that the vector never vanishes."""
     return any(bool(tidied(entry).is_nonzero) for entry in v)
 
 
@@ -117,13 +119,14 @@ def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: fac
 def has_sign(value: Expr, wanted: int | None) -> bool:
     """Whether a value has this sign for all values of the symbols; if no sign is given, whether the sign is unknown.
 
-    Trial numbers confirm the sign. They alone are not enough: they do not meet a = b, where (a - b)^2 vanishes.
+    Trial numbers must confirm the sign. Trial numbers alone are not enough: none of them has a = b, where (a - b)^2
+    vanishes.
     """
     return sign_known(value) == wanted and (wanted is None or sign_found(value) == wanted)
 
 
 def is_negative(value: Expr) -> bool:
-    """Whether a value is negative, by its symbols or at all trial numbers."""
+    """Whether the value is known to be negative, or is negative at all trial numbers."""
     return -1 in (sign_known(value), sign_found(value))
 
 
@@ -175,16 +178,16 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
 
 
 def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence excludes zeros of the denominator if a factor of the denominator might vanish. Of several
-    solutions, only the first one needs to exclude them."""
+    """Whether the sentence excludes zeros of the denominator; it need not if no factor of the denominator might vanish.
+    If there are several solutions, only the sentence of the first one needs to exclude these zeros."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
     unsure = [f for f in Mul.make_args(factor(below)) if may_be_zero(f) and not f.as_base_exp()[0].is_nonzero]
     return not unsure or outcome == "following" or "excluded" in facts.inputs
 
 
 def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
-    """Whether the stated number is the number of the symbol, and satisfies the condition or not, as the sentence says.
-    The numbers are compared in decimals."""
+    """Whether the sentence states the given number of the symbol, and states correctly whether this number satisfies
+    the condition. The stated number may be rounded: it may differ from the given number by 5 %."""
     condition = facts.inputs.get("condition")
     if condition is None:
         return "seen" not in facts.words
@@ -197,13 +200,14 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
 
 
 def not_negative(facts: Judged, outcome: str) -> bool:
-    """Whether a period, a frequency or an amplitude is not always negative. If its sign depends on the values of the
-    symbols, the page states the condition."""
+    """Return False for a period, a frequency or an amplitude that is negative for all values of the symbols. If the
+    sign depends on these values, the page states the condition."""
     return not is_negative(facts.result)
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:
-    """Whether a period or a radius is never negative; its sign must not depend on the values of the symbols."""
+    """Whether a period or a radius is nowhere negative: for all values of the symbols it is zero, positive or not
+    real."""
     return not_negative(facts, outcome) and nowhere_negative_where_real(facts)
 
 

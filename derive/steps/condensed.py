@@ -1,4 +1,4 @@
-"""The lines of a step with values substituted for those names whose own steps a page does not show.
+"""The lines of a step in which values replace the symbols of those quantities whose own steps a page does not show.
 
 Each new line is compared with the old line. The comparison uses the values that `establish` stored in the step.
 """
@@ -16,7 +16,8 @@ from derive.steps.step import NUMBERS, Form, Step
 
 
 def condensed(step: Step, known: Mapping[Any, Any]) -> Step:
-    """Replace these names in the lines of a step, and add evidence that each new line equals the old line."""
+    """Replace the known names in the lines of a step by their values, and add evidence that each new line equals the
+    old line."""
     if not known:
         return step
     written = [_put_in(form, known) for form in step.chain]

@@ -1,4 +1,4 @@
-"""The steps on which the answers of each part depend, and a derivation written as JSON and read again.
+"""Find the steps on which the answers of each part depend; write a derivation as JSON and read it again.
 
 A part shows the steps on which its answers depend, depth first, except steps that an earlier part has shown.
 """
@@ -137,10 +137,11 @@ def standing_in(steps: Iterable[Step]) -> dict[str, str]:
 
 
 def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
-    """Return key -> requested name, for each step that answers the request.
+    """Return key -> requested name, for each step that a requested name asks for.
 
-    A name asks for the group with this name, unless the name is the key of a step outside the group. So the key of one
-    of two conditions asks for both conditions, since one condition alone would claim too much.
+    A name asks for the group with this name, unless the name is the key of a step outside the group. If a group of two
+    conditions has the key of one of them as its name, this key asks for both conditions: one condition alone would
+    claim too much.
     """
     steps = list(steps)
     own, instead = {step.key for step in steps}, standing_in(steps)

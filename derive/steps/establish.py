@@ -83,14 +83,14 @@ class Lines:
 
 @dataclass(frozen=True)
 class PhraseData:
-    """The data of the sentence of a step in addition to its chain, and further data for judging its outcome.
+    """Data for the sentence of a step, in addition to the chain, and data for judging the outcome.
 
-    words       name -> key of a term that phrases put into words ("about": "corner")
+    words       name -> key of a term, for which a phrase writes words ("about": "corner")
     formulas    role -> a formula that only the sentence has, with the same formula by another route
     named       role -> a symbol or a place that only the sentence names; a predicate judges it, not a second route
     points_to   role -> a parent that the sentence names, by its symbol or its number
     outcome_data   further data for judging the outcome, in addition to the result and the inputs
-    stands_for  other keys that answers may ask for; in this case the step takes the place of their steps
+    stands_for  keys of other steps that answers may ask for; this step replaces those steps
     """
 
     words: Mapping[str, str] = field(default_factory=dict)
@@ -110,11 +110,12 @@ class PhraseData:
 class Scope:
     """The subject of a result, and the origin of its symbol.
 
-    about        the subject in addition to that of the inputs, or a function that returns it for the result
+    about        properties of the subject in addition to those of the inputs, or a function of the result that
+                 returns these properties
     differ       the properties in which the subjects of the inputs may differ
     coordinates  coordinates that the step introduces, with their kinds
     case_of      the general quantity with the same symbol; the result is a particular case of this quantity
-    approximates the symbol of the whole result that a limit or a series approximates, or the key of the whole equation
+    approximates for a limit or a series: the symbol of the whole result, or the key of the whole equation
     """
 
     about: Subject | Callable[[Any], Subject] = NOTHING
@@ -176,7 +177,7 @@ def establish(
     check_can_hold(key, result)
     _check_has_value(key, result)
     chain = lines.chain(symbol, formula, substituted, result)
-    # Names on the left side with values in `means`, such as x_dot in x_dot^2: a parent's value of x_dot^2 is not used.
+    # A parent's value of the left side, such as x_dot^2, is not used if `means` has a value for a name in it (x_dot).
     told = lines.means.keys() & getattr(symbol, "free_symbols", set())
     others = {name: value for name, value in bindings.items() if name != symbol or not told}
     evidence = left_side_evidence(key, symbol, chain[0], {**others, **lines.means})
@@ -320,10 +321,10 @@ def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) 
 
 
 def _check_handed_on(key: str, facts: Judged, handed_on: Sequence[Fact]) -> None:
-    """Check that the facts that later steps take from this step agree with its value."""
+    """Check that the facts that later steps take from this step agree with the value of this step."""
     wrong = wrongly_handed_on(facts, handed_on)
     if wrong is not None:
-        message = f"`{key}`: later steps take {type(wrong).__name__} from it, which does not fit its result"
+        message = f"`{key}`: its fact {type(wrong).__name__}, which later steps use, does not fit its result"
         raise Unverified(Complaint("unverified", message))
 
 

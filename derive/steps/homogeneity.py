@@ -78,7 +78,7 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
 
 def _number_of(exponent: Any) -> Fraction:
     """Return an exponent as a number. Fixed numbers replace the symbols of the exponent: a line that is homogeneous for
-    these numbers is taken to be homogeneous for all."""
+    these numbers is taken to be homogeneous for all values of the symbols."""
     some = {s: Rational(101 + crc32(s.name.encode()) % 97, 89) for s in exponent.free_symbols}
     value = ex.explicit(exponent.xreplace(some))
     if not isinstance(value, Rational):
@@ -99,8 +99,8 @@ def dimension_table(
 ) -> tuple[Table, list[Complaint]]:
     """Return the dimension of every name, and an error for each step that is not homogeneous.
 
-    A symbol that is neither given nor a coordinate is rejected: its meaning is unknown, and it is unknown whether it
-    depends on time. `script` is the place that the error names.
+    A symbol that is neither given nor a coordinate is rejected: neither its meaning nor its dependence on time is
+    known. `script` is the place at which this error is reported.
     """
     table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
     complaints: list[Complaint] = []
@@ -154,7 +154,7 @@ def _of_chain(step: Step, table: Table) -> Dimension | None:
     first: tuple[Any, Dimension] | None = None
     for form in step.chain:
         dimension = dimension_of(form.expr, table)
-        if dimension is None or isinstance(form.expr, ex.Relation):  # a relation may be divided by any factor
+        if dimension is None or isinstance(form.expr, ex.Relation):  # lines of a relation may differ by a factor
             continue
         if first is None:
             first = (form.expr, dimension)

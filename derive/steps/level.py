@@ -1,4 +1,4 @@
-"""The amount of algebra on a page, and the manner in which a step appears; this module works without SymPy."""
+"""The amount of algebra on a page, and the manner in which a page shows a step; this module works without SymPy."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class Manner(StrEnum):
 
     OWN = "own"  # with its sentence and its lines
     TOLD = "told"  # in a clause after the first lines that contain its symbol: "where rho = M/V"
-    TAKEN_IN = "taken_in"  # within the step that uses it: the lines of that step have its value in place of its symbol
+    TAKEN_IN = "taken_in"  # within the step that uses it: the lines of that step have the value in place of the symbol
     LEFT_OUT = "left_out"
     POINTED_OUT = "pointed_out"  # with its sentence, which points to earlier lines that contain its result
 
@@ -44,8 +44,8 @@ class Display:
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
                       needs no left side
     repeats           the key of the equation that the step repeats, if any
-    result_in         rules of inputs whose lines may already contain the result; below the level `full`, the sentence
-                      points to these lines
+    result_in         names of rules: the lines of an input of such a rule may already contain the result; below the
+                      level `full`, the sentence points to these lines
     """
 
     brief: Manner = Manner.OWN
@@ -64,7 +64,7 @@ class Display:
         return self.brief if level is Level.BRIEF else self.standard
 
     def shows_result_alone(self, level: Level) -> bool:
-        """Whether a step that repeats the form of the one before it shows only its result at this level."""
+        """Whether, at this level, only the result of a step is shown if the step before has the same form."""
         return self.result_again is not None and self.result_again.shows(level)
 
 
@@ -72,13 +72,13 @@ class Display:
 class Shown:
     """How a page shows the steps of a rule; by default each step appears with its sentence and its lines.
 
-    outcomes      outcome -> the manner at `brief` and at `standard`, for outcomes that differ from the rule
+    outcomes      outcome -> the manner at `brief` and at `standard`, if it is not that of the other outcomes
     told_along    outcomes for which the sentence of the step before may also state the result of this step
     condition_if  a predicate of the step; if it is true, the sentence of the step states a condition that is stated
                   nowhere else
     taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
     repeats       a function of the step that returns the key of the equation that it repeats, or ""
-    result_in     outcome -> rules of inputs whose lines may already contain the result
+    result_in     outcome -> names of rules: the lines of an input of such a rule may already contain the result
     The other fields are those of `Display`.
     """
 

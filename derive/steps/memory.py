@@ -31,8 +31,9 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """A call: the digest of its arguments and of the state of the run, the names of the objects in these, and those
-    cached properties of these objects that contain steps."""
+    """A call, as it is looked up: `key` is a digest of its arguments and of the state of the run. `objects` are the
+    names of the objects in these arguments and this state. `found` are cached properties of these objects that contain
+    steps."""
 
     key: str
     objects: list[str]
@@ -55,7 +56,7 @@ class _State:
 
 @dataclass
 class Memory:
-    """The calls of one run: the store that keeps them, and the objects that identify them."""
+    """The calls of verbs in one run: the store of earlier calls, and the objects in the arguments and results."""
 
     store: Store
     objects: Objects = field(default_factory=Objects)
@@ -66,7 +67,8 @@ class Memory:
         return Memory(self.store)
 
     def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
-        """Return the result of a call, recalled or made now. A call within another call is not stored separately."""
+        """Return the result of a call: read from the store if possible, otherwise computed now. A call within another
+        call is not stored separately."""
         if run.call is not None:
             return make()
         run.call = Call(len(run.established))

@@ -56,15 +56,16 @@ from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Form, Level, Quantity
 
-DIGITS = 20  # digits to which an exact value and the second evaluation agree
+DIGITS = 20  # digits of the values that a check compares; `_error` allows the last five to differ
 HALF = Rational(1, 2)
 FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}  # operator -> true comparisons
-SHORT = 9  # a formula with more numbers is not written out again
+SHORT = 9  # with more numbers than this, only the level `full` shows the formula with the numbers substituted
 
 
 @dataclass(frozen=True)
 class Extreme(Fact):
-    """The second derivative of a function where its slope vanishes; its sign distinguishes minimum and maximum."""
+    """The second derivative of a function at a point where its slope vanishes. The sign of the second derivative
+    distinguishes a minimum from a maximum."""
 
     missing = "is not the value of a function where its slope vanishes"
     curvature: Expr
@@ -105,15 +106,16 @@ def value_of(
     more: Sequence[tuple[str, Expr]] = (),
     case: str = "",
 ) -> Quantity | None:
-    """The value of an answer in a unit, rounded to significant figures; None if letters remain, or if the value is
-    imaginary, such as a frequency without an oscillation.
+    """The value of an answer in a unit, rounded to significant figures. The result is None if letters remain, if the
+    answer is zero or an integer without letters, or if the value is imaginary, such as a frequency without an
+    oscillation.
 
     answer    any quantity; if it is a relation with one letter on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
     unit      the name of the unit; `factor` is this unit in the SI
     more      other units for the same value, each with its factor
     case      the name of the case with these numbers, if there are several cases
-    Check: the expression, evaluated again from the numbers of its letters, with enough digits against cancellation.
+    Check: the expression, evaluated again from the numbers of its letters, with extra digits against cancellation.
     For a condition on a letter with a given number, the step states whether this number satisfies the condition. A
     period that is known as a series gets its number from the integral. A result derived from the series has a number
     only if the series is accurate enough.
@@ -142,7 +144,7 @@ def value_of(
         return None
 
     def floats(result: Any) -> tuple[Any, Any]:
-        if isinstance(answer.value, Relation):  # a number changes neither the letter nor the mark
+        if isinstance(answer.value, Relation):  # the number must change neither the left side nor the mark
             asked, found = (getattr(each, "args", ())[:2] for each in (answer.value, result))
             if asked != found:
                 return Integer(1), Integer(0)
@@ -190,7 +192,7 @@ def _period_of(
 ) -> Quantity:
     """The number of a period from the integral, since the series is accurate for small amplitudes only.
 
-    Check: the integral by Gauss-Legendre quadrature, a method independent of the mean of equidistant values.
+    Check: the integral by Gauss-Legendre quadrature; the result itself is computed as a mean of equidistant values.
     """
     whole = series.needed(WholeSwing)
     time = _with_numbers(series, amounts)
@@ -272,8 +274,8 @@ def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: i
 def _given_beside(
     condition: Quantity, amounts: Mapping[Symbol, Amount], unit: tuple[str, Expr], figures: int
 ) -> PhraseData:
-    """For a condition on a symbol with a given number, return this number and whether it satisfies the condition: for
-    S > 23.55 rad/s, S = 900 rpm."""
+    """For a condition on a symbol with a given number, such as S > 23.55 rad/s, return this number (S = 900 rpm) and
+    whether it satisfies the condition."""
     relation = condition.value
     if (
         not isinstance(relation, Relation)
@@ -298,7 +300,8 @@ def _given_beside(
 
 
 def _bent(answer: Quantity, amounts: Mapping[Symbol, Amount]) -> dict[str, Expr]:
-    """Return the second derivative at an extremum with the numbers substituted; empty for any other result."""
+    """Return the second derivative at an extremum, with the numbers substituted; for any other result return an empty
+    mapping."""
     known = answer.fact(Extreme)
     return {} if known is None else {"curvature": explicit(bound(known.curvature, dict(amounts)))}
 
@@ -310,8 +313,8 @@ def _outcome(curvature: Expr | None, has_letters: bool) -> str:
 
 
 def is_plain(answer: Quantity) -> bool:
-    """Whether the number of an answer is clearer unchanged than in decimals: pi/2, the root of an integer, or 2 pi in
-    front of symbols."""
+    """Whether the number of an answer is clearer unchanged than in decimals: a rational number, pi/2, the square root
+    of an integer, or 2 pi in front of symbols."""
     value, _ = _valued(answer.value)
     if isinstance(value, MatrixBase):
         return all(_is_plain_number(entry) for entry in value)
@@ -368,7 +371,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
     condition   an inequality or an equation between given quantities, as `where` and `isotropic_where` yield
     amounts     symbol -> its number with a unit
-    Check: both sides, and the sign of their difference, as for `value_of`.
+    Check: both sides and the sign of their difference, evaluated again as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.
     Source: as `value_of`.
     """
@@ -405,13 +408,13 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
 
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
-    """Irrational number in front of the letters, rounded: sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2.
+    """Round the irrational number in front of the letters: sqrt(42)/28 M a^2 omega^2 becomes 0.2315 M a^2 omega^2.
 
     answer       a scalar with letters; the result is None if the scalar contains a sum, which has no separate number,
                  or if the number is rational
     figures      significant figures
     of_vectors   whether the answer may be a vector of numbers times letters; these numbers may be rational
-    Check: the answer divided by its letters, as for `value_of`.
+    Check: the answer divided by its letters, evaluated again as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
     """
@@ -443,7 +446,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
 
 
 def in_radians(amount: Amount) -> Amount:
-    """Return an amount in degrees in radians, pi/36 rad for 5 degrees; return any other amount unchanged."""
+    """Convert an amount from degrees to radians, 5 degrees to pi/36 rad; return any other amount unchanged."""
     return Amount(explicit(amount), "rad", Integer(1)) if amount.args[1].name in IN_DEGREES else amount
 
 

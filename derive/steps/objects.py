@@ -26,7 +26,7 @@ from derive.steps.step import Form, Quantity
 
 PLAIN: tuple[Any, ...] = (str, bool, int, float, type(None))
 GATHERED: Mapping[str, Any] = {"list": list, "set": set, "frozenset": frozenset}
-VALUES = (Form, Evidence)  # too many and too small to have names
+VALUES = (Form, Evidence)  # there are too many of these small objects to give each a name
 
 
 class NoDescription(Exception):
@@ -98,7 +98,7 @@ class Objects:
         return data
 
     def _letter(self, letter: Dummy, told: list[str]) -> str:
-        """Return a unique name for a dummy symbol; two dummy symbols that print alike get distinct names."""
+        """Return a unique name for a dummy symbol; two dummy symbols with the same printed form get distinct names."""
         known = self._letters.get(letter)
         if known is None:
             alike = sum(each.name == letter.name for each in self._letters)

@@ -32,7 +32,7 @@ class Call:
     """A call of a verb while it runs.
 
     before   the number of quantities that were established before the call
-    asked    the questions that the call asked the record: the question, its arguments, the answer
+    asked    the questions of the call to the record, each with its arguments and its answer
     """
 
     before: int
@@ -91,7 +91,8 @@ current_run: ContextVar[Run | None] = ContextVar("run", default=None)
 
 @contextmanager
 def recorded(run: Run | None = None) -> Iterator[Run]:
-    """Record a run, so that the page can name the steps that it does not show and the assumptions of the run."""
+    """Record a run: its quantities, so that those which no answer needs can be reported, and its assumptions, which the
+    page states."""
     run = run or Run()
     token = current_run.set(run)
     try:
@@ -106,8 +107,8 @@ A = TypeVar("A")
 
 
 def question(answered: Callable[..., A]) -> Callable[..., A]:
-    """Decorate a function by which a verb asks the record. While a verb runs, each question and its answer are noted.
-    If the answer differs in a later run, the verb is called again."""
+    """Decorate a function with which a verb queries the record. While a verb runs, each question and its answer are
+    noted. If the answer differs in a later run, the verb is called again."""
     QUESTIONS[answered.__name__] = answered
 
     @wraps(answered)
@@ -164,10 +165,11 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 
 @question
 def free_letter(name: str, *indices: str) -> str:
-    """Return the symbol for a result; if the problem already uses its letter, return one with another textbook letter.
+    """Return the usual symbol of a result or, if the problem already uses that symbol, one with another textbook
+    letter.
 
     name      the usual symbol, with its own index
-    indices   further indices with which the symbol must not be used either
+    indices   further indices; the problem must not use the returned symbol with one of them either
     """
     run = current_run.get()
     base, _, own = name.partition("_")
@@ -216,7 +218,7 @@ def established() -> list[Quantity]:
 
 @question
 def _established_before() -> tuple[Quantity, ...]:
-    """Return the quantities that the run had established before the call of the verb that asks."""
+    """Return the quantities that the run had established before the current call of a verb."""
     run = current_run.get()
     return _before_call(run) if run is not None else ()
 
@@ -237,7 +239,7 @@ def named_coordinates() -> tuple[Symbol, ...]:
 
 
 def coordinates_in(result: Any) -> dict[Symbol, str]:
-    """Return the coordinates of the run that occur in a result, themselves or through a rate."""
+    """Return each coordinate of the run whose symbol or one of whose rates occurs in a result, with its kind."""
     run = current_run.get()
     if run is None or not run.coordinates:
         return {}
@@ -266,7 +268,7 @@ def _check_one_meaning(
     """Check that a symbol denotes one quantity in a script: another value with this symbol must be a case of the
     quantity.
 
-    A coordinate and its rates may have several values, since each motion has its own.
+    A coordinate and its rates may have several values, since each motion has its own values.
     """
     symbol = quantity.symbol
     moving = {s for q in coordinates for s in (q, rate(q), rate(q, 2))}

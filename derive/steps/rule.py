@@ -71,7 +71,7 @@ class Theorem:
     formula   its formula
     source    book and section
     letters   further symbols that the phrase names, with their names in the phrase
-    prepared  whether it is stated before a step that prepares the steps that use it
+    prepared  whether the page states it earlier: before a step that prepares for its use
     """
 
     name: str
@@ -85,9 +85,9 @@ class Theorem:
 class Quote:
     """The use of a theorem by the steps of a rule.
 
-    outcomes   outcomes that use it; empty for all
-    law_in     outcomes in which the theorem is the law of the step, so the step need not write it again
-    between    the words `between` of those steps that use the theorem; empty if all steps use it
+    outcomes   outcomes whose steps use the theorem; empty if the steps of all outcomes do
+    law_in     outcomes in which the theorem is the law of the step, so the step need not repeat the law
+    between    values of the term `between` with which a step uses the theorem; empty if all values do
     """
 
     theorem: Theorem
@@ -108,14 +108,14 @@ class Rule:
     name        folder and function
     source      book and section
     outcomes    word -> the predicate that must be true of the result for the word to be right
-    evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics and would
-                find a wrong law. A check starts from the result or from the same formula and would find a slip. A
-                rule without evidence is a definition
+    evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
+                it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an
+                error of algebra. A rule without evidence is a definition
     statements  predicates of the roles, points and formulas that only the sentence has; they apply to every outcome
-    named       role -> the predicate of an object that only the sentence names; `value` also judges `value_1`
+    named       role -> the predicate of an object that only the sentence names; that of `value` also judges `value_1`
     shown       how a page shows its steps
     quotes      the theorems that its steps use
-    prepares    the theorem that a page states before such a step, for the steps that depend on it
+    prepares    the theorem that a page states before a step of this rule, if a later step uses the theorem
     """
 
     name: str
@@ -133,7 +133,7 @@ class Rule:
 
     @property
     def key(self) -> str:
-        """Return the default key of its steps."""
+        """Return the default key of a step of this rule."""
         return self.name.rpartition(".")[2]
 
     @property
@@ -141,18 +141,18 @@ class Rule:
         return not self.evidence
 
     def verdict(self, outcome: str, facts: Judged) -> bool | Doubt:
-        """Whether the rule has this outcome, and the outcome and all other statements of the sentence are true."""
+        """Whether the rule has this outcome, the outcome is true, and all other statements of the sentence are true."""
         predicate = self.outcomes.get(outcome)
         verdict = predicate is not None and predicate(facts)
         return verdict and self._stated(outcome, facts)
 
     def _stated(self, outcome: str, facts: Judged) -> bool | Doubt:
         if not _names_its_point(facts):
-            return Doubt("it names a point that the result is not about")
+            return Doubt("it names a point other than the reference point of the result")
         if not _names_its_axis(facts):
             return Doubt("it names an axis other than the axis of the result")
         if not _letter_of_its_axis(facts):
-            return Doubt("its letter has the index of another axis")
+            return Doubt("the letter of the result has the index of another axis")
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
 
     def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:

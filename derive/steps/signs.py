@@ -1,4 +1,4 @@
-"""The sign of an expression: one decision for the whole engine.
+"""Decide the sign of an expression; the whole engine uses this module.
 
 These means are tried in this order, until one of them decides the sign:
 
@@ -143,7 +143,7 @@ def taken_positive(value: Expr) -> int | None:
 
 
 def _odd_factors(value: Expr) -> list[Expr]:
-    """Return the factors of a value without numbers and even powers; their product has the sign of the value."""
+    """Return the factors with an odd power, without the number in front; their product has the sign of the value."""
     try:
         number, found = factor_list(value)
     except PolynomialError:
@@ -174,11 +174,11 @@ def undecided(value: Any) -> Doubt:
 
 
 def holds(number: Expr | int, mark: str) -> bool:
-    """Whether the relation between a number and zero is true."""
+    """Whether a number and zero satisfy the relation with this mark, such as `number > 0`."""
     return (0 if number == 0 else 1 if number > 0 else -1) in SIGNS_OF[mark]
 
 
 def of_the_size(value: Expr, mark: str) -> Expr:
-    """Return the absolute value of a difference with the sign that the mark requires: the value itself if the mark is
-    right."""
+    """Return the absolute value of a difference, with the sign that the mark (=, < or >) requires. If the mark is
+    right, this is the difference itself."""
     return {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}.get(mark, nan)

@@ -31,8 +31,8 @@ class Form:
     """One line of a chain: an expression, and the reason why it equals the line before.
 
     `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal. A
-    form may be a `Relation`. Then the relation before it, divided by the `nonzero` factors, is equivalent to it. In the
-    case considered these factors do not vanish; in an inequality they are positive.
+    form may be a `Relation`; it is then equivalent to the relation in the line before, divided by the `nonzero`
+    factors. In the case considered these factors do not vanish; in an inequality they are positive.
     """
 
     expr: Any
@@ -47,18 +47,18 @@ class Step:
 
     A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are the
     coordinates in the step, with their kinds. `stands_for` are keys of steps that would exist in another case, such as
-    the second root of an equation that has only one root here. `names` are the names in the lines that came from
-    earlier steps, with their values. `motion` are the values of rates by the equations of motion, for a line that holds
-    only for motions that satisfy these equations. `law_at` is the place of the law in the code, such as
-    `derive/mechanics/rotation/vectors.py:120`.
+    the second root of an equation that has only one root here. `names` are those names in the lines that earlier steps
+    introduced, with their values. `motion` are the values of rates that follow from the equations of motion; a line
+    that uses them holds only for motions that satisfy these equations. `law_at` is the place of the law in the code,
+    such as `derive/mechanics/rotation/vectors.py:120`.
 
     The result of a limit or a series has a separate symbol; `approximates` is the symbol of the whole result, or the
     key of the whole equation. `about` means that the step is derived from such a limit or series, so its symbol only
     approximately equals its first line.
 
     `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that the
-    step uses, the names of theorems that state its law, and the theorem that a page states before the step for the
-    steps that depend on it.
+    step uses, the names of theorems that state its law, and the theorem that a page states before the step because
+    later steps use it.
     """
 
     key: str

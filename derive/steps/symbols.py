@@ -1,5 +1,5 @@
-"""Check the symbol of a result: a letter with indices that are not empty, and a scalar, vector or tensor like the
-result."""
+"""Check the symbol of a result: it is a letter whose indices are not empty, and it denotes a scalar, a vector or a
+tensor if the result is one."""
 
 from __future__ import annotations
 

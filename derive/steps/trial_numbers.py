@@ -1,11 +1,13 @@
 """Trial numbers: the points at which predicates test a statement, and the tests that predicates have in common.
 
-A point gives each symbol a rational number. The range of the symbol, the assumed order of symbols and the conditions of
-the statement allow this number. At some points all numbers are of ordinary size; at other points one symbol is large
-while another is small. Up to four symbols that may be negative take all combinations of signs.
+A point gives each symbol a rational number. The numbers are in the ranges of their symbols, and they satisfy the
+assumed order of symbols and the conditions of the statement. At some points all numbers are of ordinary size; at other
+points one symbol is large while another is small. Up to four symbols that may be negative take all combinations of
+signs.
 
-Verbs decide a sign by the assumptions on the symbols, and their checks draw other points. Here a statement is accepted
-only if it is true at each point where it has a meaning, and if there is such a point.
+These tests are independent of verbs: verbs decide a sign by the assumptions on the symbols, and the checks of verbs use
+other points. A statement is accepted only if it is true at each point where it has a meaning, and if there is such a
+point.
 """
 
 from __future__ import annotations
@@ -28,12 +30,12 @@ from derive.steps.record import assumed
 Point: TypeAlias = Mapping[Any, Expr]
 
 TRIED = 24  # points at which a statement is tested
-DRAWN = 240  # at most so many points are drawn to find points that satisfy the conditions
-PAIRS, HALVINGS = 4, 10  # pairs of points on both sides of a border; halvings of the distance between two points
+DRAWN = 240  # largest number of points that are drawn to find points that satisfy the conditions
+PAIRS, HALVINGS = 4, 10  # pairs of points, one on each side of a border; number of halvings of their distance
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
 PRIMES = tuple(primerange(5, 130))
-ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # signs of left minus right
-SMALL = Rational(1, 10**20)  # an imaginary part smaller than this part of the real part is a rounding error
+ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # signs of (left - right)
+SMALL = Rational(1, 10**20)  # a smaller ratio of imaginary to real part is a rounding error
 
 
 def trial_points(letters: Iterable[Any], *conditions: Relation, tried: int = TRIED) -> list[Point]:
@@ -132,7 +134,7 @@ def sign_found(value: Expr) -> int | None:
 
 
 def sign_as_set(value: Expr, point: Point) -> set[int | None]:
-    """Return the sign of a value at one point, or None for a value that is not real or not defined, as a set."""
+    """Return a set with one entry: the sign of a value at a point, or None if the value is not real or not defined."""
     try:
         return {sign_at(value, point)}
     except Undefined:

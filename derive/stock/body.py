@@ -54,7 +54,7 @@ DEPENDING = {
 
 @dataclass(frozen=True)
 class Questions(Record):
-    """The questions about a body, in addition to its description."""
+    """Keys that specify the points and axes of the answers about a body."""
 
     about: Word | None = key(
         "the point about which its inertia tensor and its moments are taken: `apex`, `corner`, `pivot`", TEXT
@@ -73,7 +73,7 @@ class OneOfManyKeys(Questions, BodyKeys):
 
 @dataclass(frozen=True)
 class GivenBody(Questions):
-    """The keys of one body or of several bodies, and the questions about them."""
+    """The keys of one body or of several bodies, and of the points and axes of the answers."""
 
     body: BodyKeys | None = key("the body", BODY)
     bodies: Mapping[Word, OneOfManyKeys] = key(
@@ -84,7 +84,7 @@ class GivenBody(Questions):
 
 @dataclass(frozen=True)
 class Asked:
-    """A body, and the points and axes of the questions about it."""
+    """A body, and the points and axes of the answers about it."""
 
     described: DescribedBody
     about: str = "centre"
@@ -94,7 +94,8 @@ class Asked:
 
     @property
     def prefix(self) -> str:
-        """Return how the names of the answers begin: with the name of the body, or with nothing for a single body."""
+        """Return the beginning of the names of the answers: the name of the body, or an empty text for a single
+        body."""
         return f"{self.described.called.replace(' ', '_')}_" if self.described.called else ""
 
 
@@ -106,7 +107,7 @@ class DescribedBodies(Described):
 
 
 def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) -> DescribedBodies:
-    """Return the description in the declared symbols."""
+    """Return the description with its values as expressions in the declared symbols."""
     known = InLetters(symbols)
     found = attempted(faults, _bodies, written, known) or []
     results = read_results(written.results, known, faults)
@@ -149,7 +150,8 @@ def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: I
 
 
 def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
-    """Return the questions about one body; missing ones are taken from the questions for all bodies."""
+    """Return one body with its points and axes; a point or axis that the body does not specify is that for all
+    bodies."""
     about, origin = own.about or others.about, own.origin or others.origin
     directions = Directions(known)
     direction = own.direction or others.direction
@@ -306,7 +308,7 @@ class BodyAnswers(Answers[Asked]):
         return moment_about(tensor, along, **named)
 
     def under_key(self, name: Word, own: str, key: str, letter: dict[str, str], tensor: Mapping[str, str]) -> Quantity:
-        """Return an answer under the key of a result.
+        """Return an answer whose key is the name of a result.
 
         own      the name of the answer without the name of the body
         letter   the symbol of the result, if the author chose one
@@ -329,7 +331,8 @@ class BodyAnswers(Answers[Asked]):
 
 
 class BodiesAnswers(StockAnswers[DescribedBodies]):
-    """The quantities of one body or of several. With several, each name begins with the name of its body."""
+    """The quantities of one body or of several bodies. If there are several, each name begins with the name of its
+    body."""
 
     what = "a body"
 
@@ -338,11 +341,11 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         self.of = {one.prefix: BodyAnswers(one) for one in described.bodies}
 
     def asks(self) -> dict[str, Callable[[], Any]]:
-        """Return every name that a part may ask for."""
+        """Return name -> function that derives the answer, for every name that a part may ask for."""
         return {f"{prefix}{name}": asked for prefix, one in self.of.items() for name, asked in one.asks().items()}
 
     def solve(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return the answers by the names that parts ask for, and draw each body."""
+        """Return name -> answer for the requested names, and draw each body."""
         for one in self.of.values():
             drawn(one.body)
         return super().solve(asked)

@@ -116,7 +116,7 @@ class DescribedRotation(Described):
 
 
 def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedRotation:
-    """Return the description in the declared symbols."""
+    """Return the description with its values as expressions in the declared symbols."""
     known = InLetters(symbols)
     _check_together(written, faults)
     body = attempted(faults, Bodies(known).body, written.body) if written.body else None
@@ -203,7 +203,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     what = "a rotation"
 
     def solve(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return the answers by the names that parts ask for, and draw the body."""
+        """Return name -> answer for the requested names, and draw the body."""
         found = super().solve(asked)
         described = self.described
         if described.body is not None:

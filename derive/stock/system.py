@@ -68,7 +68,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         }
 
     def solve(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return the answers by the names that parts ask for, and draw the system."""
+        """Return name -> answer for the requested names, and draw the system."""
         if self.described.given is None:
             with told_at(self.described.place):
                 start = started(self.described.results, self.system)
@@ -79,7 +79,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return answers
 
     def asks(self) -> dict[str, Any]:
-        """Return every name that a part may ask for, including those of an impact."""
+        """Return name -> function that derives the answer, for every name that a part may ask for, including those of
+        an impact."""
         return super().asks() | (self.of_impact.asks() if self.of_impact is not None else {})
 
     @cached_property
@@ -325,10 +326,10 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def potential_at_rest(self) -> Quantity:
         """Return the function that is stationary at equilibria.
 
-        This function is the effective potential energy if some but not all momenta are constant, or if the only
-        coordinate is driven. Otherwise it is the Lagrangian if a coordinate is driven or forces are given, and the
-        potential energy if not. With constraints it is never the effective potential energy; with a given Lagrangian it
-        is never the potential energy.
+        In a system without constraints, this function is the effective potential energy if some but not all momenta are
+        constant, or if the only coordinate is driven. In all other systems of bodies, it is the Lagrangian if a
+        coordinate is driven or forces are given; if neither, it is the potential energy. If the Lagrangian is given, it
+        is the effective potential energy if some but not all momenta are constant, and otherwise the Lagrangian.
         """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
@@ -389,7 +390,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.described.given is not None or bool(self.system.given_forces)
 
     def _check_letters(self) -> None:
-        """Check that all steps with a symbol that the description introduces are of one kind."""
+        """Check that each symbol that the description introduces denotes quantities of one kind."""
         run = current_run.get()
         established = run.established if run is not None else []
         for name, place in self.described.brought.items():

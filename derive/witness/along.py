@@ -59,7 +59,7 @@ def equation(claim: Claim) -> Verdict | None:
 
 
 def substitution(claim: Claim) -> Verdict | None:
-    """Test whether substituted values agree with the constraints, and whether the equation holds with them."""
+    """Test whether substituted values agree with the constraints, and whether the equation holds with these values."""
     contradiction = _fits_together(claim)
     return equation(claim) if contradiction is None else contradiction
 

@@ -24,7 +24,7 @@ REDUCED = frozenset(["hamilton.routhian", "hamilton.effective_potential"])
 APPROXIMATE = frozenset(
     ["answers.equation_in_limit", "answers.limiting_case", "answers.known_case", "answers.case_in_letters"]
 )
-CLOSE = 1e-6  # relative accuracy of agreement, compared with the size of the terms
+CLOSE = 1e-6  # two values agree if they differ by less than this fraction of the size of their terms
 TRIALS = 2
 STATES = 3
 
@@ -87,7 +87,8 @@ class Claim:
 
     @cached_property
     def constants(self) -> dict[Symbol, Expr]:
-        """Cyclic coordinates that were eliminated by their constant momenta, with the values of these momenta."""
+        """Cyclic coordinate -> its constant momentum, for each cyclic coordinate that was eliminated by means of this
+        momentum."""
         found: dict[Symbol, Expr] = {}
         reduced = [each for each in self.quantity.ancestors() if each.step.rule in REDUCED]
         for each in (ancestor for step in reduced for ancestor in step.ancestors()):
@@ -122,7 +123,8 @@ class Claim:
                 return
 
     def moments(self, trial: Trial, given: Sequence[Given] | None = None) -> Iterator[tuple[State, Response]]:
-        """States of the motion with their responses; states that do not determine the accelerations are left out."""
+        """States of the motion, each with its accelerations and multipliers; states that do not determine these are
+        left out."""
         for which in range(STATES):
             try:
                 state = trial.state(self.states_given if given is None else given, which)

@@ -53,7 +53,7 @@ class Pair:
 class Force:
     """A force in N at the position `place`; or a torque in N m, if `place` has only one component, an angle.
 
-    body   the index of the body on whose particle at this position the force acts; by default no body
+    body   the index of a body: the force acts on the particle of this body at `place`; by default, on `place` itself
     """
 
     components: Vector

@@ -182,7 +182,7 @@ class Dynamics:
         return Response(known[: self.count], known[self.count :], rank)
 
     def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
-        """Each mass with its position, twice, and each second moment with its pair of axes."""
+        """Each mass with its position given twice, and each second moment with its two body axes."""
         for mass, place in self._weighed(at):
             yield mass, place, place
         for body, (_, _, spread) in zip(at.bodies, self._bodies, strict=True):
@@ -244,9 +244,10 @@ class Dynamics:
         return found
 
     def _kept(self, state: State) -> tuple[Reals, Reals]:
-        """The gradients A of the conditions, and their time derivatives b at zero acceleration.
+        """The gradients A of the conditions, and the time derivatives b of the conditions at zero acceleration.
 
-        For a condition on coordinates b is the second time derivative, for a condition on rates the first.
+        The entry of b is the second time derivative of a condition on coordinates, or the first time derivative of a
+        condition on rates.
         """
         conditions, n = self.blueprint.of.conditions, self.count
         gradients, left = np.zeros((len(conditions), n)), np.zeros(len(conditions))
@@ -276,10 +277,10 @@ class Dynamics:
         return slopes[:, :n], slopes[:, n : 2 * n], np.stack([slopes[:, 2 * n], second], axis=1)
 
     def violation(self, state: State) -> tuple[Reals, Reals]:
-        """The residuals of the conditions, and the residuals that the rates should make zero.
+        """Two arrays that are zero if the state satisfies all conditions.
 
-        The first array is zero for conditions on rates. The second array holds the residuals of these conditions, and
-        the time derivatives of the other conditions.
+        The first array has the residuals of conditions on coordinates, and zero for each condition on rates. The second
+        array has the residuals of conditions on rates, and the time derivatives of conditions on coordinates.
         """
         here = np.concatenate([state.q, state.v, [state.t]]).astype(complex)[:, None]
         residuals = np.real(self._conditions(here))[:, 0]
@@ -288,7 +289,8 @@ class Dynamics:
         return np.where(in_rates, 0.0, residuals), np.where(in_rates, residuals, along[:, 0])
 
     def gradients(self, state: State) -> tuple[Reals, Reals]:
-        """The gradients of the two arrays of `violation`: with respect to coordinates, and with respect to rates."""
+        """The derivatives of the first array of `violation` with respect to coordinates, and of the second with respect
+        to rates."""
         by_places, by_rates, _ = self._slopes_of_conditions(state)
         in_rates = self.blueprint.in_rates
         on_places = by_places.copy()

@@ -1,7 +1,7 @@
 """The positions of all parts of a description in a state, with their derivatives.
 
 Complex steps give the first derivatives with respect to each coordinate and along the motion. The second derivative
-along the motion, at constant rates, is computed from first derivatives at six points ahead and behind.
+along the motion, at constant rates, is computed from first derivatives at three points ahead and three points behind.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ def _points(state: State) -> Numbers:
     """The points at which formulas are evaluated.
 
     These are the state itself, the state with a complex step along each coordinate, the state with a complex step along
-    the motion, and six states ahead and behind, also with a complex step along the motion.
+    the motion, and three states ahead and three behind, each with a complex step along the motion.
     """
     n = len(state.q)
     here, along = np.append(state.q, state.t), np.append(state.v, 1.0)

@@ -45,7 +45,7 @@ class After:
 
 
 def after(of: Impact, trial: Trial) -> After | None:
-    """The rates and impulses after an impact; None if the momentum balance does not determine them."""
+    """The rates just after an impact, and its impulses; None if the momentum balance does not determine them."""
     blueprint = trial.blueprint
     q = blueprint.coordinates
     given = [Given(symbol, value) for symbol, value in of.at]
@@ -82,7 +82,8 @@ def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
 
 
 def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Reals, Reals, list[Symbol]]:
-    """The mass matrix, and for each unknown impulse its effect on the momenta, a required speed, and its symbol.
+    """The mass matrix, and for each unknown impulse: its effect on the momenta, the speed required after the impact,
+    and its symbol.
 
     The effect on the momenta is returned twice: as a column of the momentum balance, and as a row of the conditions
     that give the speed after the impact.

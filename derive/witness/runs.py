@@ -23,16 +23,16 @@ from derive.witness.trial import Contradiction, Given, Trial
 
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
-MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event; with an event that may be short
+MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
-MANY = 6  # motions from one start; the values of the symbols may decide whether a motion reaches a position
-NUDGE = 2e-3  # fraction of the distance by which a motion is displaced from an equilibrium at its start
+MANY = 6  # sets of numbers that are tried, because the numbers may decide whether a motion reaches a position
+NUDGE = 2e-3  # a motion begins at this fraction of its distance, because its start may be an equilibrium
 Event = Callable[[State], float]
 
 
 class TooLong(Exception):
-    """Reports a motion that needs more evaluations than one test is allowed."""
+    """Reports a motion that needs more evaluations of the accelerations than `CALLS`."""
 
 
 class Run:
@@ -185,7 +185,7 @@ def _can_go_on(claim: Claim, trial: Trial, unknown: Expr, begin: Expr, place: Ex
 
 
 def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
-    """The state; if the motion would start away from the stated position, all rates are reversed."""
+    """The given state; if the motion from it would move away from the stated position, all its rates are reversed."""
     from dataclasses import replace
 
     response = trial.dynamics.response(state)

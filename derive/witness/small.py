@@ -61,7 +61,8 @@ class Neighbourhood:
         return np.array(rows[rank:].T)
 
     def at(self, basis: Reals, u: Reals, w: Reals) -> State:
-        """The state with the displacements u along the basis and their rates w, at the constraints or given momenta."""
+        """The state with the displacements u along the basis and their rates w, changed so that it satisfies the
+        constraints or has the given momenta."""
         q, v = self.state.q.copy(), self.state.v.copy()
         q[list(self.free)] += basis @ u
         v[list(self.free)] = self.state.v[list(self.free)] + basis @ w
@@ -157,7 +158,8 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 
 def stability(claim: Claim) -> Verdict | None:
-    """Test whether a small displacement stays small or grows; if a condition decides this, test both sides of it."""
+    """Test whether a small displacement stays small or grows, as stated. If the step states a condition for stability,
+    the displacement must stay small where the condition holds, and grow where the condition does not hold."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None
@@ -315,7 +317,8 @@ def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
 
 
 def _stays(near: Neighbourhood) -> bool:
-    """Whether the system is undriven, so its equilibrium is the same at all times."""
+    """Whether the accelerations vanish in this state at two different times, so that the state is an equilibrium at all
+    times."""
     at_times = [near.trial.dynamics.response(replace(near.state, t=t)) for t in (0.0, 0.3)]
     return all(np.max(np.abs(each.a[list(near.free)]), initial=0.0) < STAYS * 10 for each in at_times)
 

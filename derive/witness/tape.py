@@ -42,7 +42,7 @@ from derive.algebra.ordered_roots import OrderedRoot
 Numbers: TypeAlias = NDArray[np.complex128]
 Operation: TypeAlias = tuple[Callable[..., Any], tuple[int, ...]]
 
-LARGEST = 20_000  # largest number of operations in the formulas of one description
+LARGEST = 20_000  # largest number of operations on one tape
 
 
 class NotComputable(Exception):
@@ -79,7 +79,7 @@ FUNCTIONS: Mapping[Any, Callable[..., Any]] = {
 
 
 def _root_in_order(number: int, *coefficients: Any) -> Any:
-    """The root with this number, in ascending order, of a polynomial whose roots are all real; at each point."""
+    """At each point, root number `number`, in ascending order, of a polynomial whose roots are all real."""
     rows = np.stack(np.broadcast_arrays(*map(np.asarray, coefficients)), axis=-1)
     found = [np.sort(np.roots(np.real(row)).real)[number - 1] for row in rows.reshape(-1, rows.shape[-1])]
     return np.asarray(found, dtype=complex).reshape(rows.shape[:-1])

@@ -39,7 +39,8 @@ HOLDS = {
 
 
 class Contradiction(Exception):
-    """Reports given values that are impossible in the described system; `of_rates` if their rates are impossible."""
+    """Reports given values that are impossible in the described system; `of_rates` is true if only the values of rates
+    are impossible."""
 
     def __init__(self, of_rates: bool):
         super().__init__()
@@ -174,7 +175,8 @@ class Trial:
         return State(np.array(q), np.array(v), abs(time))
 
     def _projected(self, state: State, given: Sequence[Given]) -> State:
-        """Project a state onto the conditions and given values by least changes: of coordinates, then of rates."""
+        """Project a state onto the conditions and given values by the smallest changes, first of coordinates, then of
+        rates."""
         inputs = [*self.blueprint.coordinates, *self.blueprint.rates, TIME]
         kept = [(self.momenta[g.target], self.value(g.value)) for g in given if g.target in self.momenta]
         given = [g for g in given if g.target not in self.momenta]
@@ -306,7 +308,7 @@ class Formulas:
         return np.array([_real(x) for x in self._values(state, response)])
 
     def complex_at(self, state: State) -> complex:
-        """The value of the first formula at a state, which may be imaginary."""
+        """The value of the first formula in a state; this value may be complex."""
         return complex(self._values(state)[0])
 
     def _values(self, state: State, response: Response | None = None) -> NDArray[np.complex128]:
@@ -317,7 +319,8 @@ class Formulas:
         return self._bound(point[:, None])[:, 0]
 
     def rate_at(self, state: State, response: Response) -> Reals:
-        """The time derivatives of the values along the motion; the values may depend on coordinates, rates and time."""
+        """The time derivatives of the values along the motion; the values may depend on coordinates, rates and time
+        only."""
         rows = len(self.trial.blueprint.multipliers)
         n = len(state.q)
         here = np.concatenate([state.q, state.v, np.zeros(n + rows + self._count), [state.t]]).astype(complex)

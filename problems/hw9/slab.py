@@ -1,4 +1,4 @@
-"""A slab that rocks on a fixed cylinder: where it is stable, how fast it swings, and what holds it there."""
+"""A slab that rocks on a fixed cylinder: its stability, its oscillation frequency and the contact force."""
 
 from sympy import S, cos, pi, sin
 
@@ -17,7 +17,7 @@ def solve(
 ):
     if width is not None and inertia is not None:
         raise ValueError("give `inertia` or `width`, not both")
-    section = Plate((width or 3 * radius + thickness, thickness), mass)  # every slice has its share of the mass
+    section = Plate((width or 3 * radius + thickness, thickness), mass)  # the cross-section, with the whole mass
     slab = section if width is not None else RigidBody(mass, inertia, look=section)
     theta, s, x, y = coordinate("theta"), *(coordinate(name, "length") for name in ("s", "x", "y"))
     along, across = point(1, 0).turned(-theta), point(0, 1).turned(-theta)
@@ -36,7 +36,7 @@ def solve(
     curvature = stability(U, {theta: 0}, letter=radius, key="curvature")
     minimum = where(curvature, ">", 0, radius, key="minimum_condition")
 
-    # The second solution: x, y and theta are free, and the contact force is in their equations.
+    # The second solution treats x, y and theta as free coordinates; their equations contain the contact force.
     kept = [constraint(q, place.value, force=f"lambda_{place.key}") for q, place in zip((x, y), centre)]
     free = System(slab.placed(-theta, point(x, y)), weight(gravity), *kept)
     equations = equations_of_motion(lagrangian(free, symbol="L_free", key="free_lagrangian"), derivatives=False)

@@ -222,7 +222,7 @@ def test_flat_bodies_have_perpendicular_axes_and_radii_of_gyration() -> None:
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda: principal_angle(inertia_tensor(Plate((a, a), M), "corner")), "bisect the right angles"),
+        (lambda: principal_angle(inertia_tensor(Plate((a, a), M), "corner")), "are at 45 degrees to x and y"),
         (lambda: principal_angle(inertia_tensor(Cuboid((a, b, c), M), "corner")), "not a principal axis"),
         (lambda: moment_about(inertia_tensor(Ball(R, M)), (0, 0, 0)), "so the axis has no direction"),
         (lambda: tensor_entry(inertia_tensor(Ball(R, M)), "xw"), 'no entry "xw"'),

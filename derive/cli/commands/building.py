@@ -83,7 +83,7 @@ def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options,
     from derive.building.files import shown_path
     from derive.building.watch import Shown, watch
 
-    failed: dict[str, bool] = {}  # report that a set is up to date again after a failure
+    failed: dict[str, bool] = {}  # sets whose last build failed: their next success is reported
 
     def wrote(path: Path, seconds: float) -> None:
         tell("")

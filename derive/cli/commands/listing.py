@@ -43,7 +43,7 @@ def _list_answers(arguments: argparse.Namespace, root: Path) -> int:
 
     if not arguments.set or "/" not in (problem_id := problem_id_of(arguments.set)):
         message = "`--answers` lists the answers of one problem"
-        raise Misused(Complaint("no-such-problem", message, help="name it, such as `derive list hw9/block --answers`"))
+        raise Misused(Complaint("no-such-problem", message, help="for example `derive list hw9/block --answers`"))
     path_of(root, problem_id)
     with waiting(f"deriving {problem_id}"):
         work = partial(answers_of, root, problem_id)
@@ -53,8 +53,8 @@ def _list_answers(arguments: argparse.Namespace, root: Path) -> int:
 
 
 def _headlines(root: Path, ids: Sequence[str], paths: Mapping[str, str]) -> list[tuple[str, str]]:
-    """Return the points and title of each problem, read by one worker; if it fails, by one worker for each half of the
-    list."""
+    """Return the points and title of each problem. One worker reads all problems; if this worker fails, one worker
+    reads each half of the list."""
     from derive.building.headline import headline
     from derive.building.workers import done, job_of
 

@@ -1,7 +1,8 @@
 r"""Letters and functions in a formula: the meaning of a name, and where the argument of a function ends.
 
 Without brackets, an argument is the shortest run of factors that has a letter and is an angle or a number:
-`\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If the next factor could belong to it too, the formula is rejected.
+`\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If the next factor could also belong to the argument, the formula is
+rejected.
 """
 
 from __future__ import annotations
@@ -23,7 +24,8 @@ from derive.errors import Complaint, did_you_mean
 
 
 class Functions(Grids):
-    """The base of `Formula` for letters and functions; the grammar gives `atom`, `script`, `inside`, `raised_to`."""
+    """The base class of `Formula` for letters and functions; `Formula` defines `atom`, `script`, `inside`,
+    `raised_to`."""
 
     def __init__(self, scalar: Scalar, letters: Letters, homogeneous: bool):
         super().__init__(scalar, homogeneous)
@@ -59,7 +61,7 @@ class Functions(Grids):
         declared = self.letters.named(letter)
         if declared is None:
             self.undeclared.append(self.not_declared(letter))
-            self.homogeneous = False  # its dimension is unknown, so from here on dimensions are not compared
+            self.homogeneous = False  # the letter's dimension is unknown, so dimensions are no longer compared
             return Term(Dummy(letter.name, real=True), NUMBER, letter.start, letter.end)
         if dots_of(letter, declared) > MOST_DOTS:
             message = f"a letter has at most {MOST_DOTS} dots"
@@ -103,7 +105,7 @@ class Functions(Grids):
         three = cursor.tokens[cursor.at : cursor.at + 3]
         if len(three) == 3 and three[0].text == "(" and three[2].text == ")" and letter_at(three[1]):
             whole = self.text[letter.start : three[2].end]
-            help_line = "leave out the brackets, whether it is a product or a function"
+            help_line = "leave out the brackets, both for a product and for a function"
             self.refuse("ambiguous", f"`{whole}` could be a function", letter.start, three[2].end, help_line)
 
     def named_as_a_whole(self, cursor: Cursor, first: int) -> Term | None:

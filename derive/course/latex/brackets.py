@@ -17,7 +17,7 @@ MAX_SIDE = 6
 
 
 class Brackets(Functions):
-    """The base of `Formula` for brackets; the grammar defines `sum`, `closed_sum` and `unexpected`."""
+    """The base class of `Formula` for brackets; `Formula` defines `sum`, `closed_sum` and `unexpected`."""
 
     def bracketed(self, cursor: Cursor, opening: Token, depth: int) -> TermOrGrid:
         """Read the contents of brackets: a value, a triple, an antiderivative between limits."""
@@ -97,7 +97,7 @@ class Brackets(Functions):
     # -- limits -------------------------------------------------------------------------------------------------------
 
     def limits(self, cursor: Cursor, depth: int, sign: Token) -> tuple[Term, Term, Term | None]:
-        """Read the lower and the upper limit, and the variable if the lower limit contains its name: `_{z=0}^{z=h}`."""
+        """Return the lower limit, the upper limit, and the variable if the lower limit names it: `_{z=0}^{z=h}`."""
         found: dict[str, tuple[Term, Term | None]] = {}
         while cursor.token and cursor.token.kind == "script" and cursor.token.text not in found:
             script = cursor.token.text

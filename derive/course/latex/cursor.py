@@ -6,8 +6,8 @@ from derive.course.latex.tokens import Argument, Token
 
 
 class Cursor:
-    """A sequence of tokens; `bars` states for each open bracket whether it is a bar, because the next bar closes a
-    bar."""
+    """A sequence of tokens with a current position; `bars` states for each open bracket whether it is a bar `|`. If the
+    innermost is a bar, the next bar closes it."""
 
     def __init__(self, tokens: tuple[Token, ...], end: int):
         self.tokens = tokens
@@ -37,7 +37,8 @@ class Cursor:
 
     @property
     def written(self) -> str:
-        r"""The token as the tables have it: a mark unchanged, a command with its `\`."""
+        r"""The current token as it is written in the tables of `vocabulary`: a command begins with `\`, a mark is
+        unchanged."""
         token = self.token
         if token is None:
             return ""

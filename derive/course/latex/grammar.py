@@ -63,7 +63,8 @@ class Formula(Brackets):
     # -- chains ---------------------------------------------------------------------------------------------------
 
     def chain(self, cursor: Cursor) -> tuple[list[tuple[list[TermOrGrid], int, Token, Token]], list[str]]:
-        """Return the sides, each with alternatives, branches, first and last token; and the marks before them or ""."""
+        """Return the sides, each with its alternatives, branches, first and last token; and the mark before each side
+        or ""."""
         without_title(cursor)
         sides, marks = [], [self.relation(cursor) or ""]
         while True:
@@ -262,7 +263,7 @@ class Formula(Brackets):
                 self.refuse("latex", "only a number has degrees", base.start, base.end)
             return replace(degrees, expr=degrees.expr * pi / 180, end=script.end)
         if cursor.token and cursor.token.kind == "script":
-            self.refuse("latex", "this has two powers", cursor.token.start, help="put the first one in brackets")
+            self.refuse("latex", "this has two powers", cursor.token.start, help="put the first power in brackets")
         exponent = self.scalar_in(self.closed_sum(Cursor.over(script), depth + 1), "an exponent")
         if base is self.euler:
             term = self.applied("exp", exp, exponent, base.start, script.end)
@@ -308,7 +309,7 @@ class Formula(Brackets):
 
     def check_not_a_derivative(self, token: Token) -> None:
         if is_derivative(token) and not self.d_is_a_letter:
-            help_line = "transcribe what it is equal to"
+            help_line = "transcribe the value that the derivative is equal to"
             self.refuse("latex", "a derivative cannot be read", token.start, token.end, help_line)
 
     def inside(self, argument: Argument | None, depth: int) -> TermOrGrid:
@@ -346,7 +347,7 @@ class Formula(Brackets):
     def missing(self, cursor: Cursor) -> NoReturn:
         token = cursor.token
         if token and cursor.written == "\\partial":
-            help_line = "transcribe what it is equal to"
+            help_line = "transcribe the value that the derivative is equal to"
             self.refuse("latex", "a derivative cannot be read", token.start, token.end, help_line)
         if token and token.kind in ("cell", "row", "word"):
             self.unexpected(cursor)

@@ -52,7 +52,7 @@ def spanning(value: TermOrGrid, start: int, end: int) -> TermOrGrid:
 
 
 class Grids(Arithmetic, ABC):
-    """The operations of `Arithmetic`, also on columns and matrices.
+    """The operations of `Arithmetic`, extended to columns and matrices.
 
     Zero fits every dimension, because a document writes `0` in any matrix. `homogeneous` is false if numbers replace
     letters or the document is known to be wrong: dimensions are then not compared.

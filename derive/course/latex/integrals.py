@@ -1,6 +1,6 @@
 """Integrals as a document writes them: signs with limits, differentials in any customary place, brackets with limits.
 
-Only integrals that are quick to evaluate are read: of powers, of sines and cosines, and of the roots from circles.
+Only integrals that are quick to evaluate are read: integrals of powers, of sines and cosines, and of roots.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: li
 
 
 def _one(reader: Grids, inside: TermOrGrid, sign: Sign, variable: Term) -> TermOrGrid:
-    """Put one more integral around the value; its variable is replaced by a new letter."""
+    """Put one more integral around the value; the variable of this integral is replaced by a new letter."""
     check_limits(reader, variable, sign.lower, sign.upper)
 
     def integral(term: Term) -> Term:
@@ -129,9 +129,10 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 
 
 def _is_elementary(function: Expr, limits: Limits) -> bool:
-    """Return whether the integral is of a kind that is evaluated at once, or by SymPy with elementary rules.
+    """Return whether the integral can be evaluated by `definite`, or by SymPy with elementary rules.
 
-    An integral over a root is always read: if its kind is unknown, it counts as undefined and agrees with nothing.
+    An integral over a root always counts as elementary: if `definite` cannot evaluate the integral, it is undefined,
+    and its comparison with any value fails.
     """
     variables = {x for x, *_ in limits}
     ends = [end for _, *both in limits for end in both]
@@ -145,8 +146,8 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
 
 
 def _is_short(product: Expr, x: Symbol) -> bool:
-    """Return whether SymPy is quick: a power of x, or sines and cosines of one argument; of both or of several, only a
-    few."""
+    """Return whether SymPy integrates the product quickly: a power of x, or sines and cosines of one argument. Products
+    of powers and sines, or of sines with several arguments, must have few factors."""
     power, waves, arguments = 0, 0, set()
     for factor in Mul.make_args(product):
         base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, Integer(1))
@@ -165,8 +166,8 @@ def _is_short(product: Expr, x: Symbol) -> bool:
 
 
 def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:
-    """Return an antiderivative between limits; its variable is the only letter for which the limits can be
-    substituted."""
+    """Return an antiderivative between limits. If no variable is named, the variable is the only letter for which the
+    limits can be substituted."""
     term = reader.scalar_in(inner, "an antiderivative")
     limits = (lower.expr, upper.expr)
     x = variable.expr if variable else _only_letter(reader, term, lower, upper)
@@ -205,7 +206,8 @@ def _degree(expr: Expr, x: Expr, most: int) -> int:
 
 
 def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:
-    """Return the one letter of the bracket that the limits do not contain and that has their dimension."""
+    """Return the only letter of the antiderivative that the limits do not contain and that has the dimension of the
+    limits."""
     outside = lower.expr.free_symbols | upper.expr.free_symbols
     limit = upper if upper.expr != 0 else lower
     free = (s for s in term.expr.free_symbols - outside if s in reader.dimensions)

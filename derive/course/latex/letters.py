@@ -39,7 +39,8 @@ class Letter:
 
     @property
     def axis(self) -> int | None:
-        """The axis, if the letter could be a unit vector: i, j, k in bold or with an arrow; x, y, z only with a hat."""
+        """The index of the axis if the letter could be a unit vector: i, j, k in bold or with an arrow; x, y, z only
+        with a hat."""
         marked = self.hat or (self.vector and self.base in "ijk")
         return UNIT_VECTORS.get(self.base) if marked and not self.subscript and not self.dots else None
 
@@ -67,7 +68,7 @@ def _bare(subscript: str) -> str:
 
 
 def dots_of(letter: Letter, declared: Declared) -> int:
-    """Return the number of dots, including those of a letter that is declared as a rate; 0 if no dot is written."""
+    """Return the number of written dots plus the dots in the declared name of a rate; 0 if no dot is written."""
     return letter.dots and letter.dots + next(n for n in (3, 2, 1, 0) if declared.symbol.name.endswith(RATES[n]))
 
 

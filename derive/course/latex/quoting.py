@@ -2,7 +2,8 @@
 
 A quotation is data and never reaches TeX unchanged. Its formulas are split into commands and signs, which must be on a
 list and correctly nested, and are written again; anything unknown is rejected at its place. A quotation may contain
-more than the grammar reads, because a garbled formula must be quoted too, and less than TeX can do.
+commands that the grammar does not read, because a garbled formula must be quoted too. Not every command
+of TeX is allowed.
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ def read_latex(scalar: Scalar, letters: Mapping[str, Declared], *, homogeneous: 
     return _read(scalar, tuple(letters.items()), homogeneous)
 
 
-@lru_cache(maxsize=1024)  # for a process that reads several formulas
+@lru_cache(maxsize=1024)  # a process may read the same formula several times
 def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneous: bool) -> ReadMath:
     letters = dict(declared)
     plus = Formula(scalar, Letters(letters), homogeneous)

@@ -41,7 +41,7 @@ def _written(token: Token) -> str:
 
 
 def _within(tokens: tuple[Token, ...], i: int) -> bool:
-    """Return whether a bracket is open there: the `=` of `U(\\theta=0)` does not belong to the chain."""
+    """Return whether token i is inside brackets: the `=` in `U(\\theta=0)` does not separate sides of the chain."""
     kinds = [token.kind for token in tokens[:i]]
     return kinds.count("open") > kinds.count("close")
 

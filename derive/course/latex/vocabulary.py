@@ -86,8 +86,8 @@ INSTEAD: Mapping[str, str] = {
 }
 REFUSED: Mapping[str, tuple[str, str | None]] = {
     "log": ("the base of `\\log` is not clear", "write `\\ln`"),
-    "tag": ("a number of an equation is not part of it", "leave it out"),
-    "label": ("a label of an equation is not part of it", "leave it out"),
+    "tag": ("an equation number is not part of the equation", "leave it out"),
+    "label": ("a label is not part of the equation", "leave it out"),
     "sec": ("`\\sec` cannot be read", "write `1/\\cos`"),
     "csc": ("`\\csc` cannot be read", "write `1/\\sin`"),
     "iint": ("a multiple integral sign cannot be read", "write `\\int` with limits for each"),

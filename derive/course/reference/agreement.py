@@ -1,6 +1,7 @@
 """The comparison of one statement of a document with the derived step.
 
-If a letter is not in the step's value, it means the result of an earlier step: `rho`, `J_xx`, or `omega_x` of a spin.
+If a letter is not in the step's value, the letter means the result of an earlier step: `rho`, `J_xx`, or `omega_x` of a
+spin.
 """
 
 from __future__ import annotations
@@ -167,8 +168,8 @@ def _entries_of(value: Any) -> list[Expr]:
 
 
 def _numbers(pinned: Problem, kept: set[Symbol], entry: Entry) -> dict[Symbol, Expr]:
-    """Return numbers to substitute for letters: for letters that the statement lacks, and for letters that it
-    replaced."""
+    """Return the numbers to substitute for letters that the statement lacks, and for letters that the document replaced
+    by numbers."""
     return {m.symbol: m.si for m in pinned.measured if m.symbol not in kept or m.symbol.name in entry.put_in}
 
 
@@ -221,7 +222,7 @@ def _expressions(values: Any) -> list[Expr]:
 
 
 def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
-    """Map each name to its distinct values in these steps; components of general vectors are left out."""
+    """Map each name to its distinct values in these steps; components that are only symbols are left out."""
     found: dict[str, list[Any]] = {}
     for quantity in steps:
         names: tuple[Symbol, ...] = (quantity.symbol,) if isinstance(quantity.symbol, Symbol) else ()
@@ -243,8 +244,8 @@ def _of_kind(dimension: Dimension, value: Expr, kind: str | None) -> Verdict | N
 
 
 def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
-    """Return whether each printed decimal is within half a unit of its last digit; the letters after it must be the
-    same."""
+    """Return whether each printed decimal agrees with the derived number within half a unit of its last digit. The
+    letters that these numbers multiply must be the same."""
     printed, exact = _coefficients(stated), _coefficients(derived)
     if printed.keys() != exact.keys():
         return Verdict(Grade.REFUTED, f"{stated} against {derived}")

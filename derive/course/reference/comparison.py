@@ -1,8 +1,8 @@
 """The comparison of the statements of a document, in `problems/<set>/reference.yaml`, with the derived steps.
 
-The file is a list of groups. A group names a problem and fixes its input by own `symbols:`, `given:` and `values:`, so
-that an edit of the problem does not break the comparison and wrong numbers are never compared. Each of its entries
-states a value of one step:
+The file is a list of groups. A group names a problem and fixes the problem's input by its own `symbols:`, `given:` and
+`values:`. An edit of the problem therefore does not break the comparison, and wrong numbers are never compared. Each
+entry of a group states a value of one step:
 
     agrees               equal, with the grade of the evidence
     agrees to n figures  decimals, equal to that many figures
@@ -88,8 +88,8 @@ Steps = Table[str, Quantity]
 
 
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
-    """Compare every entry about this problem; `known` are its steps for the input in its own file. If a group fixes
-    another input, the steps for that input are derived with the calls in the `memory`."""
+    """Compare every entry about this problem; `known` are the steps for the input in the problem's file. If a group
+    fixes another input, the steps for that input are derived, and calls in `memory` are reused."""
     with within(problem.ranges):
         return _comparisons(problem, known, memory)
 
@@ -116,8 +116,9 @@ def _what_is_given(problem: Problem) -> object:
 
 
 def _pinned_steps(pinned: Problem, problem: Problem, memory: Memory | None) -> Steps:
-    """Return the steps, reused from earlier in this process if their inputs are the same: a preview compares often,
-    and an edit of the problem's givens does not change the input that a group fixes."""
+    """Return the steps for the input of a group. Steps from an earlier comparison in this process are reused if their
+    input is the same: a preview compares after each edit, and an edit of the problem's givens does not change the input
+    that a group fixes."""
     depends = (_text_of(pinned.script), _what_is_given(pinned), pinned.symbols, pinned.ranges, problem.ranges)
     found = next((steps for other, steps in _pinned_before if other == depends), None)
     if found is None:
@@ -201,7 +202,8 @@ def _difference(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem,
 
 
 def _fault(code: str, message: str, place: Place, *notes: str, help: str | None = None) -> Complaint:
-    """Return a warning, because the derivation is right by its own evidence; `derive check` fails on it anyway."""
+    """Return an error as a warning, because the derivation has its own evidence; `derive check` fails on this
+    warning."""
     return Complaint(code, message, place, notes, help, severity="warning")
 
 

@@ -18,9 +18,9 @@ from derive.course.reference.statements import Entry, Stated, Statement
 class Erratum:
     """`printed` and `right` are two values of the step `answer`; decimals keep their printed number of figures.
 
-    `quote` and `instead` are the same in the document's own letters, prose with formulas between dollar signs; they are
-    empty if the document was not transcribed unchanged. `line` is the line of the document. An
-    erratum of a formula that is garbled in print is not a value of a step, so it has only these fields.
+    `quote` and `instead` are what the document prints and what is right, in the document's own letters: prose with
+    formulas between dollar signs. They are empty if the document was not transcribed unchanged. `line` is the line of
+    the document. If a formula is garbled in print, `answer` is empty, and `printed` and `right` are None.
     """
 
     answer: str
@@ -46,7 +46,8 @@ class Erratum:
 
 
 def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
-    """Return the erratum that an entry of the reference states, in the problem's letters of the same names."""
+    """Return the erratum that an entry of the reference states; its letters become the problem's letters with the same
+    names."""
     assert entry.right is not None and entry.states is not None
     printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
     return Erratum(entry.answer, entry.part, entry.why, printed, right, entry.line, entry.quote, entry.instead)

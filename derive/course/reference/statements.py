@@ -42,7 +42,7 @@ _VALUE = "an expression, a list of 3, or 3 rows of 3"
 class Stated:
     """A value as the document states it: its entries with their dimensions, and its original text.
 
-    A value with `\\pm` has two branches. If it is not `homogeneous`, its dimensions have no meaning.
+    A value with `\\pm` has two branches. If `homogeneous` is false, the dimensions of the entries have no meaning.
     """
 
     branches: tuple[tuple[tuple[Expr, Dimension], ...], ...]
@@ -104,7 +104,7 @@ class Entry:
 
 
 def reference_path(problem: Problem) -> str:
-    """Return the path of the references of its set, relative to the root, whether or not the file exists."""
+    """Return the path of the reference file of the problem's set, relative to the root; the file need not exist."""
     return f"problems/{problem.set_id}/reference.yaml"
 
 
@@ -309,7 +309,7 @@ class _EntryReader:
         if not isinstance(node, Scalar) or node.empty:
             wrong_type(self.faults, key, "a formula in LaTeX", node)
             return None
-        from derive.course.latex import read_latex  # a grammar that few files need
+        from derive.course.latex import read_latex  # imported here, because few files need LaTeX
 
         with self.faults:
             read = read_latex(node, self.printed, homogeneous=homogeneous)

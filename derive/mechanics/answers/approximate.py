@@ -83,7 +83,7 @@ def equation_in_limit(
     if place not in (oo, -oo):
         told["place"] = place
     if kept.has(TIME) and place == 0 and any(f.has(x) and f.has(TIME) for f in left.atoms(Function)):
-        told["short"] = 1 / x  # a sine of Omega t is small with Omega only as long as the time is short
+        told["short"] = 1 / x  # for small Omega, sin(Omega t) is small only at short times
     return establish(
         EQUATION_IN_LIMIT,
         None,
@@ -104,7 +104,7 @@ def equation_in_limit(
 
 
 def _ratio(found: Relation, kept: Any) -> Any:
-    """Return the factor that an equation was divided by when it was arranged."""
+    """Return the factor by which an equation was divided when it was arranged."""
     return tidied(kept / explicit(found).residual)
 
 

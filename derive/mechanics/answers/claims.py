@@ -1,4 +1,4 @@
-"""Predicates of the outcomes of computed answers, and of the things that their sentences name."""
+"""Predicates that test the outcomes of computed answers, and the values that their sentences name."""
 
 from __future__ import annotations
 
@@ -94,8 +94,8 @@ def double(facts: Judged) -> bool:
 
 
 def only(facts: Judged) -> bool:
-    """Whether this is the only root that is kept. The polynomial has other roots, but they are complex, not positive
-    although the unknown is, or outside its range."""
+    """Whether this is the only root that is kept. All other roots of the polynomial are complex, or outside the range
+    of the unknown, or not positive for a positive unknown."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
     return alone and everywhere(trial_points(_letters(facts)), lambda point: _only_there(facts, point))
 
@@ -105,7 +105,7 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _only_there(facts: Judged, point: Point) -> bool:
-    """Whether no other root is possible at this point, or this root is not real there."""
+    """Whether, at these trial numbers, no other root is possible or this root is not real."""
     own = complex(value_at(explicit(facts.result), point))
     there = Poly(_polynomial(facts).as_expr().xreplace(dict(point)), facts.inputs["gen"])
     numbers = sorted(roots_of(there), key=lambda root: abs(root - own))
@@ -128,7 +128,8 @@ def of_several(first: bool) -> Predicate:
 
 
 def where_the_coefficients_last(predicate: Predicate) -> Predicate:
-    """Check also that the sentence excludes that all coefficients vanish, since any number would then be a root."""
+    """Return the predicate with a further test: the sentence must exclude the case that all coefficients vanish, since
+    any number would then be a root."""
 
     def is_so(facts: Judged) -> bool:
         known = [facts.inputs[role] for role in ("excluded", "condition") if role in facts.inputs]
@@ -168,7 +169,7 @@ def identity(facts: Judged) -> bool:
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
-    """Whether the difference, divided by the excluded factor, still vanishes for the result."""
+    """If a factor is excluded, judge whether the difference divided by this factor still vanishes for the result."""
     excluded = facts.inputs.get("excluded")
     if excluded is None:
         return True
@@ -189,8 +190,8 @@ def compared(squared: bool) -> Predicate:
 
 
 def always(wanted: bool) -> Predicate:
-    """Judge whether the difference has one sign for all values of its symbols, and whether this sign satisfies the
-    comparison, as wanted."""
+    """Judge whether the difference has the stated sign for all values of its symbols. This sign must satisfy the
+    comparison if `wanted` is true, and must violate it otherwise."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]
@@ -203,7 +204,8 @@ def always(wanted: bool) -> Predicate:
 
 
 def as_let(equation: bool, reason: bool) -> Predicate:
-    """Judge whether the step is an equation without a symbol or a value with a symbol, and whether it has a reason."""
+    """Judge whether the step is an equation without a symbol or, if `equation` is false, a value with a symbol. The
+    step must have a reason exactly if `reason` is true."""
 
     def is_so(facts: Judged) -> bool:
         letter = facts.symbol is None if equation else facts.symbol is not None
@@ -213,8 +215,8 @@ def as_let(equation: bool, reason: bool) -> Predicate:
 
 
 def near(*places: Any) -> Predicate:
-    """Judge whether terms are left out and the symbol goes to one of these limits. Without limits, judge whether it
-    goes to a finite value other than zero."""
+    """Judge whether terms are left out and the symbol goes to one of the limits `places`. Without limits, the symbol
+    must go to a finite value other than zero."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -255,7 +257,7 @@ def bent(sign: int) -> Predicate:
     place (sign 1), or both larger (sign -1)."""
 
     def is_so(facts: Judged) -> bool:
-        x = Dummy("x", **facts.inputs["letter"].assumptions0)  # the letter that varies has no number
+        x = Dummy("x", **facts.inputs["letter"].assumptions0)  # a Dummy, so that no given number replaces it
         varied = {facts.inputs["letter"]: x}
         value, place = (with_numbers(facts.inputs[role].xreplace(varied)) for role in ("value", "place"))
         told = [c for role, c in facts.inputs.items() if role == "condition" or role.startswith("inside_")]
@@ -290,8 +292,8 @@ def _says_what_is_kept(facts: Judged) -> bool:
 
 
 def leading(*places: Any) -> Predicate:
-    """Judge whether no order is requested and the symbol goes to one of these limits. Without limits, judge whether it
-    goes to a finite value other than zero."""
+    """Judge whether no order is requested, terms are left out, and the symbol goes to one of the limits `places`.
+    Without limits, the symbol must go to a finite value other than zero."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -331,7 +333,8 @@ LARGER = roots_fit(lambda this, other, b: abs(this) > abs(other) and this * othe
 
 
 def whether(real: bool, predicate: Predicate) -> Predicate:
-    """Check also that the roots are known to be real and distinct or, if `real` is false, that this is not known."""
+    """Return the predicate with a further test: the discriminant must be known to be positive exactly if `real` is
+    true."""
     return lambda facts: (sign_known(_discriminant(facts)) == 1) == real and predicate(facts)
 
 
@@ -340,8 +343,8 @@ def _discriminant(facts: Judged) -> Expr:
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
-    """Judge by the sign of the discriminant and, if the discriminant is positive, by the sign of the product of the
-    roots."""
+    """Judge whether the discriminant has this sign. If the discriminant is positive, also judge whether the product of
+    the roots is negative exactly if `product` is -1."""
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
@@ -374,7 +377,7 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 
 def names_put_in(facts: Judged, value: Any) -> bool:
-    """Whether the original with all stated values substituted is the result, or an equation equivalent to it.
+    """Whether the substitution of all stated values in the original gives the result or an equivalent equation.
 
     This is tested only if each value replaces a symbol, no value contains a replaced symbol, no other result is
     substituted, and the original contains no rate of a replaced symbol.
@@ -455,8 +458,8 @@ def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
 
 
 def as_asked_for(facts: Judged, outcome: str) -> bool:
-    """Whether the word is "roots" for an equation and "zeros" for any other result, and the whole also vanishes where
-    each factor without the unknown vanishes."""
+    """Whether the word is "roots" for an equation and "zeros" for any other result, and the whole expression vanishes
+    if any one of its factors without the unknown vanishes."""
     given = facts.inputs["equation"]
     beside, whole = facts.inputs.get("elsewhere"), explicit(given)
     whole = whole.residual if isinstance(whole, Relation) else whole
@@ -467,7 +470,7 @@ def as_asked_for(facts: Judged, outcome: str) -> bool:
 def as_asked(facts: Judged, outcome: str) -> bool:
     is_letter = isinstance(facts.inputs["unknown"], Symbol)
     numbered = facts.inputs["count"] == 1 or facts.symbol != facts.inputs["unknown"]
-    if not is_letter:  # the symbol of the root must say that it is a cosine
+    if not is_letter:  # the symbol of the root must be a sine or a cosine, as the unknown is
         numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
     limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
     held = explicit(facts.inputs["equation"]).has(explicit(facts.inputs["unknown"]))

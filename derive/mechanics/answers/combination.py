@@ -23,7 +23,7 @@ from derive.steps.subject import EVERYTHING
 __all__ = ["combination"]
 
 HALF = Rational(1, 2)
-LARGEST = 200  # operations up to which roots are cancelled
+LARGEST = 200  # in a formula with more operations, factors under roots are not cancelled
 
 
 COMBINATION = Rule(
@@ -38,7 +38,7 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
     expression   the formula, with letters and with placeholders for the results
     values       placeholder -> its result; an equation with one letter on its left side counts as its right side
     symbol       the letter of the number; by default the key
-    The number is a definition, and the page calls it one: nothing checks that it has the meaning of its letter.
+    The page calls the number a definition, because no check can show that the formula has the meaning of the letter.
     Outcomes: generic, named (a formula of letters only).
     Errors: a result is not a number, for example a vector or an equation that is not solved.
     Source: none needed: a definition.
@@ -74,8 +74,8 @@ def _cancelled(value: Expr) -> Expr:
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:
-    """Return the quantity. Return only its value if its symbol is an expression such as x_dot^2; return the right side
-    of an equation that is solved for a symbol."""
+    """Return the quantity if its symbol is a plain symbol. If the symbol is an expression such as x_dot^2, return the
+    value. For an equation that is solved for a symbol, return the right side."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
         return quantity if isinstance(quantity.symbol, Symbol) else explicit(value)

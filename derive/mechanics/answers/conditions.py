@@ -1,4 +1,4 @@
-"""Where a quantity has a certain sign or value: a relation, solved for one letter."""
+"""Conditions for a quantity to be greater than, less than or equal to a bound, solved for one letter."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ WORDS = {
     ">=": "at_least",
     "<=": "at_most",
 }
-REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # the quantities that decide whether roots are real
+REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # rule and sign of a condition for real roots
 POINTS = 40
 ZERO = Integer(0)
 
@@ -73,13 +73,13 @@ def where(
     of       a scalar, any unit
     mark     the comparison sign: one of =, !=, <, >, <=, >=
     bound    the bound, of the same unit; 0, or another quantity
-    letter   the unknown: a letter, a rate, or an expression such as `cos(theta)`; the difference is linear in the
-             unknown or in its square. If an expression is given for a letter, such as 2b for R, the relation is solved
-             for one of the letters of this expression
-    through  the same condition in other letters, as an intermediate line, and the results for these letters
+    letter   the unknown: a letter, a rate, or an expression such as `cos(theta)`; quantity minus bound is linear in the
+             unknown or in its square. For an expression such as 2b in place of a letter, the relation is solved for one
+             of the letters of this expression
+    through  the same condition in other letters, for an intermediate line, and the results that these letters denote
     for_real whether the quantity is a discriminant and the condition is for real roots
-    Check: the sign of the difference a little above the solved bound, at the bound and a little below it; at random
-    points both relations are true, or both false.
+    Check: the sign of quantity minus bound, for an unknown at, just above and just below the right side of the solved
+    relation; at random points, the original and the solved relation are both true or both false.
     A divisor of both sides of an equation must not vanish: the page states this if it is not known. The sign of a
     divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
@@ -119,7 +119,7 @@ def where(
         ),
         routes={
             "beside": lambda found: _beside(found, difference, mark),
-            # If the two relations differ by one factor of known sign, the check near the bound is valid everywhere.
+            # If the two relations differ by a factor of known sign, the check near the bound is valid everywhere.
             **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",
@@ -134,13 +134,14 @@ def where(
 
 
 def _by_way_of(criterion: Relation, stands_for: Sequence[Quantity], difference: Expr) -> list[Form]:
-    """Return the line with the criterion in other symbols; the next line has the values of these symbols."""
+    """Return the line with the condition in the symbols of `stands_for`; the next line has the values of these
+    symbols."""
     residual = explicit(with_those(criterion.residual, {q.symbol: q.value for q in stands_for}))
     return [Form(criterion, "solved", nonzero=divided_out(difference, residual, Integer(0)))]
 
 
 def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: Expr, sign: int, key: str) -> Quantity:
-    """Return the relation that is true for all values of the symbols, where the sign of the difference is known."""
+    """Return the step with the relation that is true for all values of the symbols, for a difference of known sign."""
     is_true = holds(sign, mark)
     fact = mark if is_true else {1: ">", -1: "<", 0: "="}[sign]
     return establish(
@@ -162,8 +163,8 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
 
 
 def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, Relation]:
-    """Solve for the unknown. If an expression was given for a symbol, such as 2b for R, solve for the first symbol of
-    this expression for which it is possible."""
+    """Solve for the unknown. For an expression such as 2b in place of a symbol, solve for the first symbol of this
+    expression for which a solution is possible."""
     given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
     if not isinstance(given, Add | Mul):
         unknown = unknown_of("where", letter)
@@ -177,7 +178,7 @@ def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -
 
 
 def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
-    """Whether the unknown, a positive symbol or a square, is greater than the other side for all values."""
+    """Whether the signs alone show that the left side is greater than the right side for all values."""
     return bool(alone.is_positive and solved.is_nonpositive) or bool(alone.is_nonnegative and solved.is_negative)
 
 
@@ -203,8 +204,9 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
 
 
 def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
-    """Return two vectors that are equal if the solved relation is right: the difference at the bound and a little above
-    it, and the truth of the solved relation on both sides, each compared with what the sign of the difference says."""
+    """Return two vectors that are equal if the solved relation is right. The first vector has the difference at the
+    bound and a little above it, and the truth of the solved relation above, at and below the bound. The second vector
+    has the values that the sign of the difference requires."""
     alone, place = found.sides
     d = Dummy("d", positive=True)
     if alone.is_positive and sign_known(place) == -1:  # a positive symbol is never the negative root of x^2 = a
@@ -216,7 +218,7 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     if sign is None:
         return at_place, Integer(0)
     says = [Integer(holds(side, found.operator)) for side in (1, 0, -1)]
-    is_so = [Integer(holds(side * sign, mark)) for side in (1, 0, -1)]  # the difference changes its sign at the bound
+    is_so = [Integer(holds(side * sign, mark)) for side in (1, 0, -1)]  # below the bound the sign is opposite
     there, expected = [at_place, above, *says], [Integer(0), sign * Abs(above), *is_so]
     return ImmutableDenseMatrix(there), ImmutableDenseMatrix(expected)
 
@@ -226,7 +228,8 @@ def _nth(value: Expr, power: int) -> Expr:
 
 
 def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | None) -> Verdict:
-    """Check at random points that both relations hold, or that neither of them does."""
+    """Check at random points that the original and the solved relation are both true or both false; without an unknown,
+    check that the original relation is true."""
     seen = 0
     difference, residual = with_numbers(difference), with_numbers(found.residual)
     letters = letters_of(difference) | letters_of(residual)
@@ -241,7 +244,7 @@ def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | No
             where_apart = tuple((str(name), str(value)) for name, value in point.items())
             return Verdict(Grade.REFUTED, "one of the relations holds and the other does not", where_apart)
     if not seen:
-        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+        return Verdict(Grade.REFUTED, "undefined at every tested point")
     return Verdict(Grade.SAMPLED, f"{seen} points")
 
 

@@ -1,4 +1,5 @@
-"""The greatest and the least value of a result: where its slope vanishes, its value there, and the kind of extremum."""
+"""Maximum and minimum of a result: the place where the slope vanishes, the value there, and the sign of the
+curvature."""
 
 from __future__ import annotations
 
@@ -42,14 +43,14 @@ Within = tuple[Expr, Expr]
     within="within: two values, `[0, pi/2]`",
 )
 def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maximum") -> tuple[Quantity, Quantity]:
-    """Where a result is greatest, and how great it is: f'(x) = 0 and f''(x) < 0.
+    """Place and value of the maximum of a result: f'(x) = 0 and f''(x) < 0.
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
     within   its interval; by default all values that the letter can have
-    Check: the value at this place is compared with the values at many other places of the interval.
+    Check: the value at the maximum is compared with the values at other places of the interval.
     Outcomes: greatest, least; each also with a condition, if the extremum exists only for some values of the letters.
-    Errors: the slope vanishes with this sign of the curvature at no place, or at several; these places have no closed
-    form.
+    Errors: no place, or more than one, has zero slope and this sign of the curvature; the places with zero slope have
+    no closed form.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
     return _extremum(of, letter, within, key, "maximum", -1)
@@ -63,7 +64,7 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     within="within: two values, `[0, pi/2]`",
 )
 def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minimum") -> tuple[Quantity, Quantity]:
-    """Where a result is least, and how great it is there: f'(x) = 0 and f''(x) > 0.
+    """Place and value of the minimum of a result: f'(x) = 0 and f''(x) > 0.
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
     within   its interval; by default all values that the letter can have
@@ -111,7 +112,7 @@ def _extremum(
     signs = [sign_known(curvature.subs(x, place)) for place, _ in found]
     sure = [pair for pair, sign in zip(found, signs, strict=True) if sign == curved]
     fitting = sure or [pair for pair, sign in zip(found, signs, strict=True) if sign is None]
-    fitting = [pair for pair in fitting if not pair[1]] or fitting  # a place that exists for all values of the letters
+    fitting = [pair for pair in fitting if not pair[1]] or fitting  # prefer a place without a condition
     if len(fitting) != 1:
         raise _not_one(of, x, verb, len(fitting), slope.has(x) and not found)
     ((place, conditions),) = fitting
@@ -152,13 +153,13 @@ def _extremum(
 
 
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
-    """Return the error for any number of places other than one."""
+    """Return the error for no suitable place, or for more than one."""
     many = "no place" if not count else f"{count} places"
     message = f"`{verb}`: `{of.key}` has {many} with zero slope and this curvature"
     help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"
-        help_line = f"the {verb} is at an end of the interval, or there is none: `put_in` gives the value at an end"
+        help_line = f"the {verb} is at an end of the interval, or does not exist: `put_in` gives the value at an end"
     return Rejected(Complaint("no-extremum", message, help=help_line))
 
 
@@ -170,7 +171,8 @@ def _range_as_interval(x: Symbol) -> Within | None:
 
 
 def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
-    """Return role -> condition, for the place to be real and to lie between the ends of the interval."""
+    """Return the conditions for the place to be real and to lie inside the interval, each under its role in the
+    phrase."""
     found = {} if real is None else {"condition": real}
     return {**found, **{f"inside_{n}": each for n, each in enumerate(dict.fromkeys(room), 1)}}
 
@@ -178,7 +180,7 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends of the interval: an empty list if it always lies
     there, None if it never does."""
-    if within is None and (real is not None or not x.is_positive):  # a place that exists is an allowed value
+    if within is None and (real is not None or not x.is_positive):  # every real place is allowed
         return []
     low, high = within or (Integer(0), None)
     found = []
@@ -192,8 +194,8 @@ def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol
 
 
 def _sign_of_distance(ahead: Expr, width: Expr) -> int | None:
-    """Return the sign that a distance from an end has for all values of the symbols; None if there is no such sign. The
-    width of the interval is taken to be positive."""
+    """Return the sign of the distance from an end of the interval; None if no sign holds for all values of the symbols.
+    The width of the interval is taken to be positive."""
     signs = (sign_for_all(tidied(part)) for part in (ahead, ahead / width))
     return next((sign for sign in signs if sign is not None), None)
 
@@ -206,8 +208,8 @@ def _apart(condition: Relation) -> Relation:
 
 
 def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
-    """Return the zeros of the slope that the given numbers allow. Without an interval, return only zeros within one
-    turn."""
+    """Return the zeros of the slope, without zeros that do not exist for the numbers of the problem. Without an
+    interval, return the zeros of an angle within one turn only."""
     find = zeros_of if within is None else zeros_nearby
     found = find(slope, x) if slope.has(x) else []
     return [Zero(as_one_root(zero.value), zero.exists) for zero in found if truth_known(zero.exists) is not False]
@@ -231,8 +233,8 @@ def _not_exceeded(
     curved: int,
     place: Expr,
 ) -> Verdict:
-    """Check that no value at places spread over the interval exceeds the extreme value. Without an interval, use places
-    on both sides of the extremum."""
+    """Check that no value at places spread over the interval is beyond the extreme value. Without an interval, use
+    places on both sides of the extremum."""
     value, top, place = (_with_numbers_beside(e, x) for e in (value, top, place))
     letters = (letters_of(value) | letters_of(top) | letters_of(place)) - {x}
     conditions = [*told.values(), *assumed()]
@@ -259,9 +261,9 @@ def _not_exceeded(
         slack = Rational(1, 10**18) * (1 + Abs(best))
         if any(curved * (best - other) > slack for other in others) or Abs(own - best) > slack:
             where = tuple((str(name), str(number)) for name, number in point.items())
-            return Verdict(Grade.REFUTED, "another place of the interval has a value beyond it", where)
+            return Verdict(Grade.REFUTED, "a value at another place is beyond the extreme value", where)
         if seen == POINTS:
             break
     if not seen:
-        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+        return Verdict(Grade.REFUTED, "undefined at every tested point")
     return Verdict(Grade.SAMPLED, f"{seen} points, {BESIDE} places each")

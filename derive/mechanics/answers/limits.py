@@ -38,8 +38,8 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
-MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # far beyond the sample numbers of the other symbols
-BORDERS = {"=": "", ">=": "min", "<=": "max"}  # index of the letter for its value on the boundary
+MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # points to try, a number for infinity, a small step
+BORDERS = {"=": "", ">=": "min", "<=": "max"}  # comparison sign -> index of the bound: x_min for x >= f
 
 
 LIMITING_CASE = Rule(
@@ -78,8 +78,8 @@ def limiting_case(
     symbol: str | None = None,
 ) -> Quantity:
     """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x or x - a.
-    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, whose value,
-             least value or largest value goes to a limit; or another equation, which `equation_in_limit` expands
+    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, for the limit
+             of the right side; or another equation, which `equation_in_limit` expands
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
     to       0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
     order    the highest power of the small quantity that is kept; by default only the leading term
@@ -113,7 +113,7 @@ def limiting_case(
     series = beginnings(of, value, x, place, order)
     found = _added_up(series, value, x, place)
     power = Rational(order) if order is not None else max((n for each in series for n in each), default=Rational(0))
-    if order is None and power > 0 and is_zero(value - found):  # the limit says more than the whole
+    if order is None and power > 0 and is_zero(value - found):  # state the limit 0, not the whole result
         series, power = [{Rational(0): Integer(0)} for _ in series], Rational(0)
         found = _added_up(series, value, x, place)
     exact, is_limit = is_zero(value - found), order is None and power == 0
@@ -152,18 +152,18 @@ def limiting_case(
 
 
 def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
-    """Return the symbol of a limit, which must differ from the symbol of the whole result."""
+    """Return the symbol of a limit. The result itself must have another symbol."""
     if symbol is None:
         return letter_of_limit(whole, x, aim)
     if symbol == str(whole):
-        message = f"`limiting_case`: {symbol} is the letter of the whole, so its limit needs another letter"
+        message = f"`limiting_case`: {symbol} is the letter of the result itself, so the limit needs another letter"
         raise Rejected(Complaint("letter-clash", message, help="give another `symbol`, or none"))
     return Symbol(symbol, real=True)
 
 
 def _whole(of: Quantity, name: Any, approach: Approach) -> Any:
-    """Return the symbol of the whole result. If this result is itself a series for the same limit, return the symbol of
-    its exact value."""
+    """Return the symbol of the result without the limit. For a series for the same limit, return the symbol of the
+    result that was expanded into this series."""
     is_series = of.step.approximates is not None and dict(of.step.roles).get("approach") == approach
     return of.step.approximates if is_series else name
 
@@ -225,7 +225,8 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
 
 
 def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
-    """Return a number of large size for an infinite limit, else one number on each side of the limit."""
+    """Return numbers close to the limit: a very large number for an infinite limit, otherwise one number on each
+    side."""
     if aim in (oo, -oo):
         return (FAR if aim == oo else -FAR,)
     there = explicit(aim).xreplace(dict(point))

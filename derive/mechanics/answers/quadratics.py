@@ -65,10 +65,10 @@ class Quadratic:
 
 @dataclass(frozen=True)
 class Roots(Fact):
-    """The quadratic equation of the roots, in general symbols and with values substituted; its unknown; and these
-    values."""
+    """The quadratic equation that has the roots: its coefficients in letters, its coefficients with values substituted,
+    its unknown, and these values."""
 
-    missing = "is not the root of a quadratic equation, as `roots` yields it with `together`"
+    missing = "is not a root of a quadratic equation from `roots` with `together`"
     general: Quadratic
     quadratic: Quadratic
     unknown: Symbol
@@ -91,9 +91,9 @@ def roots_together(
     equation   a x^2 + b x + c = 0, possibly times a factor without x
     x          the unknown
     values     quantities for letters of the coefficients
-    key        the key of the step with both roots; `keys` and `symbols` are those of the separate roots
-    There is one step for each key: a single root, or the statement that there is no root, is returned for every key.
-    Check: substituted back into the equation; the sum of the roots; their product.
+    key        the key of the step with both roots; `keys` and `symbols` belong to the separate roots
+    The result has one entry for each key. If there is a single root or no real root, all entries are the same step.
+    Check: each root substituted into the equation; the sum and the product of the roots.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of, apart = _coefficients(equation, x, values)
@@ -117,8 +117,9 @@ def roots_together(
 
 
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
-    """Return the coefficients of an equation that is quadratic or linear in x, and the factor of its left side without
-    x, with the values substituted. The sign is chosen so that the first coefficient has no minus sign."""
+    """Return the coefficients of a quadratic or linear equation in x, in letters and with values, and the factor of the
+    left side that does not contain x, with values. The sign is chosen so that the first coefficient has no minus
+    sign."""
     factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))
     polynomial = Mul(*(f for f in factors if x in f.free_symbols)).as_poly(x)
@@ -156,9 +157,9 @@ ROOTS_TOGETHER = Rule(
 def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequence[str]) -> Quantity:
     """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
     equation   a x^2 + b x + c = 0
-    of         its coefficients, and the quantities for letters in them
-    apart      the factor of the left side without x
-    keys       the requested keys that this step replaces if there is only one root
+    of         the coefficients of the equation, and the quantities for letters in these coefficients
+    apart      the factor of the left side that does not contain x
+    keys       the requested keys; for a linear equation, all of them denote this step
     Check: substituted back into the equation; the sum of the two roots is -b/a.
     Outcomes: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (two, one of each sign), linear.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
@@ -210,7 +211,8 @@ def _formula(of: Quadratic) -> Expr:
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
-    """Write k (u +- sqrt(u^2 - w)), where u is the factor of -b with symbols that only b contains: S, not m a^2 S."""
+    """Write the roots as k (u +- sqrt(u^2 - w)). The factor u of -b has only symbols that a and c do not contain: S,
+    not m a^2 S."""
     own = [
         f
         for f in Mul.make_args(-of.b)
@@ -229,8 +231,8 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
 
 
 def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
-    """Return the outcomes of the two roots: whether they have the same sign or opposite signs, or the outcomes for
-    roots that are not known to be real."""
+    """Return the outcomes of the two roots: "nearer" and "farther" for opposite signs, "smaller" and "larger" for equal
+    signs, and "..._where_real" for roots that are not known to be real."""
     if real is None:
         return "smaller_where_real", "larger_where_real"
     return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
@@ -303,7 +305,7 @@ def with_index(name: str, index: str | int) -> str:
 
 
 def _of_sign(both: Expr, sign: int) -> Expr:
-    """Return the formula with one of the two signs; the result is still one product."""
+    """Return the formula with one of the two signs before the square root, as a product of the same factors."""
     factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
     return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 
@@ -368,7 +370,7 @@ DISCRIMINANT = Rule(
 def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
     """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
 
-    roots   one of the roots, as `roots` yields them with `together`
+    roots   one of the roots from `roots` with `together`
     Check: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
     Outcomes: positive, negative, vanishing, conditional (the sign depends on the letters); linear (b^2, since a is
     zero).
@@ -400,7 +402,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
 def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: bool = False) -> Quantity:
     """Condition under which the roots of a quadratic equation are real, b^2 - 4 a c >= 0, solved for a letter.
 
-    roots    one of the roots, as `roots` yields them with `together`
+    roots    one of the roots from `roots` with `together`
     letter   the letter to solve for
     distinct whether two distinct roots are required, b^2 - 4 a c > 0
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were

@@ -75,10 +75,10 @@ def roots(
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
     values     quantities for letters of the coefficients, substituted after the formula for both roots
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
-               separate step follows for each root, the smaller in absolute value first. A single root, or the
-               statement that there is no root, is returned for all keys
+               separate step follows for each root, the smaller in absolute value first. If there is a single root or no
+               real root, the same step is returned for each key
     keys       keys of the steps; by default the letter, with _1, _2 if there are several
-    key        the beginning of the keys in place of the letter
+    key        the beginning of the default keys, in place of the letter
     symbols    the letters of the roots; by default the letter of the unknown, with _1, _2 if there are several
     Check: substituted back into the equation; by Vieta, the sum and the product of all roots agree with the
     coefficients.
@@ -208,7 +208,8 @@ def _step(
 
 
 def _name(unknown: Expr, letter: str, number: int) -> Expr:
-    """Return the symbol of a root. For the unknown cos(theta) it is cos(theta), with the given letter for the angle."""
+    """Return the symbol of a root. For the unknown cos(theta), the symbol is the cosine of the given letter, or
+    cos(theta)."""
     if not isinstance(unknown, Symbol):
         return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
     if not letter and not number:
@@ -217,8 +218,8 @@ def _name(unknown: Expr, letter: str, number: int) -> Expr:
 
 
 def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
-    """Return the factors that must not vanish, without those factors that the condition already makes nonzero, such as
-    cos(theta_0) if cos(theta_0) > 0."""
+    """Return the condition that the divisor does not vanish. Leave out factors that the other condition makes nonzero,
+    such as cos(theta_0) if cos(theta_0) > 0."""
     excluded = may_vanish(divisor)
     if excluded is None or condition is None or condition.operator != ">" or not is_zero(condition.right):
         return excluded
@@ -299,8 +300,9 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
 
 
 def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
-    """Return the condition for an angle with this sine or cosine to exist. The condition is a strict inequality if the
-    equation contains the other function, which vanishes where the inequality becomes an equation."""
+    """Return the condition for an angle with this sine or cosine to exist. The inequality is strict if the equation
+    also contains the other function (the cosine for a root that is a sine), because this function vanishes at the
+    bound."""
     if not isinstance(unknown, sin | cos) or root.value in (1, -1):
         return None
     exists, _ = within_one(root.value)
@@ -347,8 +349,8 @@ def _is_plain(polynomial: Poly) -> bool:
 
 
 def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
-    """Return a linear factor, with multiplicity two, of a quadratic polynomial that is a square; return any other
-    polynomial unchanged, with multiplicity one."""
+    """Write a quadratic polynomial that is a square as a linear factor with multiplicity two; return any other
+    polynomial with multiplicity one."""
     if polynomial.degree() == 2:
         a, b, c = polynomial.all_coeffs()
         if is_zero(b**2 - FOUR * a * c):
@@ -360,7 +362,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Return the condition for the root to be real or, if a positive root is required, to be positive."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        lost = sign_known(c) or sign_for_all(unknown) == 1  # D = 0: no root as a = 0, or the root 0
+        lost = sign_known(c) or sign_for_all(unknown) == 1  # for b = 0, D = 0 means a = 0 or a root 0
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
     if sign_for_all(unknown) == 1 and root.sign_where_real() is None:

@@ -33,7 +33,7 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["solved_for"]
 
-MOST = 6  # unknowns that are eliminated together
+MOST = 6  # greatest number of unknowns
 
 
 def solved_for(
@@ -69,7 +69,7 @@ def solved_for(
         help_line = "one of the equations follows from the others, or they contradict each other"
         raise Rejected(Complaint("singular", message, help=help_line))
     values = eliminated(matrix, right)
-    below = [tidied(value).as_numer_denom()[1] for value in values]  # the equations may already have these denominators
+    below = [tidied(value).as_numer_denom()[1] for value in values]  # denominators that the equations may contain
     excluded = may_vanish(determinant, *below)
     called = list(keys or [_key_of(unknown) for unknown in wanted])
     if len(called) != len(wanted):

@@ -67,7 +67,7 @@ def put_in(
              of a rate, or a cosine; mappings of letters or coordinates to values
     values   values of letters at one instant, by the names of the letters: `theta=0`
     again    an earlier result that this substitution must reproduce
-    The results are substituted one after another, in this order, then the values. If a coordinate is given as a
+    The results are substituted one after another, in the given order, then the values. If a coordinate is given as a
     function of other coordinates or of the time, its rates are substituted too.
     Check: all letters of the original replaced at once by their final values; the earlier result.
     Outcomes: results, values (letters only), zero (with these values), identity (an equation that always holds after
@@ -84,7 +84,7 @@ def put_in(
     there = _values(of, given, values, value)
     _check_reached(of, rests, [*told, *there])
     for pair in there:
-        if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # an earlier value may have removed it
+        if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # skip removed letters
             value = _all_put(value, [pair], str(pair[0]), of, told)
     result = arranged(value, list(coordinates_of(of, *rests)))
     _check_holds(of, result)
@@ -211,7 +211,7 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
     """Return the symbol that a result replaces. If this symbol does not occur, a root replaces its unknown, and a limit
-    or a series replaces the symbol of the whole result."""
+    or a series replaces the symbol of the result from which it was derived."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
@@ -219,8 +219,8 @@ def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
 
 
 def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[Replacement]:
-    """Return the replacements for the time derivatives of a coordinate, or of a rate, that is given as a function of
-    coordinates, rates or the time; the highest derivative first."""
+    """Return the replacements for the time derivatives of a coordinate or rate that is given as a function of
+    coordinates, rates or the time. The highest derivative is first."""
     order = next((n for q in moving for n in (0, 1) if target == (rate(q, n) if n else q)), None)
     letters = {rate(q, n) if n else q for q in moving for n in range(len(RATES))} | {TIME}
     if order is None or not isinstance(target, Symbol) or not value.free_symbols & letters:
@@ -264,8 +264,8 @@ def _plain(of: Quantity, target: Expr, at: Any) -> Expr:
 
 
 def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity, told: list[Replacement]) -> Any:
-    """Return the value after these replacements, and add the replacements that apply to `told`; reject a call in which
-    none applies."""
+    """Return the value after these replacements, and append to `told` each replacement that changes the value. Reject a
+    call in which no replacement changes the value."""
     before = value
     for target, at in pairs:
         put = partial(_replaced, target, at)

@@ -52,9 +52,9 @@ AT = Rule(
 def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
     """Value of a general result for a particular vector.
     general      a result for a vector with unspecified components
-    particular   the vector to substitute: same symbol, same axes
+    particular   the vector to substitute, with the same symbol and the same axes
     Check: the law itself, evaluated with the particular vector from the start.
-    Errors: the general result does not contain the components of that vector; the vector is of another kind, or it is a
+    Errors: the general result does not contain the components of that vector; the vector is of another kind, or is a
     rotation about another point.
     Source: none needed: substitution.
     """
@@ -251,15 +251,16 @@ def let(
 ) -> Quantity:
     """Name for an expression in quantities, or an equation set up by the author: a definition, with its substitution.
     key          the key of the step
-    law          a function of the quantities; it gives an expression, or an equation as SymPy's `Eq(left, right)`
-    kind         the kind of the quantity, "force", "time"; by default it has only the dimension of the expression
+    law          a function of the quantities that returns an expression, or an equation as SymPy's `Eq(left, right)`
+    kind         the kind of the quantity, "force", "time"; by default the result has only a dimension
     because      the reason, in the words of the script: "by Newton's second law"
-    The result has the subject on which its quantities agree. It changes if it contains a coordinate or the time. If all
-    its quantities have mass points and forces, it has them too. Nothing checks that the result has the meaning of its
-    letter: if the result is an answer, the page calls it a definition.
+    The result belongs to the body, the point and the rotation on which all its quantities agree. The result varies in
+    time if it contains a coordinate or the time. If every quantity has mass points and forces, the result has all of
+    them. No check shows that the result has the meaning of its letter, so the page calls an answer from `let` a
+    definition.
     Outcomes: generic, because (with the given reason), equation, equation_because.
-    Errors: no such kind; the expression is not a scalar; an equation with a letter or a kind, or one that always or
-    never holds.
+    Errors: an unknown kind; an expression that is not a scalar; an equation with a letter or a kind; an equation that
+    always or never holds.
     Source: none needed: a definition.
     """
     if kind is not None and kind not in KINDS:

@@ -43,7 +43,7 @@ __all__ = ["centre_of_mass", "density"]
 ZERO = Integer(0)
 ORIGIN = column(0, 0, 0)
 
-# the filling of a body with mass -> symbol and kind of the density
+# what the mass of a body fills -> symbol and kind of the density
 DENSITIES = {
     "volume": ("rho", "density"),
     "area": ("sigma", "surface density"),
@@ -52,7 +52,7 @@ DENSITIES = {
 
 
 class Body(Placeable, OfParticles):
-    """The common base of all uniform bodies.
+    """The common base of all bodies.
 
     A subclass defines the named points, the region of integration, the size, and a few particles with the mass, the
     centre of mass and the second moments of the body.
@@ -60,13 +60,13 @@ class Body(Placeable, OfParticles):
 
     mass: Expr
     filling: ClassVar[str] = "volume"
-    reference: ClassVar[str] = "centre"  # the point at the origin of its body axes
-    other_centre: ClassVar[str] = ""  # the point that a reader may also call "centre", if it is not the centre of mass
+    reference: ClassVar[str] = "centre"  # the named point at the origin of the body axes
+    other_centre: ClassVar[str] = ""  # a point, not the centre of mass, that readers may call "centre"
     called: str = ""  # the name of the body on a page with several bodies: "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
-    is_lopsided: ClassVar[bool] = False  # no inversion symmetry, even if the particles have it
-    is_round: ClassVar[bool] = False  # all axes through a point of the z axis and perpendicular to it are equivalent
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinate systems in which the limits are known
+    is_lopsided: ClassVar[bool] = False  # no inversion symmetry, even if the particles have this symmetry
+    is_round: ClassVar[bool] = False  # whether all axes perpendicular to z at a point of z are equivalent
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinate systems with known limits
 
     def __post_init__(self) -> None:
         self.check_sizes()
@@ -100,7 +100,7 @@ class Body(Placeable, OfParticles):
 
     def map(self) -> Map:
         """The position along the body axes as a formula, and the limits of the variables in it, outermost first."""
-        raise AttributeError(f"{type(self).__name__} must say where its points are")
+        raise AttributeError(f"{type(self).__name__} must define its position map")
 
     @property
     def boundary(self) -> Boundary | None:
@@ -123,13 +123,13 @@ class Body(Placeable, OfParticles):
 
     @property
     def flat_across(self) -> str | None:
-        """The first axis along which the body has no extent, "x" for a body on the y or z axis; or None."""
+        """The first axis along which the body has no extent, "x" for a rod along z; None if there is no such axis."""
         return next((axis for axis, x in zip("xyz", self.map()[0], strict=True) if x == 0), None)
 
     @property
     def extent(self) -> Expr | Quantity:
         """The volume, area or length of the body: a step if it must be derived, otherwise a formula."""
-        raise AttributeError(f"{type(self).__name__} must say how large it is")
+        raise AttributeError(f"{type(self).__name__} must define its volume, area or length")
 
     @property
     def measures(self) -> Mapping[str, Any]:
@@ -139,7 +139,7 @@ class Body(Placeable, OfParticles):
 
     @property
     def letters(self) -> set[Symbol]:
-        """The symbols in the sizes of the body; no variable of integration may resemble them."""
+        """The symbols in the sizes of the body; variables of integration must differ from these symbols."""
         own: Any = self
         return _letters_of([getattr(own, each.name) for each in fields(own) if each.name != "mass"])
 
@@ -231,7 +231,8 @@ class Body(Placeable, OfParticles):
         return None
 
     def derived_moment(self, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
-        """The moment of inertia about an axis through a point, if the body has a special derivation; or None."""
+        """The moment of inertia about an axis through a point, if the body has a special derivation; None by
+        default."""
         return None
 
     def axes_by_name(self) -> Mapping[str, ImmutableMatrix]:
@@ -246,11 +247,11 @@ class RoundBody(Body):
     @property
     def ends(self) -> tuple[Expr, Expr]:
         """The smallest and the largest z of the body."""
-        raise AttributeError(f"{type(self).__name__} must say where it ends")
+        raise AttributeError(f"{type(self).__name__} must define its smallest and its largest z")
 
     def radius_at(self, z: Expr) -> Expr:
         """The radius of the body at the height z."""
-        raise AttributeError(f"{type(self).__name__} must say how far it reaches")
+        raise AttributeError(f"{type(self).__name__} must define its radius")
 
     def map(self) -> Map:
         """Cylindrical coordinates z, theta and r; for a shell or a hoop r is the radius at z, for a rod r is zero."""
@@ -275,7 +276,7 @@ class OfRadius(Body):
 
 @dataclass(frozen=True)
 class OfHeight(Body):
-    """A body of revolution about the z axis, given by a radius and a height, that begins at z = 0."""
+    """A body of revolution about the z axis from z = 0, defined by a radius and a height."""
 
     radius: Expr
     height: Expr
@@ -323,7 +324,7 @@ class Hollow(Body):
 
     inner: Expr
     outer: Expr
-    power: ClassVar[int]  # the mass of the full body and that of the cavity's filling vary as this power of the radius
+    power: ClassVar[int]  # the mass of a full body is proportional to this power of its radius
     is_round: ClassVar[bool] = True
 
     def check_sizes(self) -> None:
@@ -337,7 +338,7 @@ class Hollow(Body):
 
     def filled(self, radius: Expr, mass: Expr) -> RoundBody:
         """The body of the same shape without a cavity."""
-        raise AttributeError(f"{type(self).__name__} must say what it is without its hole")
+        raise AttributeError(f"{type(self).__name__} must define the body without the cavity")
 
     def whole_and_removed(self) -> tuple[RoundBody, RoundBody]:
         between = self.outer**self.power - self.inner**self.power
@@ -414,9 +415,9 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
     """Density of a uniform body, rho = M/V; for a thin body sigma = M/A or lambda = M/l.
 
     body    mass M; volume V, area A or length l
-    part    the name of the body on the page, if there are several
+    part    the name of the body, if the page has several bodies
     Check: the integral of the density over the body gives M back.
-    Outcomes: along_edges (a cuboid); volume, area, length (the filling of the body); derived (the volume has a step).
+    Outcomes: along_edges (a cuboid); volume, area, length (what the mass fills); derived (a step derives the volume).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     extent = body.extent
@@ -473,8 +474,8 @@ def centre_of_mass(
     body         mass, region
     origin       the point, by default the origin of the body axes
     coordinates  "cartesian" or "cylindrical", if the body has both
-    Each component that does not vanish by symmetry has its own step: one for a round body, possibly several for a
-    body without inversion symmetry.
+    Each component that does not vanish by symmetry has its own step: a round body needs one step, a body without
+    inversion symmetry up to three.
     Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
     numerical sum over cells.
     Outcomes: round; generic (a body with inversion symmetry); by_components; there (at the named point itself).

@@ -1,6 +1,6 @@
 """The boundary of a body, as geometry: places along the body axes. A drawing projects this boundary.
 
-A body returns one of these records. A body that has parts, or only known moments, returns None.
+A body returns one of these records. A body returns None if it consists of parts, or if only its moments are known.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from sympy.matrices import ImmutableMatrix
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.step import is_zero
 
-Curve: TypeAlias = tuple[ImmutableMatrix, Symbol, Expr, Expr]  # places, their variable, its first and its last value
+Curve: TypeAlias = tuple[ImmutableMatrix, Symbol, Expr, Expr]  # places, their variable, its first and last value
 
 
 @dataclass(frozen=True)
 class Round:
-    """All places between two heights whose distance from the z axis is at most a function of z.
+    """All places between two heights, at a distance of at most `radius_at(z)` from the z axis.
 
     is_curve   whether the mass is on a curve: on the axis, or on one circle
     """
@@ -55,9 +55,9 @@ class Round:
 class Faces:
     """One flat face or several.
 
-    corners   places
-    faces     the corners of each face in order, from either side; empty for a single face
-    edges     the lengths that a drawing shows, each with the edges of this length
+    corners   the positions of the corners
+    faces     the indices of the corners of each face, in order round the face; empty for a single face
+    edges     the lengths that a drawing shows, each with the edges of this length, as pairs of indices
     """
 
     corners: tuple[ImmutableMatrix, ...]
@@ -130,7 +130,7 @@ Boundary: TypeAlias = Round | Faces | Segment | Rim | Extruded | Ellipsoidal | T
 def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
     """The boundary of a position map: a straight line, the closed edge of a flat body, or an ellipsoid.
 
-    None for every other map, including that of a flat body with a hole.
+    Return None for every other map, also for the map of a flat body with a hole.
     """
     if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
         u, *ends = limits[0]
@@ -142,7 +142,8 @@ def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
 
 
 def _rim(place: ImmutableMatrix, limits: Bounds) -> Rim | None:
-    """The curves on which one of the two variables is at a limit; None unless all limits are constant."""
+    """The edge: the curves on which one variable is at a limit. None if a limit is not constant, or if there is a
+    hole."""
     if any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
         return None
     (u, *u_ends), (v, *v_ends) = limits
@@ -153,7 +154,8 @@ def _rim(place: ImmutableMatrix, limits: Bounds) -> Rim | None:
         (v, v_ends[0], u, u_ends[::-1]),
     )
     curves = [(place.xreplace({held: end}), letter, first, last) for held, end, letter, (first, last) in sides]
-    # Two limits with the same curve form a seam, not an edge. The other curves form one edge, or an edge and a hole.
+    # If both limits of one variable give the same curve, this curve is a seam, not an edge. The limits of the other
+    # variable then give the edge, or the edge and a hole.
     seamless = [curves[k::2] for k in (0, 1) if curves[1 - k] == _reversed(curves[3 - k])]
     lines = [[each] for each in seamless[0] if _is_long(each)] if seamless else [curves]
     return Rim(tuple(lines[0])) if len(lines) == 1 else None

@@ -113,7 +113,8 @@ class Chart:
         return None
 
     def _within(self, at: Place) -> Place | None:
-        """The same values, with angles shifted by full turns into their limits; None if a value remains outside."""
+        """The values of the variables, with angles shifted by full turns into their limits; None if a value remains
+        outside."""
         found: Place = ()
         for i, ends in enumerate(self.ends):
             low, high = ends(*found)
@@ -156,7 +157,7 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 
 
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
-    """Values of the symbols for which all limits are in order.
+    """Values of the symbols for which each lower limit is below the upper limit.
 
     A symbol whose number the problem states has this number; other symbols have random values, of several scales.
     """

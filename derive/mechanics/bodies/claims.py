@@ -75,7 +75,7 @@ def along_the_edge(facts: Judged) -> bool:
 
 
 def joins_corners(facts: Judged) -> bool:
-    """Whether the vector leads from the corner at the origin to the opposite corner, by the limits of the region."""
+    """Whether the result is the vector from the corner at the origin to the opposite corner of the region."""
     body = facts.subject.body
     limits = body.region(body.point(body.reference)).limits
     return len(limits) == 3 and all(is_zero(x - (b - a)) for x, (_, a, b) in zip(facts.result, limits, strict=True))
@@ -97,13 +97,14 @@ def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
 
 
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
-    """Whether the size is not negative, and its square is the determinant det(r_i . r_j) that belongs to the result."""
+    """Whether the size is not negative, and its square is the result or, for a solid, the square of the result."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
     return is_zero(explicit(size) ** 2 - square) and not is_negative(explicit(size))
 
 
 def mapped_to(facts: Judged, place: Any) -> bool:
-    """Whether det(r_i . r_j) fits the result; r_i is the derivative of the place with respect to a variable."""
+    """Whether det(r_i . r_j) is the result or, for a solid, its square; r_i is the derivative of the place with respect
+    to variable i."""
     names = [x for x, _, _ in facts.inputs["limits"]]
     slopes = Matrix([[diff(c, x) for x in names] for c in explicit(place)])
     square = explicit(facts.result) ** 2 if len(names) == 3 else explicit(facts.result)
@@ -146,8 +147,8 @@ def volume_of_its_sections(facts: Judged, outcome: str) -> bool:
 
 
 def section_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether x = s cos(theta) and y = s sin(theta), if the sentence states them, fit the integral: they have its area
-    element, and x is s at theta = 0."""
+    """Whether the sentence names the point of the result and, if it states x = s cos(theta) and y = s sin(theta), these
+    formulas have the area element of the integral and x = s at theta = 0."""
     if ("polar" in facts.words) != ("x_is" in facts.inputs):
         return False
     if "x_is" in facts.inputs:

@@ -26,7 +26,7 @@ __all__ = ["centre_component"]
 
 @dataclass(frozen=True)
 class OverMass:
-    """The form and the evaluation of an integral over the mass of a body."""
+    """The law, the inputs and the lines of an integral over the mass of a body."""
 
     law: Callable[..., Any]
     inputs: dict[str, Any]
@@ -120,7 +120,8 @@ def is_round_solid(body: Any) -> bool:
 
 
 def is_its_own_image(body: Any) -> bool:
-    """Whether the body has inversion symmetry: each particle has an equal partner opposite it about the centre."""
+    """Whether the body has inversion symmetry: each particle at r from the centre of mass has an equal partner at
+    -r."""
     if body.is_lopsided:
         return False
     centre = body.middle.position

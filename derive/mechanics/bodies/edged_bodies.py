@@ -25,14 +25,14 @@ __all__ = ["Cuboid", "Plate", "Tetrahedron", "Triangle", "Wedge"]
 
 
 class EdgedBody(Body):
-    """A body with flat faces, or a single flat face."""
+    """A solid with flat faces, or a flat body with straight edges."""
 
-    corners_called: ClassVar[tuple[str, ...]] = ("corner",)  # names of the first corners
+    corners_called: ClassVar[tuple[str, ...]] = ("corner",)  # names of corners, from the first corner on
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
         """The positions of the corners along the body axes."""
-        raise AttributeError(f"{type(self).__name__} must say where its corners are")
+        raise AttributeError(f"{type(self).__name__} must define its corners")
 
     @property
     def faces(self) -> tuple[tuple[int, ...], ...]:
@@ -319,7 +319,7 @@ class Tetrahedron(Cornered):
 class Wedge(Cornered):
     """A uniform right prism with a triangular base: the triangle in the plane of x and y, extended along z.
 
-    face     the triangle, as for `Triangle`
+    face     the triangular base, a `Triangle`
     length   along z, from the origin
     mass     mass
     Points: first corner, second corner, third corner (of the face at z = 0); centre.

@@ -23,7 +23,7 @@ Particles = list[tuple[Expr, ImmutableMatrix]]
 
 HALF = Rational(1, 2)
 
-# Places along a unit length with their weights: Simpson's rule is exact up to cubes, Boole's up to fifth powers.
+# Nodes from 0 to 1 with their weights: Simpson's rule is exact up to third powers, Boole's rule up to fifth powers.
 SIMPSON = ((Integer(0), Rational(1, 6)), (Rational(1, 2), Rational(2, 3)), (Integer(1), Rational(1, 6)))
 BOOLE = tuple((Rational(k, 4), Rational(w, 90)) for k, w in enumerate((7, 32, 12, 32, 7)))
 
@@ -36,7 +36,7 @@ def summed(particles: Iterable[tuple[Expr, ImmutableMatrix]], of: Callable[[Immu
 def counted_from(point: Point, place: ImmutableMatrix) -> ImmutableMatrix:
     """A place relative to a point, by projections on the axes of the point.
 
-    The code of the integrals is not used, so that particles can check these integrals.
+    This function does not use the code of the integrals, so particles can check the integrals.
     """
     way = [place[j] - point.position[j] for j in range(3)]
     return column(*(sum(point.axes[j, k] * way[j] for j in range(3)) for k in range(3)))
@@ -50,7 +50,7 @@ class OfParticles:
     def particles(self) -> Particles:
         """Particles with the mass, centre of mass and second moments of the body. They are found without integrals, so
         they can check integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
-        raise AttributeError(f"{type(self).__name__} must say which particles stand for it")
+        raise AttributeError(f"{type(self).__name__} must define its equimomental particles")
 
     def another_way(
         self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
@@ -151,7 +151,8 @@ def from_moments(
     about_origin   in place of S: the sums of m x^2, m y^2 and m z^2 about the origin, if the sums of products vanish
 
     A Cholesky decomposition gives S = sum of D_k l_k l_k^T. For each k, a pair of particles with the total mass D_k/L^2
-    is at +-L l_k, where L^2 is the trace of S over the mass. The rest of the mass, never negative, is at the centre.
+    is at +-L l_k, where L^2 is the trace of S divided by the mass. The rest of the mass, never negative, is at the
+    centre.
     Source: Routh, *Elementary Rigid Dynamics*, chapter 1.
     """
     left = Matrix(second) if second is not None else Matrix.diag(*about_origin) - mass * centre * centre.T

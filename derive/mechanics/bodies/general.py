@@ -55,8 +55,8 @@ __all__ = [
 ]
 
 ORIGIN = Point("origin", ZERO)
-VARIABLES = {"length": 1, "area": 2, "volume": 3}  # the filling of a body -> the number of variables
-LETTERS = {"length": "l", "area": "A", "volume": "V"}  # the filling of a body -> the symbol of its size
+VARIABLES = {"length": 1, "area": 2, "volume": 3}  # what the mass fills -> the number of variables
+LETTERS = {"length": "l", "area": "A", "volume": "V"}  # what the mass fills -> its symbol
 
 
 def variables(*names: str) -> tuple[Symbol, ...]:
@@ -68,7 +68,7 @@ class GeneralBody(Body):
     """The common base of bodies defined by their position map."""
 
     reference: ClassVar[str] = "origin"
-    is_lopsided: ClassVar[bool] = True  # assumed, because the symmetry is not tested
+    is_lopsided: ClassVar[bool] = True  # no symmetry is tested, so none is used
     is_of_particles: ClassVar[bool] = False
 
     def __init__(
@@ -84,7 +84,7 @@ class GeneralBody(Body):
         fresh = {u: scalar(u.name) for u in limits}
         outside, self._profile = given.xreplace(fresh).as_independent(*fresh.values(), as_Add=False)
         self.given_mass, self.given_density = mass, None if density is None else outside
-        next(inside(self._limits, looks=1))  # raises an error where the limits are never in order
+        next(inside(self._limits, looks=1))  # raises an error if the limits are never in order
         self._mapped = cell(self._position, self._limits)
         if self._mapped == 0:
             message = f"the position of this `{type(self).__name__}` does not depend on all of its variables"
@@ -95,7 +95,7 @@ class GeneralBody(Body):
         check_map(type(self).__name__, self._position, self._limits, given.xreplace(fresh), mass is None)
 
     def __repr__(self) -> str:
-        """Return the same text in each process: the digest of a problem depends on it."""
+        """Return the same text in each process: the digest of a problem depends on this text."""
         given = (self._position, self._limits, self._profile, self.given_mass, self.given_density, self.called)
         return f"{type(self).__name__}{given}"
 
@@ -111,7 +111,7 @@ class GeneralBody(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """Empty: the map defines its size."""
+        """No lengths: the position map defines the size of the body."""
         return {}
 
     @property
@@ -185,7 +185,7 @@ class Wire(GeneralBody):
     position   two or three formulas in the variable, lengths
     limits     the variable with its lower and its upper limit
     mass       mass; or
-    density    mass per length, a formula in the variable; if the mass is given too, the density is proportional to it
+    density    mass per length, a formula in the variable; if the mass is given too, only proportional to the density
     """
 
     id: ClassVar[str] = "wire"
@@ -198,7 +198,7 @@ class Sheet(GeneralBody):
     position   two or three formulas in the variables, lengths
     limits     each variable with its lower and upper limit; a limit may depend on the variables named before
     mass       mass; or
-    density    mass per area, a formula in the variables; if the mass is given too, the density is proportional to it
+    density    mass per area, a formula in the variables; if the mass is given too, only proportional to the density
     """
 
     id: ClassVar[str] = "sheet"
@@ -211,7 +211,7 @@ class Solid(GeneralBody):
     position   three formulas in the variables, lengths
     limits     each variable with its lower and upper limit; a limit may depend on the variables named before
     mass       mass; or
-    density    mass per volume, a formula in the variables; if the mass is given too, the density is proportional to it
+    density    mass per volume, a formula in the variables; if the mass is given too, only proportional to the density
     """
 
     id: ClassVar[str] = "solid"
@@ -416,7 +416,8 @@ def _cells(body: GeneralBody) -> list[Quantity]:
 def _variables_of(body: GeneralBody) -> dict[Symbol, str]:
     """The variables of a body with their kinds.
 
-    A variable in a sine or cosine is an angle. Any other is a length if a limit contains a symbol, or else a number.
+    A variable in a sine or cosine is an angle. Any other variable is a length if one of its limits contains a symbol;
+    otherwise it is a number.
     """
     position, limits = body.map()
     angles = {s for f in position.atoms(sin, cos) for s in f.free_symbols}

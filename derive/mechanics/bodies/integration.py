@@ -27,7 +27,7 @@ OneVariable = tuple[Symbol, Expr, Expr]
 
 @dataclass(frozen=True)
 class Nested:
-    """A factor of a term: an integral, by its integrand and its limits, outermost first.
+    """An integral that is a factor of a term: its integrand and its limits, outermost first.
 
     No other factor of the term contains a variable of these limits.
     """
@@ -75,7 +75,7 @@ class Nested:
 
 
 def _wrapped(parts: Sequence[Expr], limits: Sequence[OneVariable], inner: Expr) -> Expr:
-    """The inner expression in integral signs, innermost first; each sign also encloses its part of the integrand."""
+    """The inner expression inside integrals, innermost first; each integral also contains its part of the integrand."""
     for part, limit in reversed(list(zip(parts, limits, strict=True))):
         factors = [Group(f) if isinstance(f, Integral) else f for f in (part, inner) if f != 1]
         whole = factors[0] if len(factors) == 1 else Factors(*factors) if factors else Integer(1)
@@ -104,7 +104,8 @@ def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> li
 
 
 def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
-    """A factor of the term for each group of variables; constants belong to the first group that the term contains."""
+    """The term as one integral for each group of variables; constants belong to the first group that the term
+    contains."""
     number, rest = term.as_coeff_Mul()
     groups = _groups(limits)
     found = [Mul(*(f for f in Mul.make_args(rest) if any(f.has(x) for x, _, _ in group))) for group in groups]
@@ -129,7 +130,7 @@ def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
 def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
     """The lines from the innermost integrals outwards: antiderivatives, then their values at the limits."""
     nested = _are_nested(terms)
-    # A single nested term looks almost the same before and after the split.
+    # The split hardly changes a single nested term, so the line appears at full level only.
     level = Level.FULL if nested and len(terms) == 1 else Level.STANDARD
     lines = [_line(front, terms, Nested.written, "split" if nested else "separate", level)]
     while _are_nested(terms):
@@ -177,7 +178,8 @@ def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], be
 
 
 def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
-    """The product of a term: lengths of plain integrals and values first, then the other integrals."""
+    """The product of a term: first values and integrals of 1, written as upper minus lower limit; then other
+    integrals."""
     if how is Nested.written:
         return Factors(*(how(part) if isinstance(part, Nested) else part for part in term))
     plain = [_length(part) if isinstance(part, Nested) else part for part in term if _is_plain(part)]
@@ -207,7 +209,7 @@ def _flat(term: Expr) -> tuple[Expr, ...]:
 
 
 def _has_chords(region: Region) -> bool:
-    """Whether the innermost limits are the ends of a chord: square roots that contain the place of the chord."""
+    """Whether the innermost limits are the ends of a chord, that is, square roots of the outer variables."""
     roots = (power for power in region.limits[-1][2].atoms(Pow) if power.exp == Rational(1, 2))
     return any(root.has(*region.names[1:]) for root in roots)
 
@@ -257,7 +259,7 @@ def _by_angle(chord: Expr, limit: OneVariable, region: Region) -> Expr | None:
 
 
 def _from_the_tip(value: Expr, limit: OneVariable) -> Expr:
-    """Write an even power as that of the positive distance: (h - z)^4, not (z - h)^4."""
+    """Write an even power with a positive base: (h - z)^4, not (z - h)^4."""
     z, lower, _ = limit
     return value.replace(
         lambda e: e.is_Pow and e.base.is_Add and e.exp.is_even and e.base.subs(z, lower).is_negative,
@@ -283,7 +285,7 @@ def _with_power_bracket(part: Nested) -> Expr:
 
 
 def _mass_collected(region: Region, integrand: Expr, sign: int, rho: Expr, volume: Expr, is_sum: bool) -> list[Form]:
-    """The lines that group density times volume, ready to become the mass: 13/3 (6 a^3 rho) a^2."""
+    """The lines that group density times volume in a bracket, which then becomes the mass: 13/3 (6 a^3 rho) a^2."""
     whole = region.with_section_put_in()
     value = tidied(Integral(integrand, *reversed(whole.limits)))
     if value == 0:

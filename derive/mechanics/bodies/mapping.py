@@ -18,7 +18,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Bounds, Point, Region, coordinates
 
-TRIES = 40  # number of draws of values until the limits are in order
+TRIES = 40  # greatest number of draws in the search for limits in order
 LOOKS = 6  # number of points at which the sign of a cell is evaluated
 
 
@@ -118,7 +118,7 @@ def tangents_of(position: ImmutableMatrix, names: Sequence[Symbol]) -> list[Immu
 
 
 def _root_of(square: Expr, limits: Bounds) -> Expr:
-    """The square root, without absolute values: each expression in them has one sign between the limits."""
+    """The square root, without absolute values; an error if an expression inside one of these changes its sign."""
     root = tidied(sqrt(factor(square)))
     return root.replace(Abs, lambda inside: _counted_positive(inside, limits))
 

@@ -22,8 +22,8 @@ class PlacedPart:
 
     body       the part
     of         the point of the part that stays fixed when the part is rotated
-    position   the place of this point, in the body axes of the whole
-    turn       rotation matrix; its columns are the body axes of the part along those of the whole
+    position   the place of this point, in the axes of the larger body
+    turn       rotation matrix; its columns are the axes of the part, by components along the axes of the larger body
     sign       1, or -1 for a cavity
     """
 
@@ -35,7 +35,7 @@ class PlacedPart:
 
     def __post_init__(self) -> None:
         if not is_zero(self.turn.det() - 1):
-            raise Unverified(Complaint("unverified", "the axes of a part are not a rotation of those of the whole"))
+            raise Unverified(Complaint("unverified", "the axes of a part are not rotated axes of the larger body"))
 
     @classmethod
     def as_it_lies(cls, body: Any) -> PlacedPart:
@@ -58,13 +58,13 @@ class PlacedPart:
         return replace(self, body=self.body.named(called))
 
     def seen(self, place: ImmutableMatrix) -> ImmutableMatrix:
-        """A place of the part, converted from its body axes to those of the whole."""
+        """A place of the part, converted from the axes of the part to the axes of the larger body."""
         held = self.body.point(self.of).position
         return ImmutableDenseMatrix((self.position + self.turn * (place - held)).expand())
 
     @property
     def centre(self) -> ImmutableMatrix:
-        """The centre of mass of the part, in the body axes of the whole."""
+        """The centre of mass of the part, in the axes of the larger body."""
         return self.seen(self.body.middle.position)
 
     @property
@@ -74,9 +74,9 @@ class PlacedPart:
 
     @property
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """The particles of the part, in the body axes of the whole; those of a cavity have negative mass.
+        """The particles of the part, in the axes of the larger body; the particles of a cavity have negative mass.
 
-        They are rotated and then shifted, independently of `seen`, so that they can check it.
+        This function rotates and shifts the particles without `seen`, so that the particles can check `seen`.
         """
         held = self.body.point(self.of).position
         shift = [self.position[i] - sum(self.turn[i, j] * held[j] for j in range(3)) for i in range(3)]
@@ -124,7 +124,7 @@ def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
 
 
 def name_of_body(called: str) -> str:
-    """Return the name, if it is one or two words of small letters; keys and indices derive from these words."""
+    """Return the name; reject any other name than one or two words of small letters, which keys and indices contain."""
     if not re.fullmatch(r"[a-z]+( [a-z]+)?", called):
         help_line = 'use one or two words of small letters, "upper rod"'
         raise Rejected(Complaint("name", f"`{called}` is not a name for a body", help=help_line))

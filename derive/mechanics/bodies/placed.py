@@ -1,6 +1,6 @@
-"""The position and orientation of a body. The position is that of the centre of mass, or of the point held fixed.
+"""The position and orientation of a body. The position is the place of the centre of mass, or of a point held fixed.
 
-The orientation in space is a set of axes. In a vertical plane it is an angle about the normal, positive
+The orientation in space is a set of axes. In a vertical plane the orientation is an angle about the normal, positive
 counterclockwise, from right to up. The body axis perpendicular to the plane points to the reader; at zero angle the
 next two axes, in the cyclic order x, y, z, are along the axes of the plane.
 """
@@ -101,7 +101,7 @@ class Placeable:
     """A base class of bodies that can have a position and an orientation."""
 
     id: ClassVar[str] = "body"  # the sort of body, in files and in phrases: "thick_shell"
-    name: ClassVar[str] = "a body"  # the sort of body in messages, from the id
+    name: ClassVar[str] = "a body"  # the sort of body in messages, made from `id`
 
     @property
     def boundary(self) -> Boundary | None:
@@ -113,7 +113,8 @@ class Placeable:
         cls.name = with_article(cls.id)
 
     def placed(self, turned: Any, centre: Location, across: str | None = None) -> PlacedBody:
-        """Return the body with its centre of mass at a place; axes give its orientation, in a plane an angle.
+        """Return the body with its centre of mass at a place. Axes give the orientation in space, an angle gives it in
+        a plane.
 
         across   the body axis perpendicular to the plane of motion, if the choice is ambiguous
         """
@@ -168,12 +169,16 @@ def _check_turns(body: Any, number: int, angle: Expr) -> None:
     spread = central_second_moments(body)
     j, k = (number + 1) % 3, (number + 2) % 3
     if coordinates_in(angle) and tidied(spread[j, j] + spread[k, k]) == 0:
-        message = f"{body.name} has no moment of inertia about its {XYZ[number]} axis, so it cannot turn about it"
-        raise Rejected(Complaint("wrong-axis", message, help="put another of its axes perpendicular to the plane"))
+        message = (
+            f"{body.name} has no moment of inertia about its {XYZ[number]} axis, "
+            "so the body cannot turn about this axis"
+        )
+        raise Rejected(Complaint("wrong-axis", message, help="put another axis of the body perpendicular to the plane"))
 
 
 def _check_flat(body: Any, number: int) -> None:
-    """Reject a default axis along which the body extends, unless all axes of the body are equivalent."""
+    """Reject a default axis perpendicular to the plane along which the body extends, unless all axes of the body are
+    equivalent."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
         message = f"{body.name} extends along its {XYZ[number]} axis, so another axis may be perpendicular to the plane"
         raise Rejected(
@@ -184,7 +189,7 @@ def _check_flat(body: Any, number: int) -> None:
 
 
 def _across(body: Any, named: str | None) -> int:
-    """The index of the body axis perpendicular to the plane: the named axis, or the only choice."""
+    """The index of the body axis perpendicular to the plane: the named axis, or the axis that the shape determines."""
     if named is not None and named not in tuple(XYZ):
         message = f'a body has no axis "{named}"'
         raise Rejected(Complaint("wrong-argument", message, help='it has "x", "y", "z"'))

@@ -23,7 +23,7 @@ from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
 POINTS, TWINS = 40, 6  # number of points sampled in a part, and of places tested for being covered twice
-APART = 1e-3  # two values of a variable count as distinct if they differ by this fraction of its range
+APART = 1e-3  # values of a variable are distinct if they differ by this fraction of its range
 
 
 def require_positive(body: str, role: str, value: Any) -> None:
@@ -87,7 +87,7 @@ def check_parts(parts: Sequence[Any]) -> None:
 def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Expr, negative_is_refused: bool) -> None:
     """Reject a map that covers places twice, and a density that changes its sign in the body.
 
-    negative_is_refused   whether to reject also a density that is negative everywhere
+    negative_is_refused   whether a density that is negative everywhere is rejected too
     """
     names = {x for x, _, _ in limits}
     letters = (position.free_symbols | density.free_symbols) - names
@@ -106,7 +106,7 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece], shown: Callable[[list[Chart]], bool]) -> bool:
-    """Whether a test is true for every draw of the symbols for which it can be evaluated, and for at least one."""
+    """Whether a test can be evaluated for at least one draw of the symbols, and is true for every such draw."""
     found = False
     letters = {s for piece in pieces for s in piece.letters}
     for at in draws(letters, [piece.limits for piece in pieces]):

@@ -1,7 +1,7 @@
 """Numerical integrals over a body, for random values of its symbols: a second route to exact integrals.
 
-The cell is the square root of det(r_i . r_j), from the scalar products of the edges. For each variable x the integral
-is by Gauss's rule in t, with x = m - h cos(pi t): in t, square roots at the ends of the interval are smooth.
+The size of a cell is the square root of det(r_i . r_j), from the scalar products of the edges. The integral over each
+variable x uses Gauss's rule in t, where x = m - h cos(pi t): square roots at the ends of the interval are smooth in t.
 Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 4.6.
 """
 
@@ -25,7 +25,7 @@ from derive.mechanics.bodies.regions import Bounds
 LETTERS = 2  # number of draws of the symbols
 NODES = {1: 60, 2: 28, 3: 20}  # number of variables -> number of nodes for each variable
 FIGURES = 7
-DIGITS = 36  # working precision for small differences
+DIGITS = 36  # decimal places in differences of positions
 
 
 @lru_cache(maxsize=8)

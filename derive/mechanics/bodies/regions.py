@@ -107,7 +107,7 @@ class Region:
         (s, named) = coordinates(("s", "r"), {*taken, z[0], angle[0]})
         r = Symbol(named.name + primed, nonnegative=True)
         position = ImmutableDenseMatrix(self.position.xreplace({out: s}))
-        if position[1] == -s * sin(angle[0]):  # measured in the opposite sense, which changes no limit of a full circle
+        if position[1] == -s * sin(angle[0]):  # reverse the angle; a full circle keeps its limits
             position = ImmutableDenseMatrix([position[0], -position[1], position[2]])
         return Region((z, angle, (s, lower, r)), position, self.element.xreplace({out: s}), section=(r, upper))
 
@@ -156,7 +156,7 @@ def _check_sign(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr]) -> N
     unsure = next((radius for radius in map(radius_at, ends) if not radius.is_nonnegative), None)
     if unsure is not None:
         message = f"the radius `{unsure}` may be negative, but Cartesian limits need a positive radius"
-        help_line = "give it a separate symbol, or use cylindrical coordinates"
+        help_line = "give the radius a separate symbol, or use cylindrical coordinates"
         raise Rejected(Complaint("unknown-sign", message, help=help_line))
 
 

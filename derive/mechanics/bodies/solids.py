@@ -61,11 +61,11 @@ __all__ = [
 UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x, which reverses z
 
 
-# --- round, by the radius at each height -----------------------------------------------------------------------------
+# --- round solids, defined by the radius at each height ---------------------------------------------------------------
 
 
 class RoundSolid(RoundBody):
-    """A solid of revolution: all points whose distance from the z axis is at most a function of z."""
+    """A solid of revolution: all points whose distance from the z axis is at most `radius_at(z)`."""
 
     systems = ("cylindrical", "cartesian")
 
@@ -77,18 +77,19 @@ class RoundSolid(RoundBody):
         if not self.called or found.section is None:
             return found
         (r, edge), limits = found.section, found.limits
-        own = with_name(self.called, "r", r)[1]  # the symbol that the step for the radius has
+        own = with_name(self.called, "r", r)[1]  # the symbol in the step that derives the radius
         limits = tuple((x, low.xreplace({r: own}), up.xreplace({r: own})) for x, low, up in limits)
         return replace(found, limits=limits, section=(own, edge))
 
     def _primed(self, point: Point) -> str:
-        """The mark of the radius: a prime if z is not measured from the origin, and the index of a named body."""
+        """The mark after the symbol of the radius: a prime if z is not measured from the origin, and the index of a
+        named body."""
         index = f"_{self.called.partition(' ')[0]}" if self.called else ""
         return index if point.name == self.reference else f"'{index}"
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
         """Two expressions that are equal if the point (r, z), in body axes, is on the edge of the body."""
-        raise AttributeError(f"{type(self).__name__} must say where its edge is")
+        raise AttributeError(f"{type(self).__name__} must define its edge")
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
         if region.section is None:
@@ -341,7 +342,7 @@ class Torus(Body):
         return Factors(2, pi**2, self.radius, self.section**2)
 
     def map(self) -> Map:
-        """Variables: distance s from the middle of the cross-section, angle u round it, angle phi about z."""
+        """Variables: distance s from the middle of the cross-section, angle u round this middle, angle phi about z."""
         s, u, phi = coordinates(("s", "u", "phi"), self.letters)
         across = self.radius + s * cos(u)
         limits = ((s, ZERO, self.section), (u, ZERO, 2 * pi), (phi, ZERO, 2 * pi))
@@ -352,7 +353,8 @@ class Torus(Body):
         return Toroidal(self.radius, self.section)
 
     def particles(self) -> Particles:
-        """Rings through the five particles of the cross-section; their masses contain the ratio of their radii."""
+        """Rings through the five particles of the cross-section; the mass of each ring is proportional to its radius
+        too."""
         found: Particles = []
         for share, place in disc_of_particles(self.mass, self.section, ZERO):
             radius = self.radius + place[0]

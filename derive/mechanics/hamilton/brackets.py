@@ -139,8 +139,7 @@ def _function(of: Any, pairs: Pairs) -> Any:
 
 
 def _derivatives(f: Expr, g: Expr, pairs: Pairs) -> list[tuple[Integer, Symbol, Symbol]]:
-    """Return, for each product that does not vanish, its sign and the variables with respect to which f and g are
-    differentiated."""
+    """Return the products +-df/du dg/dv of the bracket that do not vanish, each as its sign, u and v."""
     found: list[tuple[Integer, Symbol, Symbol]] = []
     for q, p in pairs:
         for sign, u, v in ((Integer(1), q, p), (Integer(-1), p, q)):
@@ -200,8 +199,8 @@ def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
 def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Expr]:
     """Return {f, H} plus the partial derivative of f with respect to time, and df/dt along the motion.
 
-    df/dt has f as a function of t. The sums (m a - F) . dr/dq with the factors df/dp, which vanish by d'Alembert's
-    principle, eliminate the accelerations.
+    df/dt is the time derivative of f as a function of t, minus the sum of df/dp (m a - F) . dr/dq. This sum vanishes by
+    d'Alembert's principle, and subtracting it eliminates the accelerations.
     """
     matter = space.lagrangian.needed(Matter)
     in_rates = space.in_rates

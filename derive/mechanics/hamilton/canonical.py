@@ -46,13 +46,14 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
 
     of   the Lagrangian, J
     Steps derive the momenta, and the rates in terms of the momenta.
-    Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates; with the momenta
-    as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq, for forces with a potential energy
-    and magnetic forces, and of m v . d(dr/dq)/dt; for a given L, the sum of p dH/dp, minus H, is L again.
+    Second route: H is T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. With the
+    momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt, where F
+    are the magnetic forces and the forces with a potential energy. For a given L, the sum of p dH/dp, minus H, is L
+    again.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
     time), changing (neither); work_energy (T + U, but a force outside L does work), work (a force outside L does work,
     and H is not T + U); given_conserved, given_changing, given_work (the corresponding cases of a given L).
-    Errors: the momenta do not determine the rates, or too many must be solved together.
+    Errors: the momenta do not determine the rates, or too many rates are coupled.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     moving = coordinates_of(of)
@@ -233,7 +234,7 @@ def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quan
     quantity   a scalar in coordinates and rates
     of         the Hamiltonian of the same system, J
     Check: with the momenta as functions of the rates, the result is the original quantity.
-    Errors: the quantity contains no rate of a coordinate of this Hamiltonian; it belongs to another system.
+    Errors: the quantity contains no rate of a coordinate of this Hamiltonian, or belongs to another system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     space = of.needed(PhaseSpace)

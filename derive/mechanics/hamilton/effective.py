@@ -72,7 +72,8 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields; its
     time derivative as a function of t is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
     Outcomes: angular (q is an angle), linear (q is a length), other.
-    Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value changes.
+    Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value is not
+    constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     required(of.coordinates, q, "conserved", of)

@@ -61,7 +61,8 @@ class PhaseSpace(Fact):
 
     @property
     def in_rates(self) -> dict[Symbol, Expr]:
-        """Each momentum as a function of the rates; the mass points have confirmed these functions."""
+        """Each momentum as a function of the rates; second routes from the mass points have confirmed these
+        functions."""
         return {p.symbol: explicit(p.value) for p in self.momenta}
 
 

@@ -1,4 +1,4 @@
-"""Rates v in terms of momenta p that are not linear in the rates, if L contains the rates in one quadratic form only.
+"""Rates v as functions of momenta p that are not linear in v, if L contains v in one quadratic form only.
 
 Then p_i - b_i = g(s) (A v)_i with s = v . A v, so v has the direction of w = A^-1 (p - b), and v = u w. The factor u
 follows from g(u^2 S) u = 1 with S = w . A w. For a relativistic particle g = 1/sqrt(1 - s/(m c^2)), so
@@ -45,7 +45,8 @@ def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]
 
 
 def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbol, Expr] | None:
-    """Return s and g(s): derived with only the first rate nonzero, then checked for all rates; None if this fails."""
+    """Return s and g(s): derived with only the first rate nonzero, then checked for all rates; None if the check
+    fails."""
     s = Dummy("s", nonnegative=True)
     along = {rates[0]: sqrt(s / form[0, 0]), **dict.fromkeys(rates[1:], 0 * rates[0])}
     g = tidied(bound(bare[0], along) / (form[0, 0] * along[rates[0]]))

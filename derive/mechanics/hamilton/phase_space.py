@@ -38,7 +38,7 @@ from derive.steps.step import Quantity, lettered
 __all__ = ["rates_by_momenta"]
 
 LARGEST = 4  # greatest number of coupled rates
-LARGEST_WITH_ANGLES = 2  # the same with sines or cosines in the coupling; a Hamiltonian of three is a page long
+LARGEST_WITH_ANGLES = 2  # for a coupling with sines or cosines; with three rates, H is a page long
 ZERO = Integer(0)
 
 
@@ -58,12 +58,12 @@ def rates_by_momenta(
     """Rates as functions of momenta, solved from p = dL/dq_dot.
 
     of        the Lagrangian, J
-    given     momenta of some of its coordinates; the results contain their symbols
+    given     momenta of some coordinates of the Lagrangian; the results contain the symbols of these momenta
     varying   whether these symbols vary in time, as in a Hamiltonian; otherwise they are constant
     Keys: `key`, _ and the name of the coordinate; for constant momenta also _by_ and their symbols.
     Check: the rates substituted in the momenta give the symbols of the momenta.
     Outcomes: alone (one rate), together (several).
-    Errors: the momenta do not determine the rates, or too many must be solved together.
+    Errors: the momenta do not determine the rates, or too many rates are coupled.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     own = [p.needed(OfCoordinate).coordinate for p in given]
@@ -97,8 +97,8 @@ def rates_by_momenta(
 
 
 def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Solve for the rates: linear equations block by block, where a block has the rates that are coupled; all other
-    equations together, by a quadratic form."""
+    """Solve for the rates. Linear equations are solved in blocks of coupled rates; other equations are solved together,
+    by a quadratic form."""
     matrix = Matrix([[derivative(explicit(p), v) for v in rates] for p in momenta_of.values()])
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])

@@ -1,4 +1,4 @@
-"""Predicates of impacts: each decides whether an outcome, or a thing that its sentence names, is correct."""
+"""Predicates of impacts: each decides whether an outcome, or a symbol that its sentence names, is correct."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from derive.steps.step import is_zero
 
 
 def is_struck(wanted: bool) -> Predicate:
-    """Whether (or, if not wanted, whether not) the power of the impulses depends on the rate of the coordinate."""
+    """Require that the power of the impulses depends on the rate of the coordinate; if `wanted` is false, that it does
+    not."""
     return lambda facts: wanted != is_zero(explicit(facts.inputs["slope"]))
 
 
@@ -38,7 +39,8 @@ def momentum_of(facts: Judged, q: Any) -> bool:
 
 
 def impulse_of_its_condition(facts: Judged, letter: Any) -> bool:
-    """Whether the rates have the same factors in the power of the impulse and in the condition, up to one factor."""
+    """Whether the rates have the same factors in the power of the impulse and in the condition, up to a common
+    factor."""
     power, left = diff(value_of_role(facts, "power"), letter), explicit(facts.result).left
     rates = power.free_symbols | left.free_symbols
     return parallel({v: diff(power, v) for v in rates}, {v: diff(left, v) for v in rates})

@@ -1,4 +1,5 @@
-"""An impact: the impulses on a system at one instant, the coordinates at this instant, and the rates before it."""
+"""An impact: the impulses on a system at one instant, the coordinates at this instant, and the rates before the
+impact."""
 
 from __future__ import annotations
 
@@ -48,11 +49,10 @@ class Impulse:
 @dataclass(frozen=True)
 class Collision:
     """A collision of two places; if `start` is None, the place `end` meets an object at rest.
-    along         the unit vector of the common normal, along which the impulse acts; if it is empty, the places stay
-    together
+    along         the unit vector of the common normal, along which the impulse acts; empty if the places stay together
     restitution   the ratio of the speed of separation to the speed of approach
     letter        symbol of the impulse; if the places stay together, each component has its axis as an index
-    of            the body or particle of the start and that of the end, each None if not stated
+    of            the bodies or particles of the start and of the end, each None if not stated
     given         normal and restitution as the author gave them, for a second route
     """
 
@@ -91,14 +91,15 @@ def collision(
     letter: str = "K",
     of: Any = None,
 ) -> Collision:
-    """A collision of two places, or of one place with an object at rest: smooth along a normal, or they stay together.
+    """A collision of two places, or of one place with an object at rest.
+    The collision is smooth, with an impulse along a normal, or the places stay together.
     start, end    the places; `start` is None if `end` meets an object at rest
-    along         a vector along the common normal, from `start` to `end`, of any length; by default both places have
-    the same velocity after the collision
+    along         a vector along the common normal, from `start` to `end`, of any length; without a normal, both places
+                  have the same velocity after the collision
     restitution   coefficient of restitution: 1 for an elastic collision, 0 if the places do not separate
     letter        symbol of the impulse, N s, which acts on the end; the opposite impulse acts on the start
     of            the body or particle of the end, or a pair for start and end; needed if a place does not move with
-    its body or particle
+                  its body or particle
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
@@ -123,11 +124,11 @@ def collision(
 
 @dataclass(frozen=True)
 class Meeting:
-    """One condition on the rates just after an impact, and the impulse that causes it.
-    gap          the quantity whose rate the condition fixes; for a constraint on rates, this rate itself
-    restitution  minus the ratio of this rate just after the impact to the rate just before
+    """One condition on the rates just after an impact, and the impulse that enforces this condition.
+    gap          the quantity whose rate the condition determines; for a constraint on rates, the rate itself
+    restitution  minus the ratio of the rate just after the impact to the rate just before
     what         "together", "elastic", "rebound" or "kept"
-    ends         the two places of a collision, and the direction of the impulse on the second one, as given
+    ends         the two places of a collision, and the direction of the impulse on the second place, as given
     given        the restitution as given
     """
 
@@ -205,7 +206,7 @@ class Impact:
             raise Rejected(Complaint("letter-clash", message, help="give each impulse a symbol, `impulse: K_2`"))
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """Require that the place of each impulse moves with a body or a particle, if the body is not stated."""
+        """Require that each impulse without a stated body acts at a place that moves with a body or a particle."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):
@@ -216,7 +217,7 @@ class Impact:
         for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
             act, place = asked[i]
             message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: that place moves with no body"
-            help_line = "name the body whose particle it acts on, `of: rod`; for a collision both, `of: [ball, rod]`"
+            help_line = "name the body on which the impulse acts, `of: rod`; for a collision both, `of: [ball, rod]`"
             raise ActsOnNothing.of(act, Complaint("which-body", message, help=help_line))
 
     def _particle(self, of: Any, at: Vector) -> Vector:
@@ -233,7 +234,7 @@ class Impact:
 
     @property
     def described(self) -> Struck:
-        """Return the impact as described, for the witness."""
+        """Return a description of the impact for the witness, the independent numerical check."""
         acts = self.acts
         given = [plain.Force(a.components, a.at, self._number(a.of)) for a in acts if isinstance(a, Impulse)]
         meetings = [self._described_meeting(act) for act in acts if isinstance(act, Collision)]
@@ -267,7 +268,8 @@ class Impact:
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
-        """Return the value as the page shows it, evaluated at those coordinates that `holds` contains."""
+        """Return the value in the notation of the page, at the given values of the coordinates that `holds`
+        contains."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)
@@ -319,7 +321,7 @@ class Impact:
         gap = Add(*(c * w for c, w in zip(along, way, strict=True)))
         what = "together" if act.restitution == 0 else "elastic" if act.restitution == 1 else "rebound"
         as_given = tuple(self.read_again(c) for c in act.given[0])
-        size = sqrt(sum(c**2 for c in as_given))  # the law has a normal of length 1
+        size = sqrt(sum(c**2 for c in as_given))  # the law uses a unit normal
         as_given = tuple(c / size for c in as_given)
         one = self._meeting(gap, act.restitution, act.letter, what, (start, end, as_given), act.given[1])
         if one is None:
@@ -336,7 +338,7 @@ class Impact:
             raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
         if sign == -1:
             message = "the two places move apart before this collision, along its normal"
-            help_line = "reverse the normal, which points from the first place to the second, or the rates `before` it"
+            help_line = "reverse the normal, which points from the first place to the second, or the rates in `before`"
             raise Rejected(Complaint("nothing-happens", message, help=help_line))
         if sign is None:
             assume(Relation(tidied(speed), ">", Integer(0)))

@@ -12,8 +12,8 @@ from derive.steps.rule import Judged, handed_on_by
 def of_its_coordinate(facts: Judged, fact: OfCoordinate) -> bool:
     """Whether the fact names the coordinate of the result.
 
-    A partial derivative is with respect to this coordinate or its rate, an acceleration is that of this coordinate. For
-    other results, an input `coordinate` decides, if there is one.
+    A partial derivative must be with respect to this coordinate or its rate; an acceleration must be the acceleration
+    of this coordinate. For any other result, the input `coordinate` must be this coordinate, if there is such an input.
     """
     q, symbol = fact.coordinate.symbol, facts.symbol
     if isinstance(symbol, Partial):

@@ -104,14 +104,15 @@ class OfCoordinate(Fact):
 
 @dataclass(frozen=True)
 class AtOneMoment(Fact):
-    """The coordinates or rates for which values at one instant are substituted: the quantity has no known rate."""
+    """The coordinates or rates for which values at one instant are substituted, so the rate of the quantity is
+    unknown."""
 
     missing = "holds at all times"
     fixed: tuple[Symbol, ...]
 
 
 def require_all_times(verb: str, quantity: Quantity) -> None:
-    """Reject a quantity that is known at one instant only; for a law that needs its rate of change."""
+    """For a law that needs a rate of change: reject a quantity that is known at one instant only."""
     known = quantity.fact(AtOneMoment)
     if known is not None:
         message = f"`{verb}`: `{quantity.key}` is known only for one value of {known.fixed[0].name}"

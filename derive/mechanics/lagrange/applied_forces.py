@@ -32,7 +32,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ActedOn(Fact):
-    """The forces on a system that have no potential energy: given forces and dampers, with the dissipation function."""
+    """The forces without a potential energy on a system: given forces, and dampers with the dissipation function."""
 
     missing = "has no forces other than those of its potential energy"
     system: Any
@@ -117,7 +117,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
 
 def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
-    """Return v^2 of the damped point; if the point belongs to a body, from the components of its velocity."""
+    """Return v^2 of the damped point, for a point of a body as the sum of the squared components of its velocity."""
     if not damper.point.held:
         return squares_of_rates(damper.at, moving)
     squares = [Pow(v, 2) for v in damper.velocity(moving) if v != 0]
@@ -192,7 +192,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
 
 def _works(load: Load, q: Coordinate) -> list[Expr]:
-    """Return the terms F_i dr_i/dq; if the force acts on a point of a body, with the values of dr_i/dq."""
+    """Return the terms F_i dr_i/dq; if the force acts on a point of a body, dr_i/dq is evaluated."""
     pairs = zip(load.force, load.place, load.slopes(q.symbol), strict=True)
     if load.held:
         slopes = [(f, tidied(slope)) for f, _, slope in pairs if f != 0]
@@ -297,7 +297,8 @@ def _between(constraints: Sequence[Constraint]) -> str:
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
     """Return the functions that vanish, f_x = x - R sin(theta).
 
-    The index is that of the multiplier, here lambda_x; for a multiplier without index it is a number.
+    The index of f is the index of the multiplier, here lambda_x. For multipliers without an index, the functions are
+    f_1, f_2 and so on, or f if there is only one constraint.
     """
     found = {}
     for i, each in enumerate(constraints, 1):

@@ -122,9 +122,9 @@ ENERGIES = {
 def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> Predicate:
     """Judge the right side of an equation for a rate of energy.
 
-    in_time   whether it contains -dL/dt; None if it is zero
-    worked    whether it contains the power of forces
-    lost      whether it is never positive; None if this does not matter
+    in_time   whether the right side contains -dL/dt; None if the right side is zero
+    worked    whether the right side contains the power of forces
+    lost      whether the right side is never positive; None to skip this test
     """
 
     def is_so(facts: Judged) -> bool:
@@ -140,8 +140,8 @@ def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> 
 
 
 def _never_gains(power: Expr, moving: tuple[Symbol, ...]) -> bool:
-    """Whether the power vanishes at rest, is even in the rates and is concave in the rates, so that it is never
-    positive. It is concave if no principal minor of minus its second derivatives is negative."""
+    """Whether the power vanishes at rest, is even in the rates and is concave in the rates; then the power is never
+    positive. The power is concave if its matrix of second derivatives, times -1, has no negative principal minor."""
     rates = [rate(q) for q in moving]
     at_rest = power.xreplace(dict.fromkeys(rates, Integer(0)))
     turned = power.xreplace({v: -v for v in rates})

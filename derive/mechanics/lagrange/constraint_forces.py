@@ -46,7 +46,7 @@ class _Problem:
 
     lagrangian   the Lagrangian of all equations
     equations    the equations of motion, one for each coordinate
-    keeping      coordinates whose accelerations remain in the result; their equations are not used
+    keeping      coordinates whose accelerations remain in the result; the equations of these coordinates are not used
     """
 
     lagrangian: Quantity
@@ -77,7 +77,8 @@ class _Problem:
 
     @property
     def known(self) -> dict[Symbol, Expr]:
-        """Coordinates that the constraints express by other coordinates, and their rates, with these expressions."""
+        """Expressions from the constraints for coordinates, and for the rates of these coordinates, in the other
+        coordinates."""
         found: dict[Symbol, Expr] = {}
         for each in self.constraints:
             residual = each.residual.xreplace(found)
@@ -143,7 +144,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     """Constraint forces, the multipliers lambda, from the equations of motion and the constraints.
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
-    keeping     coordinates whose accelerations remain in the forces; their equations of motion are not used
+    keeping     coordinates whose accelerations remain in the forces; the equations of these coordinates are not used
     Keys: the symbols of the forces.
     Second route: as `accelerations`.
     Outcomes: generic (the multiplier is the constraint force), multiplier (the gradient of f with respect to the
@@ -300,7 +301,7 @@ def _places(problem: _Problem) -> tuple[Expr, ...]:
 
 
 def _gathered(problem: _Problem, value: Expr) -> Expr:
-    """Collect a force by the accelerations that remain in it and by squares of rates."""
+    """Collect a force by accelerations and by squares of rates, if accelerations remain in the force."""
     return by_accelerations(value, problem.moving) if problem.keeping else value
 
 
@@ -335,7 +336,7 @@ def constraint_force(
     if strange:
         message = f"`constraint_force`: this system has no coordinate {strange[0]}"
         raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
-    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # the second route does not use `way`
+    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # for the second route, without `way`
     works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
     missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
     if missing:
@@ -378,7 +379,7 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
 
 
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
-    """Return the virtual work with an independent displacement of each coordinate, so no two terms cancel, and zero."""
+    """Return the virtual work and zero. Each coordinate has an independent displacement, so no two terms cancel."""
     matter = problem.lagrangian.needed(Matter)
     marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
     whole = Add(
@@ -428,7 +429,7 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
 
 
 def _without_functions(matrix: ImmutableDenseMatrix) -> tuple[ImmutableDenseMatrix, dict[Expr, Dummy]]:
-    """Replace sines, cosines and roots by symbols, so the entries are rational; return the symbols as well."""
+    """Replace sines, cosines and roots by symbols, so that the entries are rational; return these symbols too."""
     found = sorted(matrix.atoms(Function), key=str)
     roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}

@@ -76,7 +76,7 @@ class Mover:
 
 
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
-    """Return the movers of a system, with the indices of their speeds: v for one mover, v_1, v_2, ... for several.
+    """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ...
 
     The index also contains the name of a body or of the system, and the index of a second Lagrangian.
     """
@@ -146,13 +146,15 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
 
 
 def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
-    """Return the line with expanded squares, before sines and cosines of one angle combine; no line if it is long."""
+    """Return the line with expanded squares, before sines and cosines of one angle combine; no line if this line is
+    long."""
     terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
     return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """Return the rates of the components that change, if there are several and a step derives each of them."""
+    """Return the rates of the components that change, if a step derives each of these components and there are
+    several."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(TIME, *moving)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
@@ -248,7 +250,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
              a body that is held at a fixed point has no term with v, and its I is about the fixed point
     Steps derive the square of each speed, each angular velocity and each inertia.
     Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
-    Errors: the moments of a body are about another point.
+    Errors: the known moments of inertia of a body are about another point.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     moved = movers(system, (symbol or "").partition("_")[2])
@@ -301,7 +303,7 @@ def _level_of_values(turnings: list[Turning]) -> Level | None:
 
 
 def _behind(system: System) -> list[Quantity]:
-    """Return the steps that derived the values of bodies; later quantities contain their symbols."""
+    """Return the steps that derived the values of bodies; later quantities contain the symbols of these steps."""
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 

@@ -32,7 +32,7 @@ ZERO = Integer(0)
 def beside_potential(
     value: Expr, of: Quantity, letters: Sequence[Symbol], moving: Sequence[Symbol] = (), sign: int = 1
 ) -> Expr:
-    """Write an energy as a sum: a kinetic part, by squares of rates and momenta, and the potential energy unchanged.
+    """Write an energy as a sum of a kinetic part, collected by rates and momenta, and the unchanged potential energy.
 
     of        the Lagrangian
     letters   symbols of momenta, constant or not
@@ -72,7 +72,8 @@ def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
-    """Return the last line of an energy: its terms in the order of these names, and terms without any of them last."""
+    """Return the last line of an energy: terms of second degree in the order of these names, then terms without these
+    names, then terms linear in one of them."""
 
     def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
         first = next((i for i, name in enumerate(names) if term.has(name)), len(names))

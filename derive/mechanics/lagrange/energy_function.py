@@ -68,7 +68,7 @@ def _powers_of_conditions(of: Quantity) -> list[Expr]:
 
 
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
-    """Return T + U minus the energy function, and the same as T_1 + 2 T_0, the parts of T by degree in the rates."""
+    """Return T + U - h in two forms: the difference, and T_1 + 2 T_0, the parts of T of degree 1 and 0 in the rates."""
     if energies_of(of) is None:
         return {}
     excess = by_rates(tidied(of.needed(Energies).whole - value), [q.symbol for q in coordinates_of(of)])
@@ -163,8 +163,8 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
     Second route: the time derivative of h as a function of t, minus the sum of q_dot (m a - F) . dr/dq, which vanishes
     by d'Alembert's principle.
     Outcomes: conserved (no force outside L does work, and L does not contain the time), changes (only because L
-    contains the time), work (a force outside L does work), lost (its power is never positive), work_and_time (a force
-    outside L does work, and L contains the time).
+    contains the time), work (a force outside L does work), lost (the power of this force is never positive),
+    work_and_time (a force outside L does work, and L contains the time).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4, 2.5 and 2.7.
     """
     L = of.needed(FromLagrangian).lagrangian

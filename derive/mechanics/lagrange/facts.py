@@ -114,8 +114,8 @@ class Varied(Matter):
     def further_routes(self, q: Symbol) -> dict[str, Route]:
         """Return the second route by the energy identity, which needs no derivative of L with respect to q.
 
-        The energy of q alone is q_dot p - L. Its rate, plus the rate of L with the other coordinates as functions of
-        time, is the power of the forces along q.
+        The energy of q alone is q_dot p - L. The rate of this energy, plus the rate of L with the other coordinates as
+        functions of time, is the power of the forces along q.
         """
 
         def power(found: Any) -> tuple[Any, Any]:

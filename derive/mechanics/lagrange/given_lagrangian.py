@@ -57,7 +57,8 @@ class WithoutBodies:
 
     @cached_property
     def described(self) -> Described:
-        """Return the input of the numerical witness: the function, and the forces along its coordinates."""
+        """Return the input of the witness, an independent numerical check: the function, and the forces along its
+        coordinates."""
         return Described(described((*self.given_forces, *self.dampers), (), {}, self.coordinates, self.function))
 
 

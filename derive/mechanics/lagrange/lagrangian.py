@@ -164,7 +164,7 @@ def equation_of_motion(
     if found and of.fact(Varied) is not None:
         terms = explicit(found[2].value) - explicit(found[0].value)
         gathered = min((gathered, terms), key=length)
-    alone = len(coordinates_of(of)) == 1  # in several equations the factors remain, because they show symmetry
+    alone = len(coordinates_of(of)) == 1  # in several equations, common factors remain to show symmetry
     left = _without_common_factor(gathered, moving) if alone else gathered
 
     return establish(
@@ -262,7 +262,7 @@ def _difference(first: Expr, second: Expr) -> Expr:
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step; its prefix is the key of the Lagrangian, unless that is the usual key."""
+    """Return the key of a step. If the Lagrangian does not have the usual key, its key is the prefix."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"

@@ -156,8 +156,8 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         return by_functions_of_time(gain, moving)
 
     def by_places(found: Relation) -> tuple[Any, Any]:
-        """Return the change of L from mass points and forces: that of (1/2) m v.v, the work of the forces, and the rate
-        of q A . dr for charges in magnetic fields."""
+        """Return the change of L from mass points and forces: the change of (1/2) m v.v, the work of the forces, and
+        the rate of q A . dr for charges in magnetic fields."""
         if isinstance(matter, Varied):
             left = matter.change_along(xi)
             return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([left, changed_by(gain)])

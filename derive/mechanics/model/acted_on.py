@@ -76,7 +76,8 @@ def check_ground(system: WithParts, ground: object) -> None:
 
 
 def _check_gradients(system: WithParts) -> None:
-    """Reject a constraint whose gradient is zero wherever it holds: the constraint force is along this gradient."""
+    """Reject a constraint whose gradient is zero wherever the constraint holds: the constraint force is along the
+    gradient."""
     for lost in conditions_that_nothing_keeps(system.described.description):
         part = next((each for each in system.constraints if each.force == lost.multiplier), None)
         message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can keep it"
@@ -87,7 +88,8 @@ def _check_gradients(system: WithParts) -> None:
 def _check_partners(system: WithParts) -> None:
     """Require the second body of a force that contains a constraint force, such as friction.
 
-    The opposite force acts on this body. It need not be stated if there is one body, or if these forces add up to zero.
+    The opposite force acts on this second body. An input with one body need not state it, nor an input in which these
+    forces add up to zero.
     """
     letters: set[Symbol] = {each.force for each in system.constraints}
     touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]

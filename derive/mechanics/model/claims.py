@@ -22,7 +22,7 @@ def of_a_centre(facts: Judged) -> bool:
 
 
 def of_a_spring(facts: Judged, several: bool) -> bool:
-    """Whether a spring of the system has this length, as the only spring or as one of several."""
+    """Whether the result is the length of the only spring of the system or, if `several`, of one of its springs."""
     springs = [each for each in facts.subject.body.between if each.is_spring]
     return (len(springs) > 1) == several and any(is_zero(each.length - facts.result) for each in springs)
 

@@ -27,7 +27,7 @@ class Constraint(Part):
     """A constraint f = c, enforced by a force with the virtual work lambda df; or a_1 q_1_dot + ... = c, enforced
     by a force with the virtual work lambda (a_1 dq_1 + a_2 dq_2 + ...).
 
-    left      f, or the sum of rates
+    left      f, or a_1 q_1_dot + ...
     right     c, as written in the script
     force     the multiplier
     in_rates  whether the constraint is linear in the rates
@@ -51,7 +51,7 @@ class Constraint(Part):
         return coordinates_in(self.residual)
 
     def along(self, q: Symbol) -> Expr:
-        """The change of the constraint per displacement of q: df/dq, or a_q."""
+        """The factor of lambda in the force along q: df/dq, or a_q for a constraint on rates."""
         return diff(self.residual, rate(q) if self.in_rates else q)
 
     def velocity(self, moving: list[Symbol]) -> Expr:
@@ -73,9 +73,9 @@ class Constraint(Part):
 
     @property
     def kind_of_force(self) -> str | None:
-        """The kind of the multiplier: a force if f is a length, a torque if f is an angle; None if this is unknown.
+        """The kind of the multiplier: a force if f is a length, a torque if f is an angle; None if it is unknown.
 
-        The first term of f that is a number times a coordinate decides.
+        The first term that is a number times a coordinate, or times a rate, determines the kind.
         """
         for term in Add.make_args(self.residual.expand()):
             for q, kind in self.coordinates.items():
@@ -118,6 +118,6 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     made = Constraint(left, right, scalar(force), bool(rates))
     if not is_zero(
         made.residual - explicit(as_expr(condition) - equals)
-    ):  # the sign of the force depends on that of the condition
+    ):  # the sign of the force depends on the sign of the condition
         raise Unverified(Complaint("unverified", f"the constraint was changed to {made.residual} = 0"))
     return made

@@ -1,8 +1,9 @@
-"""The mass points and forces of a Lagrangian; second routes use them.
+"""The mass points and forces of the system of a Lagrangian; second routes are derived from them.
 
 A rigid body is equivalent to a few mass points: one with the whole mass at the centre of mass, and further points for
 the rotation. Each further point is the end of a unit vector fixed in the body, and its `mass` is a second moment, in
-kg m^2. Kinetic energy, momenta and virtual work then come only from positions, differentiated as functions of t.
+kg m^2. Kinetic energy, momenta and virtual work are then derived only from the positions of these points as functions
+of t.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert's principle).
 """
@@ -37,8 +38,8 @@ class MassPoint:
 class Load:
     """A force, in N, at a place, in m; or a torque, in N m, along an angle.
 
-    held   pairs of a symbol in the place and its value; the symbol is constant in every displacement, such as the
-    position of a particle in its body
+    held   pairs of a symbol in the place and the value of the symbol; the symbol, such as a component of the position
+    of a particle in its body, is constant in every displacement
     """
 
     force: Vector
@@ -71,7 +72,7 @@ class MagneticForce:
             raise Unverified(Complaint("unverified", message))
 
     def load(self, moving: Sequence[Symbol]) -> Load:
-        """The force, by SymPy's vector product, so independent of `vector_potential`."""
+        """Return the force e v x B from SymPy's vector product, without `vector_potential`."""
         v = _rates_of(self.place, tuple(moving), 1)
         velocity, field = (Matrix([*v, 0][:3]), Matrix([0, 0, *self.field] if len(v) == 2 else self.field))
         return Load(tuple(self.charge * c for c in list(velocity.cross(field))[: len(v)]), self.place)
@@ -91,9 +92,9 @@ class MagneticForce:
 
 @dataclass(frozen=True)
 class Reaction:
-    """The force of a constraint on rates; its virtual work is the sum of lambda a_q dq.
+    """The force of a constraint; its virtual work is the sum of lambda a_q dq.
 
-    factors   pairs of q and a_q
+    factors   pairs of q and a_q; for a constraint f = c between coordinates, a_q is df/dq
     """
 
     force: Symbol

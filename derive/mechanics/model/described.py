@@ -1,4 +1,4 @@
-"""The input of the witness: the parts of a system as described, before any constraint is used."""
+"""The input of the witness: the parts of a system as described, before any condition eliminates a coordinate."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ CONSERVED = "hamilton.conserved"  # the rule of conserved momenta
 
 @dataclass(frozen=True)
 class Described(Witness):
-    """The described system to which a quantity belongs, for the witness."""
+    """The description of the system to which a quantity belongs; the witness checks the quantity with it."""
 
     missing = "does not belong to a described system"
     description: plain.Description
@@ -41,7 +41,7 @@ class Described(Witness):
 
 @dataclass(frozen=True)
 class Struck(Witness):
-    """The described impact from which a quantity follows, for the witness."""
+    """The description of the impact from which a quantity follows; the witness checks the quantity with it."""
 
     missing = "does not follow from an impact"
     impact: plain.Impact
@@ -65,10 +65,10 @@ def described(
     coordinates: Mapping[Symbol, str],
     lagrangian: Expr | None = None,
 ) -> plain.Description:
-    """The description for the witness: particles, bodies and forces, or a given Lagrangian and forces.
+    """Return the description that the witness uses: particles, bodies and forces, or a given Lagrangian and forces.
 
     bodies   the bodies among the parts
-    known    coordinate -> its formula in other coordinates, by a condition; here the condition remains a constraint
+    known    coordinate -> its formula in other coordinates, from a condition; the description keeps this condition
     """
     found: dict[str, list[Any]] = {"conditions": [plain.Condition(q - function) for q, function in known.items()]}
     for part in parts:
@@ -84,7 +84,7 @@ def described(
 
 
 def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
-    """The indices of the places that move with no body, no particle and not with the ground."""
+    """The indices of the places that move, but neither with a body or a particle nor with the ground."""
     moving = {q for q, _ in of.coordinates}
     asked = [i for i, place in enumerate(places) if any(explicit(c).free_symbols & moving for c in place)]
     if not asked or of.lagrangian is not None:

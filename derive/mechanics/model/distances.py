@@ -20,12 +20,12 @@ __all__: list[str] = []
 
 Lengths: TypeAlias = list[Quantity]
 
-LONG = 4  # a square root of this many terms, or more, has its own symbol
+LONG = 4  # a distance that is a square root of at least this many terms has its own symbol
 LETTERS = ("s", "u", "w")
 
 
 def long_distances(system: System) -> Lengths:
-    """The steps for the distances with long formulas in potential energies, such as lengths of springs."""
+    """Return a step for each distance with a long formula in a potential energy, such as the length of a spring."""
     long = [each for each in system.between if _is_long(each.length)]
     letter = next((each for each in LETTERS if not _is_taken(each, system)), LETTERS[0])
     names = [f"{letter}_{i}" for i in range(1, len(long) + 1)] if len(long) > 1 else [letter]

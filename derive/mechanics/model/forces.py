@@ -1,7 +1,8 @@
 """Forces on a system other than weight and springs: given forces and torques, drag, charges in fields, and any
 potential energy of the coordinates.
 
-A couple on an angle and drag on a coordinate act only along this coordinate. All other forces act at a place.
+A couple acts only along its angle, and drag on a coordinate only along this coordinate. All other forces act at a
+place.
 """
 
 from __future__ import annotations
@@ -34,12 +35,12 @@ class _AtPlace(Part):
     """A force at a place, or along a coordinate.
 
     at   the components of the place, or the coordinate as the only component
-    of   the body or particle on which the force acts, or "massless"; None if this is not stated
+    of   the body or particle on which the force acts, or "massless"; None if the script does not state it
     """
 
     at: Vector
     of: Any
-    verb: ClassVar[str]  # the verb that makes it
+    verb: ClassVar[str]  # the function of a script that creates the force
     what: ClassVar[str]  # its name in messages
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
@@ -54,7 +55,7 @@ class _AtPlace(Part):
 
     @property
     def place(self) -> Vector:
-        """The place of action: `at` for a body, and the place of the particle for a particle."""
+        """The place at which the force acts: `at` on a body, and the place of the particle on a particle."""
         return self.at if self.point.held else self.point.place
 
     @property
@@ -68,9 +69,10 @@ class _AtPlace(Part):
 
 @dataclass(frozen=True)
 class GivenForce(_AtPlace):
-    """A force at a place, N; or a generalized force Q along a coordinate q, with the work Q dq: a torque for an angle.
+    """A force at a place, N; or a generalized force Q along a coordinate q, with the work Q dq.
 
-    of   the body or particle on which the force acts, or "massless"; None if this is not stated
+    Q is a torque if q is an angle.
+    of   the body or particle on which the force acts, or "massless"; None if the script does not state it
     by   the body or particle that exerts the force, or "ground"; the opposite force acts on this body or particle
     """
 
@@ -88,7 +90,7 @@ class GivenForce(_AtPlace):
 
     @property
     def opposite(self) -> GivenForce | None:
-        """The opposite force at the same place, on the body that exerts this force; None without such a body."""
+        """The opposite force at the same place, on the body or particle `by`; None if `by` is None or the ground."""
         if self.by is None or self.by == GROUND:
             return None
         return GivenForce(tuple(-c for c in self.components), self.at, self.by, self.of)
@@ -107,7 +109,7 @@ class GivenForce(_AtPlace):
 
 @dataclass(frozen=True)
 class Damper(_AtPlace):
-    """Drag -c v against the velocity v of a place, or -c q_dot along a coordinate; `of` as for forces."""
+    """Drag -c v against the velocity v of a place, or -c q_dot along a coordinate; `of` as in `GivenForce`."""
 
     constant: Expr
     at: Vector
@@ -152,7 +154,7 @@ class StoredEnergy(Part):
 
 @dataclass(frozen=True)
 class InUniformField(StoredEnergy):
-    """The energy of a charge in a uniform electric field; the force q E does not come from this energy."""
+    """The energy of a charge in a uniform electric field; the force is given as q E, not derived from the energy."""
 
     force: Vector
     at: Vector
@@ -271,8 +273,8 @@ def potential(energy: Any) -> StoredEnergy:
 def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
     """A charge, C, at a place in a uniform electric field E, V/m, and a uniform magnetic field B, T.
 
-    E   as many components as the place has
-    B   three components; for a place in a plane, the single component perpendicular to the plane, towards the reader
+    E   the components of the electric field, as many as the place has
+    B   three components; for a place in a plane, only the component perpendicular to the plane, towards the reader
     """
     place = _place("charge", at)
     count = len(place.components)

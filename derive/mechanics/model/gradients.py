@@ -23,8 +23,8 @@ from derive.steps.step import Quantity
 def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
     """The length of the gradient of a condition with respect to the position of a single particle.
 
-    The coordinates must allow every displacement of this particle. None otherwise, and for several particles, for
-    bodies, and for a condition on rates.
+    The coordinates must allow every displacement of this particle. The result is None if they do not, if there are
+    bodies or several particles, or if the condition is on rates.
     """
     described = next((known for q in lagrangian.ancestors() if (known := q.fact(Described)) is not None), None)
     description = described.description if described is not None else None

@@ -1,4 +1,4 @@
-"""Positions as steps: the components of a place, and integrated conditions on rates."""
+"""Steps that give positions: the components of a place, and the integrals of conditions on rates."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ INTEGRATED = Rule(
 def integrated(condition: Quantity, key: str | None = None) -> Quantity:
     """Integral of a condition on rates with constant factors: s = R theta from s_dot = R theta_dot.
 
-    condition   from `no_slip`; it must express one rate as a linear combination of other rates with constant factors
-    The constant of integration is zero: all coordinates are zero at the same position.
-    Check: the time derivative of the result is the condition, and all coordinates are zero together.
+    condition   a step of `no_slip` that expresses one rate as a linear combination of other rates with constant factors
+    The constant of integration is zero: it is assumed that all coordinates are zero in one position of the system.
+    Check: the time derivative of the result is the condition; if all coordinates are zero, the result is zero.
     Errors: the condition cannot be integrated.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
@@ -68,11 +68,11 @@ def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence
     """Components of a place, or of the centre of mass of a body, with conditions of rolling substituted.
 
     of           a body that is placed or held, or a place, m
-    conditions   from `no_slip`; a coordinate that a condition expresses by others is replaced by this expression
-    names        names of the components, also their keys; by default x, y, or x, y, z, the last one upwards
-    For a `point` with these components, speeds and energies contain the symbols of the components.
-    Check: the velocity with the conditions for the rates substituted is the time derivative of the result; and with all
-    coordinates zero, the result is the original component.
+    conditions   steps of `no_slip`; a coordinate that a condition expresses by others is replaced by this expression
+    names        names of the components and keys of their steps; by default x, y, or x, y, z; the last axis is upwards
+    If a `point` has these components, speeds and energies contain the symbols of the components.
+    Check: the time derivative of the result is the velocity of the place, with the conditions substituted for rates.
+    If all coordinates are zero, the result is equal to the component before the substitution.
     Outcomes: centre (of a body), place.
     Errors: a condition cannot be integrated; the numbers of names and components differ.
     Source: Taylor, *Classical Mechanics*, section 7.3.
@@ -101,7 +101,7 @@ def _component(
     """Component of a place or of a centre of mass.
 
     Outcomes: centre, place.
-    Source: that of `components`.
+    Source: the same as for `components`.
     """
     used = {role: q for role, q in conditions.items() if component.has(q.symbol)}
     letters = [q.symbol for q in used.values()]

@@ -1,7 +1,7 @@
 """Material points: the particle of a body that is at a given place, and the motion of this particle.
 
-A place in space may move differently from every particle, such as the point of contact of a sliding ball. A force on a
-body acts on the particle that is at this place.
+Some places, such as the point of contact of a sliding ball, move differently from every particle. A force on a body
+acts on the particle that is at the place of the force.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ GROUND, MASSLESS = "ground", "massless"
 
 @dataclass(frozen=True)
 class MaterialPoint:
-    """A particle of a body: its place as a formula in symbols for its constant position in the body.
+    """A particle of a body; its place is a formula that contains symbols for its constant position in the body.
 
     place   to be differentiated with these symbols constant
     held    pairs of a symbol and its value, to be substituted after differentiation
@@ -48,7 +48,7 @@ def particle_of(body: PlacedBody, at: Location) -> MaterialPoint:
 
 
 def at_rest_in(axes: Axes, at: Location) -> MaterialPoint:
-    """The particle at a place of a surface, such as a turntable, that is at rest in the given axes."""
+    """The particle of a surface at a place; the surface, such as a turntable, is at rest in the given axes."""
     arm = axes.in_space.T * ImmutableDenseMatrix(at.components)
     names = [stand_in(f"rho_{i}") for i in range(len(arm))]
     return MaterialPoint(tuple(axes.in_space * ImmutableDenseMatrix(names)), tuple(zip(names, arm, strict=True)))
@@ -57,8 +57,8 @@ def at_rest_in(axes: Axes, at: Location) -> MaterialPoint:
 def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
     """The material point on which a force at a place acts.
 
-    of   a placed body: its particle at this place; a particle: this particle, wherever it is; None or "massless": a
-    point that moves with the place
+    of   for a placed body, the result is the particle of the body at this place; for a particle, the particle itself,
+    wherever it is; for None or "massless", a point that moves with the place
     """
     if of is None or of == MASSLESS:
         return MaterialPoint(at.components)

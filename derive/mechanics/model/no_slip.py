@@ -48,9 +48,9 @@ def no_slip(
     for example those of a turntable; by default the surface is at rest in space
     fixes    the coordinate whose rate to isolate, if possible; by default the coordinate of the last rotation
     There is one condition for each rate that can be isolated. A condition that can be integrated may be a part of a
-    `System`, and then expresses a coordinate by others.
+    `System`; it then expresses one coordinate by other coordinates.
     Second route: the path of the particle at the contact, whose position in the body is constant, is differentiated.
-    With all conditions its velocity vanishes, and each condition follows from this vanishing velocity.
+    If all conditions hold, this particle has the velocity of the surface; each condition follows from this fact.
     Errors: the particle at the contact is always at rest, or the body cannot roll.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
@@ -76,7 +76,7 @@ def rolling_constraint(
 def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr]:
     """The components of the slip velocity along perpendicular directions; multipliers are then components of friction.
 
-    The slip velocity is the sum of each condition times a vector. Orthogonalization of these vectors gives the
+    The slip velocity is a sum over the conditions, each times a vector. Orthogonalization of these vectors gives the
     directions.
     """
     vectors: list[ImmutableMatrix] = []
@@ -98,7 +98,7 @@ def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr
 
 
 def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
-    """The sum of share times condition, with its terms collected by rates; a single condition is unchanged."""
+    """The sum of the conditions, each times its share, collected by rates; one condition with share 1 is unchanged."""
     parts = [(share, each.left) for share, each in zip(shares, conditions, strict=True) if share != 0]
     if len(parts) == 1 and parts[0][0] == 1:
         return parts[0][1]
@@ -109,7 +109,7 @@ def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
 
 
 def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
-    """Check that the constraints together mean exactly that the particle at the contact is at rest on the surface."""
+    """Check that the constraints are components of the slip velocity, and vanish exactly if this velocity does."""
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     at_rest = velocity_of_particle(body, at, ground)
     ranks = {_rank(lines, moving) for lines in (at_rest, conditions, [*at_rest, *conditions])}
@@ -204,7 +204,7 @@ def _check_reaches(body: PlacedBody, at: Location) -> None:
 
 
 def _order(body: PlacedBody, at: Location) -> list[Symbol]:
-    """The coordinates in order of preference: of the last rotation, of earlier rotations, then all others."""
+    """The coordinates in the order in which rates are isolated: last rotation, earlier rotations, all others."""
     if isinstance(body.turned, Axes):
         turning = [q for _, angle in reversed(body.turned.turns) for q in coordinates_in(angle)]
     else:
@@ -251,7 +251,7 @@ def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
 
 
 def _rates_alone(component: Expr) -> Expr:
-    """The component without the factors that contain no rate."""
+    """Return the product of the factors that contain a rate; if there is no such factor, the component itself."""
     fast = {s for q in coordinates_in(component) for s in (rate(q),)}
     kept = [f for f in Mul.make_args(factor(component)) if f.free_symbols & fast]
     return Mul(*kept) if kept else component
@@ -273,13 +273,13 @@ def _solved(
     marks = [stand_in(f"delta_{i}") for i in range(len(at.components))]
 
     def at_rest(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that the particle at the contact is at rest, by all conditions together."""
+        """Check that all conditions together bring the particle at the contact to rest on the surface."""
         velocity = velocity_of_particle(body, at, ground)
         known = {**_all_rates(body, at, ground, fixes), relation.left: relation.right}
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that the condition follows from the particle at rest: as a further row it keeps the rank."""
+        """Check that the condition follows from the particle at rest: this further row does not increase the rank."""
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 

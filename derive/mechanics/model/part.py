@@ -1,4 +1,4 @@
-"""The interface of a part of a system: its places, its masses, its forces, and the places at which they act.
+"""The interface of a part of a system: places, masses, forces, and the places at which the forces act.
 
 A system loops over its parts and does not distinguish sorts of parts.
 """
@@ -17,7 +17,7 @@ Vector = tuple[Expr, ...]
 
 
 class Part:
-    """A part without places, masses or forces; each sort of part overrides what it has."""
+    """A part without places, masses or forces; each subclass overrides the properties that differ."""
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         """Return the same part with expressions substituted for some coordinates."""
@@ -50,7 +50,7 @@ class Part:
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """The name of the part and each of its places for which the description names no particle."""
+        """The name of the part and a place, for each place at which the part does not state on what it acts."""
         return ()
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:

@@ -26,7 +26,7 @@ from derive.steps.subject import NOTHING, Subject
 __all__ = ["angular_velocity"]
 
 Inertia: TypeAlias = Quantity | Expr  # a step, or the symbol of a moment about the axis perpendicular to the plane
-_SQUARES = (lambda value: value, TR5, TR6)  # unchanged, by cosines, by sines
+_SQUARES = (lambda value: value, TR5, TR6)  # unchanged; squares of sines by cosines; squares of cosines by sines
 
 
 ANGULAR_VELOCITY = Rule(
@@ -123,7 +123,7 @@ def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
 def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
     """Axes along which the inertia of a body in space is constant and its angular velocity has short components.
 
-    If the last rotations are about an axis of symmetry, these are the axes before the last rotations.
+    If the last rotations are about an axis of symmetry, the result is the axes before these rotations.
     """
     axes: Any = placed.turned
     count = len(axes.turns)
@@ -167,7 +167,7 @@ def _at_centre(placed: PlacedBody) -> bool:
 def inertia_of(placed: PlacedBody) -> Inertia:
     """The tensor of a body in space, or the moment of a body in a plane about the perpendicular axis.
 
-    Errors: the given moments are about a point other than the one needed.
+    Errors: the given moments are about the wrong point.
     """
     body, axis = placed.body, placed.across
     about = "centre" if _at_centre(placed) or not is_about_the_point(placed) else placed.point.name
@@ -182,7 +182,7 @@ def inertia_of(placed: PlacedBody) -> Inertia:
 
 
 def _check_moments(placed: PlacedBody) -> None:
-    """Require moments about the pivot for a body held there, and about the centre of mass for all others."""
+    """Reject moments about the pivot if the body is not held there, or if their steps are about the centre of mass."""
     body = placed.body
     if body.about == "fixed_point" and any(body.centre) and not is_about_the_point(placed):
         where = "moves freely" if not placed.is_held else f"is held at its {placed.point.name}"

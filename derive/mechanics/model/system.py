@@ -113,7 +113,7 @@ class MovingBody(Part):
         return [point for point in points if point.mass != 0]
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
-        """The body for the witness: the place of its known point, the centre of mass relative to it, second moments."""
+        """The body for the witness: the place of its given point, its centre relative to this point, second moments."""
         placed = self.placed
         axes = placed.in_plane if placed.is_plane else (0, 1, 2)
         arm = explicit(ImmutableDenseMatrix(placed.body.middle.position - placed.point.position))
@@ -132,7 +132,7 @@ class MovingBody(Part):
 
 @dataclass(frozen=True)
 class Weight(Part):
-    """The weight of every particle, downwards along the last axis, with the gravitational acceleration g in m/s^2."""
+    """The weight of every mass, downwards along the last axis, with the gravitational acceleration g in m/s^2."""
 
     gravity: Expr
 
@@ -146,7 +146,7 @@ class Weight(Part):
 
 @dataclass(frozen=True)
 class Central(Part):
-    """A potential energy U(r), J, where r is the distance between two places, and its force along their line, N.
+    """A potential energy U(r), J, of the distance r between two places, and the force dU/dr along their line, N.
 
     branch   for places on a fixed line, where r = |u|: u or -u, if the system has chosen the sign; None otherwise
     """
@@ -178,7 +178,7 @@ class Central(Part):
 
     @cached_property
     def length(self) -> Expr:
-        """The distance; if the system has chosen a branch, this branch, and the page states that it is positive."""
+        """Return the distance; if the system has chosen a branch, return the branch and assume that it is positive."""
         if self.branch is not None:
             assume(Relation(self.branch, ">", ZERO), self.is_spring)
             return self.branch
@@ -211,7 +211,7 @@ class Central(Part):
 
 
 def weight(gravity: Expr) -> Weight:
-    """The weight of all particles of a system."""
+    """The weight of all particles and bodies of a system."""
     require_constant("weight", "gravity", gravity)
     return Weight(gravity)
 
@@ -231,7 +231,7 @@ def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO,
 def central(energy: Expr, distance: Symbol, start: Location, end: Location, massless: bool = False) -> Central:
     """A potential energy U(r), where r is the distance between two places: `central(-G*M*m/r, r, sun, planet)`.
 
-    massless   as for `spring`
+    massless   as in `spring`
     """
     if TIME in energy.free_symbols:
         raise Rejected(
@@ -254,7 +254,7 @@ class KnownCoordinate(Fact):
 
 @dataclass(frozen=True)
 class Eliminated(Fact):
-    """The coordinates that conditions of a system express by others; later quantities do not contain them."""
+    """The coordinates that conditions express by other coordinates; later quantities do not contain them."""
 
     missing = "has no coordinate that is expressed by others"
     eliminates: tuple[Symbol, ...]
@@ -263,7 +263,7 @@ class Eliminated(Fact):
 class System:
     """Particles and bodies, the forces on them, and the conditions on their motion.
 
-    name   a name such as "first": keys of its steps begin with `first_`, and symbols have the index `first`
+    name   a name such as "first": keys of steps of this system begin with `first_`, and symbols have the index `first`
     """
 
     def __init__(self, *parts: PartOfSystem, name: str = ""):
@@ -282,7 +282,7 @@ class System:
         self.known: Mapping[Symbol, Expr] = known
         self.eliminated = tuple(known)
         made = (_as_part(part) for part in parts if not isinstance(part, Quantity))
-        # sums over all masses begin with the particles
+        # bodies are last, because sums over all masses begin with the particles
         self._described = tuple(sorted(made, key=lambda part: isinstance(part, MovingBody)))
         self.put_in = tuple(c for c in self.conditions if _is_put_into(c, self._described))
         self.parts = tuple(part.moved(known) for part in self._described) if known else self._described
@@ -311,7 +311,7 @@ class System:
             if taken_positive(explicit(mass)) != 1:
                 raise Rejected(Complaint("no-such-body", f"a mass of a `System` must be positive, but {mass} is not"))
         if len(self.weights) > 1:
-            raise Rejected(Complaint("wrong-argument", "a `System` can have only one weight, of all its particles"))
+            raise Rejected(Complaint("wrong-argument", "a `System` can have only one weight, for all its masses"))
         if len({len(place.components) for place in self.places}) > 1:
             message = "some places of this `System` have two components, and some have three"
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
@@ -321,7 +321,7 @@ class System:
                 Complaint(
                     "wrong-argument",
                     message,
-                    help=Spelled('name what varies with `coordinate("theta")`', "give what varies under `coordinates`"),
+                    help=Spelled('define a variable, `coordinate("theta")`', "list the variables under `coordinates`"),
                 )
             )
         self._check_what_acts()
@@ -335,7 +335,7 @@ class System:
                 Complaint(
                     "letter-clash",
                     message,
-                    help=Spelled('give them letters, `constraint(..., force="N")`', "give each a letter, `force: N`"),
+                    help=Spelled('give each a symbol, `constraint(..., force="N")`', "give each a symbol, `force: N`"),
                 )
             )
 
@@ -403,7 +403,7 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
     if found is None:
         message = f"`{condition.key}` does not express a coordinate by others, so the energies cannot use it"
         help_line = Spelled(
-            "keep a rolling condition that cannot be integrated by forces: `*rolling_constraint(...)`",
+            "enforce a rolling condition that cannot be integrated: `*rolling_constraint(...)`",
             "enforce it by a force: add `force: F` under `rolling`",
         )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
@@ -411,7 +411,7 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
 
 
 def _check_kept(condition: Quantity) -> None:
-    """Check that the expression for the coordinate satisfies the condition; a condition on rates, for all rates."""
+    """Check that the expression for the coordinate satisfies the condition, for all rates if it contains rates."""
     q, function = _known_by(condition)
     value = explicit(condition.value)
     if isinstance(value, Relation):
@@ -430,7 +430,7 @@ def _is_put_into(condition: Quantity, parts: Sequence[Part]) -> bool:
 
 
 def _with_branches(system: System) -> tuple[Part, ...]:
-    """The parts of a system, where potentials of a distance |u| have a branch, u or -u, if there is a natural choice.
+    """Return the parts; a potential of a distance |u| gets a branch, u or -u, if there is a natural choice.
 
     A branch is chosen only if the position with all coordinates zero is special: the spring has its natural length
     there, or all forces with a potential energy balance there. The coordinates are then displacements from this
@@ -451,7 +451,8 @@ def _with_branches(system: System) -> tuple[Part, ...]:
 def _near_rest(each: Central) -> Central | None:
     """The potential with the branch that is positive where all coordinates are zero.
 
-    Unchanged if the line has no fixed direction; None if no branch is known to be positive there.
+    The potential is unchanged if the line has no fixed direction. The result is None if no branch is known to be
+    positive there.
     """
     if each.along is None:
         return each

@@ -1,4 +1,4 @@
-"""Predicates of motions: each decides whether an outcome, or a thing that its sentence names, is correct."""
+"""Predicates of motions: each decides whether an outcome, or an expression that its sentence names, is correct."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Whether, numerically, the force at the start is positive or, for a later loss of contact, zero."""
+    """Whether, numerically, the force at the start is positive (zero if `later`), and the stated condition is right."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -95,8 +95,8 @@ def _gets_there_as_told(facts: Judged) -> bool:
 def turned_back(facts: Judged) -> bool:
     """Whether, numerically, the motion turns back before the force vanishes, or exactly there.
 
-    At the place the force is zero, and the squared rate is negative or, for >=, zero. At the start the force is
-    positive, and the squared rate is not negative.
+    At the place the force is zero, and the squared rate is negative (zero if the result is N >= 0). At the start
+    the force is positive, and the squared rate is not negative.
     """
     just_there = facts.result.operator == ">="
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
@@ -120,7 +120,7 @@ def by_energy(facts: Judged, fact: ByEnergy) -> bool:
 
 
 def steady(facts: Judged, fact: Steady) -> bool:
-    """Whether the fact has the constant values that the sentence states, and the result is one of its conditions."""
+    """Whether the fact has the constant values that the sentence states, and the result is a condition of the fact."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
     fits = any(same_equation(each, explicit(facts.result).residual) for each in fact.conditions)
@@ -162,7 +162,7 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     if relation.operator != "=" or relation.left == relation.right:
         return False
-    if "lagrangian" not in facts.quantities:  # from an equation of motion, which contains the rates
+    if "lagrangian" not in facts.quantities:  # the condition is from an equation of motion, which contains the rates
         q = facts.inputs["coordinate"]
         still = {rate(q): Integer(0), rate(q, 2): Integer(0), **told}
         left = explicit(facts.inputs["equation"]).residual.subs(still, simultaneous=True)
@@ -175,7 +175,7 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def sum_left(wanted: str) -> Predicate:
-    """Whether there are no terms without a highest rate ("plain"), these terms cancel, or some of them remain."""
+    """Whether, as `wanted`, no terms without a highest rate exist ("plain"), such terms "cancel", or some "remain"."""
 
     def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
@@ -195,7 +195,7 @@ def times_its_factor(facts: Judged) -> bool:
 
 
 def nothing_else_moves(facts: Judged) -> bool:
-    """Whether the result contains no acceleration and not the rate of the coordinate, and is not trivial."""
+    """Whether the result contains neither an acceleration nor the rate of the coordinate, and is not 0 = 0."""
     q = facts.inputs["coordinate"]
     moving = {s for s in facts.result.free_symbols if s.name.endswith("_ddot")} | {rate(q)}
     return not is_zero(facts.result.residual) and not moving & facts.result.free_symbols

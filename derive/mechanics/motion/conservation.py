@@ -1,7 +1,7 @@
 """The rate of change of a quantity by the equations of motion, and whether it is conserved.
 As in a textbook, each equation is multiplied by a factor, the products are added, and the sum turns out to be the rate
-of change of the quantity Q. The factors follow from the highest rates: dQ/dt is linear in these rates, and the sum of
-the products must have the same coefficients.
+of change of the quantity Q. The factors follow from the highest rates in the equations, usually accelerations: dQ/dt is
+linear in the highest rates, and the sum of the products must have the same coefficients.
 """
 
 from __future__ import annotations
@@ -44,9 +44,9 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     quantity    a scalar Q in coordinates and their rates; the unit of the result is the unit of Q per second
     equations   equations of motion that are linear in the highest rates; as many equations as highest rates
     Each equation times its factor is a step. The sum of several products is a step too.
-    Second route: differentiate Q as a function of time and substitute the highest rates from the equations; for any
-    motion, subtract the sum of the products; integrate one motion numerically. If Q belongs to a body, also add the
-    contributions of its particles, and repeat the calculation for an inertia tensor that is not diagonal.
+    Second route: differentiate Q as a function of time and substitute the highest rates from the equations. Without
+    this substitution, subtract the sum of the products from dQ/dt. Integrate one motion numerically. If Q belongs to a
+    body, also sum the contributions of its particles, and repeat this for an inertia tensor that is not diagonal.
     Outcomes: conserved (the rate is zero), changes.
     Errors: the equations do not determine the highest rates; dQ/dt contains rates of higher order than the equations.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -92,9 +92,9 @@ def _moving(quantities: Sequence[Quantity]) -> list[Symbol]:
 
 
 def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequence[Symbol]) -> tuple[Expr, list[Expr]]:
-    """Return a number and the factors of the equations.
-    The sum of the equations, each times the number and its factor, has the same highest rates as dQ/dt. The page omits
-    the number, which is common to all equations.
+    """Return a common number, and one factor for each equation.
+    The sum of the equations, each times the number and its factor, has the same terms with highest rates as dQ/dt. The
+    page omits the number.
     """
     matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
     wanted = Matrix([diff(own_rate, a) for a in unknown])
@@ -217,7 +217,7 @@ def _sum(
 
 
 def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
-    """Return the line "terms with highest rates = (c_1 + c_2 + ...) P", if P is a common factor of the other terms."""
+    """Return the line "terms with highest rates = (c_1 + c_2 + ...) P", if the other terms are multiples of P."""
     with_rates, rest = [], []
     for equation, factor in of:
         number, moved = factor.as_independent(*moving, as_Add=False)
@@ -234,7 +234,7 @@ def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], hig
 
 
 def _added(sides: Sequence[Expr]) -> list[Expr]:
-    """Return the terms of several sums as one list without zeros; a single zero if there are no other terms."""
+    """Return the terms of several sums as one list without zeros; if nothing remains, the list is a single zero."""
     return [term for side in sides for term in side.as_ordered_terms() if term != 0] or [Integer(0)]
 
 

@@ -33,7 +33,7 @@ __all__ = ["period_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
-NOISE = 1e-9  # relative error allowed by cancellation near the turning points
+NOISE = 1e-9  # relative error that is accepted because of cancellation near the turning points
 
 
 SPEED_FROM_ENERGY = Rule(
@@ -59,8 +59,8 @@ def speed_from_energy(
     start_rate   value of q_dot at the start, by default 0, for a release from rest
     motion       the equation of motion, or q_ddot from it; needed if no mass points and forces belong to the energy
     A separate step states that the energy has its initial value.
-    Second route: with q_ddot by d'Alembert's principle for the mass points, the energy does not change in time, and
-    q_ddot is half the derivative of q_dot^2 with respect to q; at the start the rate has the given value.
+    Second route: q_ddot comes from `motion`, or from d'Alembert's principle for the mass points. It is half the
+    derivative of q_dot^2 with respect to q, and leaves the energy constant. At the start the rate has the given value.
     Errors: the energy is not conserved, contains another coordinate, or is not of this form.
     Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
     """
@@ -131,7 +131,7 @@ def _energy_kept(
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 
     def keeps(found: Relation) -> tuple[Any, Any]:
-        """Check that the equation is satisfied at the start, and that E has no rate of change along the motion."""
+        """Check that the equation is satisfied at the start, and that E does not change along the motion."""
         there = found.residual.xreplace({letter: first, speed: initial})
         changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
         is_equation = int(found.operator == "=")
@@ -215,17 +215,18 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
     squared   q_dot^2 from `speed_from_energy`, 1/s^2, for a release from rest at q = A; it must be even in q
     order     the highest power of A in the series
     The series has its own symbol, tau_lim. Numerical values of the period come from the integral.
-    Second route: for small amplitudes, 2 pi/omega_0 from the linearised equation of motion; and the integral,
-    numerically.
+    Second route: for small amplitudes, 2 pi/omega_0 from the linearised equation of motion. Check: the numerical value
+    of the integral.
     Outcomes: exact (the period does not depend on the amplitude), expanded.
-    Errors: the motion does not start from rest at a symbol; q_dot^2 is not an even function of q.
+    Errors: the motion does not start from rest, or the value of q at the start is not a symbol; q_dot^2 is not an even
+    function of q; the motion is not an oscillation about q = 0.
     Source: Landau, Lifshitz, *Mechanics*, section 11.
     """
     known = squared.needed(ByEnergy)
     q, amplitude, value = known.coordinate, known.start, explicit(squared.value)
     if not isinstance(amplitude, Symbol) or known.start_rate != 0:
         message = (
-            f"`period_by_energy` needs a release from rest at a letter, the amplitude, but `{squared.key}` has none"
+            f"`period_by_energy` needs a release from rest at a symbol, the amplitude, but `{squared.key}` has none"
         )
         raise Rejected(Complaint("wrong-argument", message))
     if not is_zero(value.subs(q, -q) - value):
@@ -292,8 +293,8 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
     drawn = islice(points(letters, seed_of(value)), 40)
     point = next((p for p in drawn if _swings(found, {**p, amplitude: Rational(1, 40)})), None)
     if point is None:
-        return Verdict(Grade.REFUTED, "the period is not real for any of the numbers tried")
-    figures = FIGURES + 5 * order  # enough to compare the difference with a power of a small amplitude
+        return Verdict(Grade.REFUTED, "the period is not positive for any of the numbers tried")
+    figures = FIGURES + 5 * order  # enough digits to compare the difference with a power of a small amplitude
     with mp.workdps(figures):
         rests = []
         for small in (Rational(1, 40), Rational(1, 80)):
@@ -304,12 +305,12 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
             told = Rational(str(found.xreplace(there).evalf(mp.dps)))
             rests.append(mp.mpf(str((abs(2 * half / told - 1) / small**order).evalf(mp.dps))))
     if not (rests[1] <= rests[0] * 0.6 or rests[1] <= NOISE):
-        return Verdict(Grade.REFUTED, f"the numerical integral differs by {mp.nstr(rests[1], 5)} of the last power")
+        return Verdict(Grade.REFUTED, f"the integral differs by {mp.nstr(rests[1], 5)} times the last power")
     return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, numerically")
 
 
 def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:
-    """Whether the period is positive for these numbers, so that the force is restoring."""
+    """Whether the period is positive for these numbers, which means that the force is restoring."""
     return bool(found.subs(point).evalf().is_positive)
 
 

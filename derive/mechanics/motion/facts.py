@@ -23,9 +23,9 @@ class Steady(Fact):
 
 @dataclass(frozen=True)
 class ByEnergy(Fact):
-    """The start of a motion of one coordinate, and the acceleration by the equation of motion."""
+    """The start of a motion of one coordinate, and the acceleration from the equation of motion."""
 
-    missing = "is not the square of a rate by conservation of energy"
+    missing = "is not the square of a rate from conservation of energy"
     coordinate: Symbol
     start: Expr
     start_rate: Expr

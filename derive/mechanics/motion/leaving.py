@@ -61,18 +61,18 @@ LEAVES_CONTACT = Rule(
     start="start",
 )
 def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "leaves_contact") -> Quantity:
-    """Place where contact is lost: N = 0, solved for one unknown, since the normal force can only push.
+    """Place where contact is lost because the normal force can only push: N = 0, solved for one unknown.
 
-    force    the normal force N, positive while it pushes, N; or the tension of a string, positive while it pulls
+    force    the normal force, positive while it pushes, in N; or the tension of a string, positive while it pulls
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
     start    the value of the unknown at the start, where the surfaces touch
     The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
     f must be positive at the place. If the sign of f there depends on the symbols, the page states the condition f > 0.
     If f cannot be positive there, contact is not lost.
     Factors of the force that are known to be positive, such as sin(theta) for 0 < theta < pi/2, are omitted.
-    Check: the force is zero at the place and positive between the start and the place. If factors are omitted, also
-    numerically along the coordinate: positive before the place, negative beyond it. Witness: the described motion,
-    followed from the start until the multiplier vanishes.
+    Check: the force is zero at the place and positive between the start and the place. If factors are omitted, the
+    force must also be numerically positive before the place and negative beyond it. Witness: the motion of the
+    described system is followed from the start until the multiplier vanishes.
     Outcomes: lost; lost_later (the force is zero at the start, and positive just after it); never (the force is always
     positive); turns_back (the motion does not reach the place where the force would vanish);
     turns_there (the force vanishes only where the motion turns back).
@@ -173,10 +173,10 @@ def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: 
 
 
 def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
-    """Turning back of the motion before the place where the force would vanish, or exactly there: N > 0 or N >= 0.
+    """The motion turns back before the place where the force would vanish (N > 0), or exactly there (N >= 0).
 
     Outcomes: turns_back, turns_there.
-    Source: that of `leaves_contact`.
+    Source: the same as for `leaves_contact`.
     """
     begin, place = ends
     value = tidied(explicit(number_of(force)))
@@ -210,7 +210,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 
 
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
-    """Split sin(theta)(a cos(theta) - b) into the sine and the bracket, if the sine is known to be positive."""
+    """Split off factors known to be positive: sin(theta) (a cos(theta) - b) gives the sine and the bracket."""
     u = mark_for(unknown)
     rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
     held = Mul(*beside)

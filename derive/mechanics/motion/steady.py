@@ -103,7 +103,7 @@ def _of_equation(
     """Condition of a steady motion from an equation of motion, with a constant coordinate and constant cyclic rates.
 
     Outcomes: of_equation.
-    Source: that of `steady_motion`.
+    Source: the same as for `steady_motion`.
     """
     turning = set(steady.rates)
     still = {letter: value for letter, value in motion.items() if letter not in {rate(s) for s in turning}}
@@ -136,7 +136,7 @@ def _of_equation(
 def _given(
     role: str, given: Mapping[Any, Any] | None, turning: Sequence[Coordinate], still: Sequence[Coordinate]
 ) -> dict[Symbol, Expr]:
-    """Return the given constant values, of rates or of coordinates, by coordinate."""
+    """Return a mapping from each coordinate to the given constant value of the coordinate, or of its rate."""
     known = {q.symbol for q in (turning if role == "rate" else still)}
     moving = {TIME, *(s for q in (*turning, *still) for s in (q.symbol, q.rate))}
     found: dict[Symbol, Expr] = {}
@@ -158,7 +158,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
     """Condition of a steady motion for one coordinate.
 
     Outcomes: generic, always.
-    Source: that of `steady_motion`.
+    Source: the same as for `steady_motion`.
     """
     of, matter = steady.lagrangian, steady.lagrangian.needed(Matter)
     force = bound(derivative(explicit(of.value), q.symbol), motion)
@@ -235,12 +235,12 @@ def _in_results(
     known = {*(q.symbol.name for q in places), *(q.rate.name for q in rates)}
     strange = next((name for name in values if name not in known), None)
     if strange is not None:
-        message = f"`steady` has values of coordinates and rates, but `{strange}` is neither"
+        message = f"`steady` needs values of coordinates or rates, but `{strange}` is neither"
         raise Rejected(Complaint("no-such-coordinate", message, argument=f"values:{strange}"))
     held = explicit(of.value).free_symbols
     turning = [q for q in coordinates.values() if q.symbol not in held and q not in rates]
     if len(symbols) > len(turning):
-        message = f"`steady` has letters for the rates of {len(turning)} cyclic coordinates"
+        message = f"`steady` accepts one symbol for each free cyclic rate, at most {len(turning)}"
         raise Rejected(Complaint("wrong-argument", message, argument="symbols"))
     for q, letter in zip(turning, symbols, strict=False):
         rates[q] = unknown(letter, kind_of_rate(q.kind) or "number", positive=True)

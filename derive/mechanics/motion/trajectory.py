@@ -16,9 +16,9 @@ from sympy import Expr, Rational, Symbol, lambdify
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import RATES, TIME, rate, scalar
 
-FIGURES = 10  # number of figures, out of 15, to which change and integral must agree
+FIGURES = 10  # of 15 figures, the number to which the change and the integral of the rate must agree
 STEPS = (4, 16, 64, 256)  # numbers of steps from t = 0 to t = 1, tried in turn until change and integral agree
-PARTS = range(2, 18, 2)  # numbers of parts of a step, for the extrapolation to zero length
+PARTS = range(2, 18, 2)  # numbers of parts into which a step is divided, for the extrapolation to zero length
 
 State: TypeAlias = list[complex]  # complex, because a square root may be imaginary for random numbers
 Flow: TypeAlias = Callable[..., Sequence[complex]]

@@ -18,11 +18,11 @@ from derive.steps.record import assume, assumed
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity
 
-TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # PARTS of the distance to a place
+TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # fractions of a distance
 
 
 def squared_by_energy(speed: Quantity) -> Expr:
-    """Return the squared rate f(q) of a step by conservation of energy; any other quantity is an error."""
+    """Return the squared rate f(q) that a step finds from conservation of energy; reject other quantities."""
     assert speed.symbol == rate(speed.needed(ByEnergy).coordinate) ** 2
     return explicit(speed.value)
 
@@ -35,7 +35,7 @@ def condition_to_reach(
     speed     the squared rate of a coordinate by conservation of energy, f(q)
     unknown   the coordinate q, or a function of q such as cos(q)
     place     the value of `unknown` at the place, which may be infinite
-    there     f at the place, if f has only a limit there; by default f is evaluated
+    there     f at the place, if f has only a limit there; by default f is evaluated at `place`
     The motion turns back where f = 0. It reaches the place if f is not negative at the place, nor between the start and
     the place. If the sign of f at the place depends on the symbols, the condition is f > 0 there. Between the start and
     the place, algebra decides the sign of f or, if algebra cannot decide, numerical values do.
@@ -48,7 +48,7 @@ def condition_to_reach(
         raise Rejected(Complaint("not-reached", message, help=f"it would be {there}"))
     if not _is_free_by_algebra(speed, unknown, place) and _is_barred(speed, unknown, place, there):
         message = f"`{of.key}`: the motion need not reach {unknown} = {place}: on the way {rate(q)}**2 can be negative"
-        raise Rejected(Complaint("not-reached", message, help="state a condition for that with `assume:`"))
+        raise Rejected(Complaint("not-reached", message, help="state with `assume:` when the motion reaches the place"))
     return positive(there) if sign_known(there) is None else None
 
 
@@ -60,7 +60,7 @@ def assume_reached(of: Quantity, speed: Quantity, unknown: Expr, place: Expr, th
 
 
 def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
-    """Whether algebra shows that f is positive between start and place, if f is not negative at the place."""
+    """Whether algebra shows that f is positive between start and place; at the place f must not be negative."""
     squared, mark = explicit(speed.value), mark_for(unknown)
     written = with_unknown(squared, unknown, mark)
     if left_over(written, unknown) or place in (oo, -oo):
@@ -86,7 +86,7 @@ def part_of_the_way() -> Expr:
 
 
 def _is_barred(speed: Quantity, unknown: Expr, place: Expr, there: Expr) -> bool:
-    """Whether, numerically, the squared rate is negative between the start and a place."""
+    """Whether, numerically, the squared rate is negative somewhere between the start and a place."""
     known = speed.needed(ByEnergy)
     q = letter_of(unknown)
     squared, start, there = map(with_numbers, (explicit(speed.value), known.start, there))

@@ -124,7 +124,7 @@ def _can_be_counted(sought: Sequence[Symbol]) -> bool:
 
 
 def all_are_told(facts: Judged) -> bool:
-    """Whether no equilibrium is missing; for one coordinate, a check of the step counts the equilibria instead."""
+    """Whether no equilibrium is missing; if equilibria can be counted, a check of the step counts them instead."""
     sought = facts.inputs["sought"]
     if _can_be_counted(sought):
         return True
@@ -230,7 +230,7 @@ def runs_away(facts: Judged) -> bool:
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy is positive; only then is a minimum of U stable. Meaningless numbers are left out."""
+    """Whether the kinetic energy is positive; only then is a minimum of U stable. Invalid numbers are skipped."""
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
     return matter is None or inertia_is_positive(matter, _at_rest(facts), there)
@@ -366,7 +366,7 @@ def level_as_told(facts: Judged) -> bool:
     return told is not None and told.operator == "!=" and same_equation(told.residual, open_)
 
 
-DIGITS_LEFT = 10**40  # largest ratio of an energy to its difference; values have 60 digits
+DIGITS_LEFT = 10**40  # largest ratio of an energy to a difference of energies; values have 60 digits
 
 
 def is_its_derivative(facts: Judged, outcome: str) -> bool:
@@ -449,7 +449,7 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge a shape by the first nonzero derivative, found by differentiation; the verb itself expands in a series."""
+    """Judge a shape by the first nonzero derivative, found by differentiation; the step itself uses a series."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]

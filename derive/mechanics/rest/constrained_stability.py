@@ -1,4 +1,4 @@
-"""Stability of an equilibrium with constraints f_a = 0 between the coordinates, which constraint forces maintain.
+"""Stability of an equilibrium with constraints f_a = 0 that constraint forces maintain.
 
 Only displacements z with grad f_a . z = 0 are allowed. At equilibrium grad U = sum of lambda_a grad f_a. So the
 potential energy along the constraints is, to second order, (1/2) z . (U'' - sum of lambda_a f_a'') z.
@@ -104,7 +104,7 @@ class Allowed:
         return ImmutableDenseMatrix(entries)
 
     def _along(self, way: MatrixBase) -> Expr:
-        """Return the second order of the energy for a displacement s z + s^2 w that satisfies the constraints."""
+        """Return the term of order s^2 in the energy for a displacement s z + s^2 w that satisfies the constraints."""
         moved = dict(zip(self.coordinates, way, strict=True))
         bent = ImmutableDenseMatrix([coefficient_along(c.residual, self.place, moved, 2) for c in self.constraints])
         normal = self.gradients

@@ -17,7 +17,7 @@ from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # parts of a range; sets of numbers for the symbols
-HALVINGS, SHRUNK = 40, 1e-6  # halvings of an interval; ratio to which a force decreases at a zero
+HALVINGS, SHRUNK = 40, 1e-6  # halvings of an interval; fraction below which a force must decrease at a zero
 LITTLE = 1e-9
 
 
@@ -70,8 +70,8 @@ def _is_place(value: Expr, q: Symbol) -> bool:
 def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
     """Return the values of the coordinate at which the force is evaluated.
 
-    For a force with the period of a full turn, the grid is one turn that starts at an unlikely zero. Any other grid is
-    the whole axis, finest at the scale of the expected zeros: the force of a twisted wire, for example, has no period.
+    If the force has the period of a full turn, the grid covers one turn; the force is unlikely to vanish at its ends.
+    Otherwise, as for a twisted wire, the grid covers the whole axis and is finest at the scale of the expected zeros.
     """
     if once_round:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]

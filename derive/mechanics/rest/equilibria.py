@@ -1,4 +1,5 @@
-"""Equilibria: all values of the coordinates at which the forces vanish, with the conditions under which these exist.
+"""Equilibria: all values of the coordinates at which the forces vanish, with the conditions under which the equilibria
+exist.
 
 The forces come from a potential energy, or from a Lagrangian with the rates set to zero: then V = -L is an effective
 potential energy. Two or more coordinates are solved for one after the other, or together if the forces are linear.
@@ -82,11 +83,12 @@ POTENTIAL_AT_REST = Rule(
 
 
 def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_rest") -> Quantity:
-    """Effective potential energy of a system at rest, V = -L without the rates: U minus the part of T from a given
-    motion, minus F . r for each given constant force F that acts at the position r.
+    """Effective potential energy of a system at rest: -L without the rates, minus F . r for each given constant force.
+
+    Without the rates, -L is U minus the part of T that comes from a prescribed motion; F acts at the position r.
 
     of   the Lagrangian, J; an energy without rates is returned unchanged
-    Second route: the work of the forces and of the inertia of the mass points at rest is -dV for any displacement.
+    Second route: the work of the forces and of the inertial forces on mass points at rest is -dV for any displacement.
     Outcomes: generic, pushed (constant forces are given).
     Errors: the Lagrangian contains the time explicitly; a given force is not constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
@@ -151,8 +153,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Keys: condition_ and the name of the coordinate; rest_1, rest_2, ... for the equilibria.
     Second route: the virtual work of forces and inertia at the equilibrium; for one coordinate also all zeros of the
     force are counted numerically, for some values of the symbols.
-    Outcomes: always, where (it exists under a condition), only (there is no other equilibrium); of the condition:
-    generic, zero (no force acts along this coordinate).
+    Outcomes: always, where (it exists under a condition), only (there is no other equilibrium). Outcomes of an
+    equilibrium condition: generic, zero (no force acts along this coordinate).
     Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; a constraint
     between the coordinates is maintained by a force.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
@@ -206,7 +208,7 @@ def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     except Unsolved as fault:
         message = f"the equilibria of `{of.key}` have no closed form: the zeros of {fault.factor} are unknown"
-        help_line = "where a verb needs an equilibrium, give a known one, `at={theta: 0}`"
+        help_line = "if a function needs an equilibrium, give a known one, `at={theta: 0}`"
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     found = [state for state in found if _in_range(of, state)]
     if not found:
@@ -309,7 +311,7 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
     """Equilibrium condition, dU/dq = 0, factored.
 
     Outcomes: generic, zero.
-    Source: that of `equilibria`.
+    Source: the same as for `equilibria`.
     """
     alone = {s for s in potential.coordinates if explicit(potential.value).has(s)} == {q}
     return establish(
@@ -344,7 +346,7 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol
 
 
 def all_matter(potential: Quantity) -> Matter | None:
-    """Return the matter behind a potential energy, including kinetic energy and magnetic fields, which are not in U."""
+    """Return the mass points and forces behind a potential energy, including magnetic forces, which are not in U."""
     body = potential.subject.body
     seen = potential.fact(SeenWith)
     return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
@@ -381,7 +383,7 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor without the coordinate is zero: otherwise every value is an equilibrium."""
+    """Return the condition that no factor without q is zero; if one is zero, every value of q is an equilibrium."""
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
     if left is None or not left.left.is_Add:
@@ -427,7 +429,7 @@ def _rest(
     """One equilibrium.
 
     Outcomes: always, where, only.
-    Source: that of `equilibria`.
+    Source: the same as for `equilibria`.
     """
     held = [q for q in sought if q in state.values]
     values = [_by_terms_if_shorter(state.values[q]) for q in held]

@@ -35,7 +35,7 @@ class RestOf(Fact):
 def matter_behind(potential: Quantity) -> Matter | None:
     """Return the mass points and forces behind a potential energy.
 
-    For an effective potential energy, some coordinates are eliminated with constant momenta.
+    For an effective potential energy, coordinates are eliminated from them with constant momenta.
     """
     seen, own = potential.fact(SeenWith), potential.fact(Matter)
     return seen.matter if seen is not None else own if own is not None and own.is_known else None
@@ -65,7 +65,7 @@ class StableWhere(Fact):
     stable_there   the verdict of the higher order that decides on the boundary; None if no order decides
     """
 
-    missing = "does not depend on a condition, as `stability` may"
+    missing = "is not a result of `stability` that depends on a condition"
     energy: Expr
     coordinate: Symbol
     place: Expr

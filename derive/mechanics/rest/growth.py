@@ -1,7 +1,7 @@
 """Decide numerically whether a motion grows about an equilibrium, from the exponents of the linearised motion.
 
 For small motions the virtual work of m a - F of the mass points along each coordinate is linear in displacements, rates
-and accelerations. Differences give the matrices M, C and K; exp(s t) is a solution if det(M s^2 + C s + K) = 0.
+and accelerations. Finite differences give the matrices M, C and K; exp(s t) is a solution if det(M s^2 + C s + K) = 0.
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1 (extended by forces that depend on the rates).
 """
 
@@ -34,7 +34,7 @@ Leftover = Callable[..., Sequence[Any]]
 
 
 def matter_of(potential: Quantity) -> Matter | None:
-    """Return the matter of a potential energy, including magnetic forces."""
+    """Return the mass points and forces behind a potential energy, including magnetic forces."""
     if potential.fact(SeenWith) is None and isinstance(potential.subject.body, System):
         return potential.subject.body.matter
     return matter_behind(potential)
@@ -54,7 +54,7 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
                 return True
             if not _grows(*motion):
                 return False
-            if not _is_turned(*motion):  # then it grows for any value of the other symbols
+            if not _is_turned(*motion):  # then it grows for any values of the other symbols
                 tried += 1
                 break
         if tried >= FEW:
@@ -63,7 +63,7 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
 
 def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether no eigenvalue of M is negative at equilibrium, so that the kinetic energy of no motion is negative."""
+    """Whether no eigenvalue of M is negative at equilibrium; then the kinetic energy is never negative there."""
     for point, falling in product(points[:FEW], (False, True)):
         motion = _motion(matter, place, point, SIZES[0], falling)
         if motion is None:
@@ -81,7 +81,7 @@ def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequen
     return any(motion is not None and _is_turned(*motion) for motion in motions)
 
 
-@lru_cache(maxsize=16)  # the same for each equilibrium of a system
+@lru_cache(maxsize=16)  # each equilibrium of a system needs the same function
 def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
     """Return m a - F along each coordinate as a function of coordinates, rates, accelerations and other symbols."""
     moving = matter.coordinates

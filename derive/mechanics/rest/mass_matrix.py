@@ -1,7 +1,8 @@
 """The mass matrix of a system at given coordinates: whether it has an inverse, and whether it is positive definite.
 
 M_ij is the factor of the rate of q_j in the momentum p_i. If M has no inverse at some values of the coordinates but has
-one at others, the coordinates are singular there: they do not determine how the system moves away.
+one at others, the coordinates are singular there: they do not determine how the system moves away
+from this position.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ def check_regular(verb: str, matter: Matter | None, place: Mapping[Symbol, Expr]
     if not has_no_value(there):
         if not _may_be_singular(there) or not is_zero(determinant_of(there.applyfunc(tidied))):
             return
-        if _may_be_singular(matrix):  # no inverse anywhere: a coordinate has no inertia
+        if _may_be_singular(matrix):  # M has no inverse anywhere, because a coordinate has no inertia
             return
     where = ", ".join(f"{q} = {value}" for q, value in place.items())
     message = f"`{verb}`: the coordinates are singular at {where}: the mass matrix has no inverse there"

@@ -20,7 +20,7 @@ TURNS = 12  # steps of Newton's method; each step doubles the number of correct 
 
 
 def signs_on_constraints(facts: Judged, points: Sequence[Mapping[Any, Expr]]) -> set[int]:
-    """Return the signs of the energy for all the given numbers.
+    """Return the set of the signs of the energy change for the given numbers.
 
     The sign is 1 if the energy rises along all allowed displacements, -1 if it falls along at least one, and 0 if it is
     constant to second order along some and falls along none.
@@ -47,7 +47,7 @@ def _sign(energy: Callable[..., Any], conditions: Sequence[Callable[..., Any]], 
     here, small = energy(*place), mp.mpf(10) ** -STEP
 
     def gained(*shares: Any) -> Any:
-        """Return the sum of the energy changes for a displacement and its opposite, over the square of its size."""
+        """Return the energy changes for a displacement and its opposite, added and divided by the step squared."""
         total = mp.mpf(0)
         for side in (1, -1):
             moved = [

@@ -1,4 +1,4 @@
-"""The shape of a potential energy: its slope, its curvature, and its kind of extremum where its slope vanishes."""
+"""The shape of a potential energy: slope, curvature, and the kind of extremum where the slope vanishes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
     by          the coordinate, if the potential energy depends on several
     Check: U(q + u) is expanded about an arbitrary point q; the derivative is n! times the coefficient of u^n.
     Outcomes: slope, curvature, higher.
-    Errors: the potential depends on several coordinates, or on none.
+    Errors: `by` is missing, and the potential depends on several coordinates or on none.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
     q = by or only_coordinate(potential)
@@ -166,11 +166,11 @@ def leading_order(
 
     of         a potential energy of one coordinate, J; or the curvature at an equilibrium, as `stability` yields it,
                which determines q_0 and the boundary
-    where      a relation of a symbol and the value for which the curvature of this potential energy vanishes
+    where      an equation, symbol = value, for which the curvature of this potential energy vanishes at q_0
     at         q_0; 0 by default
     Check: of the derivatives of U at q_0 up to the n-th, only the n-th does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a symbol
-    at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
+    on the boundary: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
     Errors: U' does not vanish at q_0; the boundary belongs to another potential energy.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """
@@ -229,7 +229,7 @@ def leading_order(
 def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, where: Relation | None) -> None:
     """Check that the curvature of this potential vanishes on the boundary."""
     if where is not None and not is_zero(derivative(value, q, 2).xreplace({q: place})):
-        message = f"the curvature of `{potential.key}` does not vanish at {where}, so this is not its boundary"
+        message = f"the curvature of `{potential.key}` does not vanish at {where}, so it is not a boundary"
         help_line = "omit `where`, or give the symbol with its value on the boundary"
         raise Rejected(Complaint("wrong-border", message, help=help_line))
 

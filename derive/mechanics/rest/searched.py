@@ -42,7 +42,7 @@ def none_is_missing(forces: Forces, sought: tuple[Symbol, ...], angles: tuple[Sy
     return _searched(forces, sought, angles, states, tuple((s, range_of(s)) for s in letters))
 
 
-@lru_cache(maxsize=16)  # the same for each equilibrium of a system
+@lru_cache(maxsize=16)  # each equilibrium of a system needs the same search
 def _searched(
     forces: Forces,
     sought: tuple[Symbol, ...],

@@ -27,7 +27,7 @@ class State:
 
 
 class SidesOpen(Unsolved):
-    """Reports an equilibrium that exists only under two conditions on the symbols."""
+    """Raised if an equilibrium exists only under two conditions on the symbols."""
 
     def __init__(self, state: State, other: Relation):
         super().__init__(other.residual)
@@ -59,7 +59,7 @@ def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
 
 
 def keeps_sides(state: State) -> bool:
-    """Whether no distance that the page assumes to be positive is negative or zero at this equilibrium."""
+    """Whether every distance that the page assumes to be positive can be positive at this equilibrium."""
     lengths = [each.residual for each in _sides_taken(tuple(state.values))]
     return all(sign_for_all(tidied(u.xreplace(dict(state.values)))) not in (-1, 0) for u in lengths)
 

@@ -55,7 +55,7 @@ STEADY = Spelled(
 
 @dataclass(frozen=True)
 class Place:
-    """An equilibrium whose stability is judged: a potential energy, and its coordinates with their values."""
+    """An equilibrium whose stability is judged: a potential energy, its coordinates, and their values."""
 
     potential: Quantity
     coordinates: tuple[Symbol, ...]
@@ -78,8 +78,8 @@ def stability(
 
     of       the potential energy, an effective potential energy, or the Lagrangian, J
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
-    letter   the symbol that a condition is solved for; by default the only symbol that occurs as a square, if there is
-    exactly one
+    letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
+    exactly one such symbol
     Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known;
     for several coordinates the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,
@@ -106,7 +106,7 @@ def stability(
 
 
 def _state(place: Place) -> Relation:
-    """Return the equation that states the equilibrium; for one coordinate it contains the equilibrium's own symbol."""
+    """Return the equation of the equilibrium; for one coordinate, the right side is the symbol of the equilibrium."""
     if len(place.coordinates) == 1:
         (q,) = place.coordinates
         named = place.values[q] if place.rest is None else place.rest.symbol
@@ -188,7 +188,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
 
     Outcomes: stable, unstable, depends, depends_stable_on_border, depends_unstable_on_border, stable_by_higher_order,
     unstable_by_higher_order, flat.
-    Source: that of `stability`.
+    Source: the same as for `stability`.
     """
     (q,), potential = place.coordinates, place.potential
     value = place.second(q, q)
@@ -327,7 +327,7 @@ def _of_several(place: Place, key: str) -> Quantity:
     """Leading minors of the second derivatives, which are all positive at a minimum.
 
     Outcomes: stable, unstable, unstable_along (a stated direction), level, depends.
-    Source: that of `stability`.
+    Source: the same as for `stability`.
     """
     moving = place.coordinates
     matrix = ImmutableDenseMatrix([[place.second(p, q) for q in moving] for p in moving])
@@ -394,7 +394,7 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
 
 
 def _way_down(matrix: MatrixBase) -> MatrixBase | None:
-    """Return a direction in which the energy falls for all values of the symbols, if the minors do not decide.
+    """Return a direction in which the energy falls for all values of the symbols; None if no such direction is found.
 
     The direction is a null vector of the part of the matrix that is proportional to one symbol. For example, a spring
     is not stretched by a displacement in such a direction.
@@ -411,7 +411,7 @@ def _way_down(matrix: MatrixBase) -> MatrixBase | None:
 
 
 def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | None:
-    """Return a direction with entries 0, 1 and -1 in which the energy falls, if no leading minor is negative.
+    """Return a direction with entries 0, 1 and -1 in which the energy falls; None if no such direction is found.
 
     kinds   the kinds of the coordinates; only coordinates of the same kind are displaced together
     """

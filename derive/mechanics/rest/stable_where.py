@@ -39,7 +39,7 @@ STABLE_WHERE = Rule(
 
 
 def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
-    """Condition under which an equilibrium is stable, S >= S_0; S > S_0 if it is not stable at the boundary.
+    """Condition under which an equilibrium is stable: S >= S_0, or S > S_0 if it is not stable on the boundary.
 
     of   the stability, as `stability` yields it if it depends on the symbols
     Check: the sign of the second derivative a little above and below the boundary; numerically, the energy has a
@@ -50,7 +50,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
     """
     known = of.fact(StableWhere)
     if known is None:
-        message = f"`stable_where`: `{of.key}` has no condition for one coordinate"
+        message = f"`stable_where`: `{of.key}` has no condition for stability in one coordinate"
         raise Rejected(Complaint("no-condition", message, help="`stability` states whether the equilibrium is stable"))
     left, right = known.condition.sides
     squared = Relation(left, known.condition.operator + ("=" if known.stable_there else ""), right)

@@ -45,8 +45,8 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     axis    the direction of the axis: "x", "y" or "z"
     point   a point on the axis
     A step derives the moment I_part of each part about the parallel axis through its centre of mass, at the distance d.
-    The result is None if no body axis of some part is parallel to the axis, or if some part is itself composite and
-    another of its body axes is parallel to the axis.
+    The result is None if some part has no body axis parallel to the axis. It is also None if some part is composite and
+    its parallel body axis has another name.
     Second route: the sum of m d^2 over the equimomental particles of all parts; the integral of the squared distance
     from the axis over the whole body.
     Outcomes: moved (the centre of some part is off the axis), on_axis (all centres are on the axis), alone (also on the
@@ -94,10 +94,11 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
 def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity:
     """Moment of inertia of a part about an axis through its centre of mass.
 
-    For a diameter of a flat round part it is half of the moment about the symmetry axis, because I_x + I_y = I_z.
+    About a diameter of a flat round part, it is half of the moment about the symmetry axis, because I_x + I_y = I_z.
     body     the part
     axis     a body axis of the part
-    letter   the symbol; its index is the axis of the whole body that is parallel to this axis, if there is one
+    letter   the symbol of the moment; the index is the axis of the whole body that is parallel to this axis, if such an
+             axis exists
     turn     the matrix whose columns are the axes of the whole body, in components along the axes of the part
     Second route: the sum of m d^2 over the equimomental particles of the part; the integral of the squared distance.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
@@ -116,7 +117,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
 
 OWN_MOMENT = Rule(
     "rotation.own_moment",
-    source="that of `own_moment`",
+    source="the same as for `own_moment`",
     outcomes={"none": claims.on_its_axis, "flat": claims.is_flat},
     evidence={"particles": ROUTE, "integration": ROUTE},
     statements=[claims.names_the_axis_of_the_whole],
@@ -139,7 +140,7 @@ def _by_shape(
 
     Outcomes: none (all of the mass is on the axis, so the moment is zero), flat (half of the moment about the symmetry
     axis).
-    Source: that of `_own_moment`.
+    Source: the same as for `_own_moment`.
     """
     k, centre = AXES.index(axis), body.middle
     return establish(
@@ -175,13 +176,13 @@ def _is_flat(body: Any) -> bool:
 
 
 def _parallel_to(turn: MatrixBase) -> dict[str, str]:
-    """Return axis of the whole body -> the parallel axis of the part, for the axes that have one."""
+    """Return a mapping from axes of the whole body to the parallel axes of the part, if there are any."""
     pairs = ((j, k) for j in range(3) for k in range(3) if is_zero(turn[j, k] ** 2 - 1))
     return {AXES[k]: AXES[j] for j, k in pairs}
 
 
 def _of_whole(called: str) -> dict[str, str]:
-    """Return the word `whole` for the sentence, the axis of the whole body, if `called` names such an axis."""
+    """Return the word `whole` for the sentence: the axis of the whole body, if `called` is the name of an axis."""
     return {"whole": called} if called in AXES else {}
 
 

@@ -60,7 +60,7 @@ EVERYTHING_BUT_ROTATION = ("body", "point", "axes", "mass")
 class PointMass(Body):
     """A particle as a part of a body.
 
-    mass   mass
+    mass   the mass of the particle
     """
 
     mass: Expr
@@ -170,7 +170,7 @@ class Composite(Body):
 
     @property
     def density(self) -> Quantity:
-        """The step that derives the mass: of the first part if one mass is given, else of the whole."""
+        """The step for the mass of the first part if one mass is given; otherwise the step for the total mass."""
         return self.shares[0] if self.shares else self.whole_mass
 
     def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity:

@@ -139,7 +139,7 @@ def about_that_axis(facts: Judged, letter: Any) -> bool:
 
 def steady_component(facts: Judged, along: Any) -> bool:
     """Whether the equation `slow` contains the rate of the component along the axis, and the linear equation does not
-    contain this component. Its rate is of second order."""
+    contain this component. The rate of this component is of second order."""
     return explicit(facts.quantities["slow"].value).has(rate(along)) and not explicit(facts.result).has(along)
 
 
@@ -190,7 +190,7 @@ def across(facts: Judged) -> Any:
 
 
 def turns(wanted: str) -> Predicate:
-    """Judge whether the component along the axis is negative, for "left", or not, for any other word."""
+    """Judge whether the component along the axis is negative (`wanted` is "left") or not negative (any other word)."""
 
     def is_so(facts: Judged) -> bool:
         along = tidied(explicit(Dot(facts.result, facts.inputs["axis"])))
@@ -219,8 +219,8 @@ def rotation_cos(angle: Expr) -> Expr:
 
 
 def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
-    """Judge whether the rate vanishes in space and in the body. For `in_space=None`, judge whether the rate in the body
-    was not substituted."""
+    """Judge whether the rate vanishes in space and in the body, as stated. For `in_space=None`, judge whether the rate
+    in the body was not substituted."""
 
     def is_so(facts: Judged) -> bool:
         seen = facts.inputs.get("in_body")
@@ -253,7 +253,7 @@ def euler(torque: bool, coupled: str) -> Predicate:
 
 
 def given_as(sort: str) -> Predicate:
-    """Judge whether the verb of the script begins with this word, and the result has the given components."""
+    """Judge whether the function in the script begins with this word, and the result has the given components."""
 
     def is_so(facts: Judged) -> bool:
         given = all(is_zero(one - other) for one, other in zip(facts.result, facts.inputs["given"], strict=True))
@@ -321,8 +321,8 @@ def turned_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def inward(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the centre of mass, or for the outcome "outward" another point; and whether its
-    mention of edges is correct."""
+    """Whether the sentence names the centre of mass (another point for the outcome "outward"), and mentions edges only
+    if the edges are along the axes."""
     about_centre = facts.words.get("about") in {"centre", "centre_of_mass"}
     return about_centre != (outcome == "outward") and edges_along_the_axes(facts, outcome)
 
@@ -335,8 +335,8 @@ def _sign(value: Expr) -> int | None:
 
 
 def order_is(wanted: str) -> Predicate:
-    """Judge whether the moment about the axis is the greatest, the least, between the other two moments ("unstable"),
-    or equal to one of them ("marginal"); whether the other two are equal; or whether the order is unknown."""
+    """Judge the moment about the axis: greatest, least, between the other two ("unstable"), or equal to one of them
+    ("marginal"). For "symmetric" the other two must be equal; for "conditional" the order must be unknown."""
 
     def is_so(facts: Judged) -> bool:
         moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
@@ -360,8 +360,8 @@ def excess_is(sign: int | None) -> Predicate:
 
 
 def root_is(grows: bool, *squares: str) -> Predicate:
-    """Judge whether the square of the rate is negative, as `grows` says, and its step has one of these outcomes. A
-    square of unknown sign counts as not negative."""
+    """Judge whether the square of the rate is negative exactly if `grows`, and the step of the square has one of these
+    outcomes. A square of unknown sign counts as not negative."""
 
     def is_so(facts: Judged) -> bool:
         word = facts.quantities["squared"].step.outcome
@@ -421,7 +421,7 @@ def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
 
 
 def component_of_its_letter(facts: Judged, outcome: str) -> bool:
-    """Whether the result is the component of the vector along the axis in the index of its symbol, as in v_x."""
+    """Whether the result is the component of the vector along the axis that the index of the symbol names: v_x."""
     index = facts.symbol.name.rpartition("_")[2]
     return index in AXES and is_zero(explicit(facts.inputs["vector"])[AXES.index(index)] - explicit(facts.result))
 

@@ -1,8 +1,8 @@
 """A free symmetric body at one instant: its symmetry axis, the cones of its angular velocity, and its precession.
 
 The angular velocity is w = (L/I) L/|L| - Omega_b e, where e is along the symmetry axis. In the body, w rotates about e
-on the body cone. In space, w rotates about the constant angular momentum L on the space cone, and e also rotates about
-L, at the rate L/I.
+on the body cone, at the rate Omega_b. In space, w rotates about the constant angular momentum L on the space cone, and
+e also rotates about L, at the rate L/I.
 """
 
 from __future__ import annotations
@@ -195,7 +195,7 @@ def precession_rate(
         return round_it, explicit(Cross(omega.value, axis)) * length_by_turning(L)
 
     def leaves_a_spin(found: Expr) -> tuple[Any, Any]:
-        """Check that w minus the precession gives no angular momentum perpendicular to the axis, by particles."""
+        """Check with particles that w minus the precession gives an angular momentum along the axis only."""
         rest = explicit(omega.value) * length_by_turning(L) - L * found
         moved = explicit(body.over_mass(lambda r: Cross(r, Cross(rest, r)), point))
         return explicit(Cross(axis, moved)), column(0, 0, 0)

@@ -257,7 +257,7 @@ def rate_in_space(
 
     momentum   angular momentum L, vector (3), kg m^2/s, body axes
     omega      angular velocity of the body, vector (3), 1/s, body axes
-    in_body    the rate of L in the body by the equations of motion; without it, the components of omega remain unknown
+    in_body    the rate of L in the body by the equations of motion; without it, the rates of omega remain unknown
     Second route: rotate L with the body by a rotation matrix and differentiate; the sum of m r x a over particles;
     the rate of L . n for a direction n that is fixed in space, so n_dot = -omega x n in the body.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
@@ -291,9 +291,9 @@ def rate_in_space(
         lines=Lines(
             between=_rates_worked(momentum, omega, in_body),
             put_in=None,
-            # The rate in the body follows from the torque, so the sum of both parts is the torque again, a check.
+            # The rate in the body comes from the torque, so the sum with omega x L is the torque again: only a check.
             law=Level.FULL if in_body else Level.BRIEF,
-            result=in_body is not None,  # without `in_body`, Euler's equations state the components
+            result=in_body is not None,  # without `in_body`, Euler's equations show the components
             arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
             means=motion,
         ),

@@ -32,7 +32,7 @@ class Disturbed(Fact):
     of      the rate of the angular momentum; all its components vanish for the steady rotation
     """
 
-    missing = "is not an equation of a disturbed rotation"
+    missing = "is not an equation of a perturbed rotation"
     axis: int
     speed: Expr
     of: RateOfMomentum

@@ -117,7 +117,7 @@ def inertia_tensor(
 
 
 def _mirrored(pairs: tuple[Pair, ...]) -> dict[str, str]:
-    """Return the word `mirrored` for the sentence if only the moments remain by mirror symmetry."""
+    """Return the word `mirrored` for the sentence if mirror symmetry leaves only the moments."""
     return {"mirrored": "centre"} if pairs == MIRRORED else {}
 
 
@@ -160,13 +160,13 @@ def moment_seen(
     seen: Mapping[str, str],
     turn: MatrixBase | None = None,
 ) -> Moment:
-    """Moment of inertia about an axis that the sentence may name as an axis of a whole body or of a plane motion.
+    """Moment of inertia about an axis, with words that specify how the sentence names this axis.
 
     seen   the words for the sentence: `seen` is own (a body axis), mapped (the body is defined by a position map),
            across_plane (normal to the plane of motion) or part; a part also has `whole`, the parallel axis of the
            whole body
     turn   the matrix whose columns are the axes of the whole body, in components along the axes of the part
-    Source: that of `moment_of_inertia`.
+    Source: the same as for `moment_of_inertia`.
     """
     point, i = body.point(about), "xyz".index(axis)
     in_its_way = body.derived_moment(axis, point, symbol, key)
@@ -456,7 +456,7 @@ ENTRY_MOVED = Rule(
 def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, key: str, pair: Pair) -> Quantity:
     """Derive one entry by the parallel-axis theorem: I_xx = J_xx - M (y^2 + z^2), I_xy = J_xy + M x y.
 
-    The centre of mass is at (x, y, z). From the centre of mass to another point, the signs are opposite.
+    The centre of mass is at (x, y, z). For a shift from the centre of mass to another point, the signs are opposite.
     """
     i, j = pair
     body: Body = there.needed(OfBody).body

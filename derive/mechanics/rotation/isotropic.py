@@ -32,7 +32,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
     """Condition under which all three principal moments are equal, I_1 = I_3, solved for one symbol: h = 2R.
 
     moments   principal moments (3), kg m^2, two of them equal
-    letter    the symbol of a positive quantity; or the expression that is given for it, such as 2b for h
+    letter    the symbol of a positive quantity; or the expression that the script gives for it, such as 2b for h
     Check: with the result substituted, the tensor is a multiple of the unit tensor; and the difference of the two
     moments has opposite signs for slightly greater and slightly smaller values of the symbol.
     Outcomes: special (for one value of the symbol), always (the moments are equal for all values of the symbols), never
@@ -103,7 +103,7 @@ def _two_to_compare(moments: Quantity) -> tuple[int, int]:
 
 
 def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, Expr, int]:
-    """Return the first symbol of the expression `letter` for which there is a single root, this root, and the power."""
+    """Return the first symbol of `letter` for which the equation has one positive root, this root, and the power."""
     for symbol in sorted(letter.free_symbols & difference.free_symbols, key=str):
         root = _root(difference, symbol)
         if root is not None:
@@ -140,7 +140,7 @@ def _letters_only(factor: Expr) -> Expr:
 
 
 def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, Any]:
-    """Return the tensor and a moment times the unit tensor, both with the root substituted; nan if not an equation."""
+    """Return the tensor and a moment times the unit tensor, with the root substituted; nan if there is no equation."""
     if found.operator != "=":
         return nan, nan
     letter, bound = found.sides
@@ -154,5 +154,5 @@ def _differences_beside(difference: Expr, found: Relation) -> tuple[Any, Any]:
     u = Dummy("u", positive=True)
     beyond, before = (tidied(difference.subs(letter, bound * (1 + u) ** sign)) for sign in (1, -1))
     rises = 1 if beyond.is_positive else -1
-    expected = [rises * Abs(beyond), -rises * Abs(before), Abs(bound)]  # the last requires a positive root
+    expected = [rises * Abs(beyond), -rises * Abs(before), Abs(bound)]  # the last value requires a positive root
     return ImmutableDenseMatrix([beyond, before, bound]), ImmutableDenseMatrix(expected)

@@ -84,7 +84,7 @@ PERTURBED_ROTATION = Rule(
 def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int, key: str) -> Quantity:
     """Derive one of the two linear equations from the derivatives of Euler's equation at the steady rotation.
 
-    Source: that of `linearised_rotation`.
+    Source: the same as for `linearised_rotation`.
     """
     steady, moving = disturbed.steadily, disturbed.moving
     left = _left(equations[k])
@@ -103,7 +103,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
             )
             for sign in (1, -1)
         )
-        beside = moving[disturbed.axis]  # now its small change, which occurs only at second order
+        beside = moving[disturbed.axis]  # here the small change of this component, which occurs only at second order
         return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
 
     return establish(
@@ -371,7 +371,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         raise Rejected(Complaint("no-symmetry", "`body_cone_rate` needs a body whose moments about x and y are equal"))
     if is_zero(about - across):
         raise Rejected(Complaint("no-cone", "the three moments are equal, so the angular velocity is constant"))
-    coupling = tidied(-diff(lefts[1], x, z))  # of omega_z omega_x in the equation for omega_y
+    coupling = tidied(-diff(lefts[1], x, z))  # the factor of omega_z omega_x in the equation for omega_y
 
     def rate_of_angle() -> Expr:
         torque = explicit(of.by_particles())

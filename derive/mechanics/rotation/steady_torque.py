@@ -55,9 +55,9 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     """
     require_kind("torque", "omega", omega, "angular speed")
     require_kind("torque", "momentum", momentum, "angular momentum")
-    require_constant("torque", "angular velocity", omega, "for a changing one use `rate_in_space`, dL/dt")
+    require_constant("torque", "angular velocity", omega, "for a rotation that changes use `rate_in_space`, dL/dt")
     require_constant(
-        "torque", "angular momentum in the body", momentum, "for a changing one use `rate_in_space`, dL/dt"
+        "torque", "angular momentum in the body", momentum, "for a rotation that changes use `rate_in_space`, dL/dt"
     )
     if omega.fact(Momentary) is not None:
         message = f"`torque` needs a steady rotation, but `{omega.key}` is known at one instant only"

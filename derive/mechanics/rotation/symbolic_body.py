@@ -1,7 +1,7 @@
 """Symbolic bodies: symbols for the mass, the distance of the centre of mass, and the principal moments about a point.
 
 A result for a symbolic body is true for every body with these quantities. `put_in(result, *body.values)` substitutes
-the values for the body that was given.
+the values of the given body.
 """
 
 from __future__ import annotations

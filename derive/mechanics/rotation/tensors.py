@@ -248,12 +248,12 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
     body, point, I = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point, inertia.value
     if not (is_zero(I[0, 2]) and is_zero(I[1, 2])):
         message = f"the z axis is not a principal axis of `{inertia.key}`, so the other axes are not in the x-y plane"
-        raise Rejected(Complaint("not-in-a-plane", message, help="`principal_axes` derives them in space"))
+        raise Rejected(Complaint("not-in-a-plane", message, help="`principal_axes` derives the axes in space"))
     if is_zero(I[0, 0] - I[1, 1]):
         what = (
             "every axis in their plane is principal"
             if is_zero(I[0, 1])
-            else "the principal axes bisect the right angles"
+            else "the principal axes are at 45 degrees to x and y"
         )
         message = f"the moments of `{inertia.key}` about x and y are equal, so {what}"
         raise Rejected(Complaint("equal-moments", message, help="`principal_axes` gives the axes"))
@@ -261,7 +261,7 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
     angle = scalar(symbol)
 
     def no_product(found: Expr) -> tuple[Expr, Expr]:
-        """Sum m x'y'/cos 2 theta, where x'y' = x y cos 2 theta - (x^2 - y^2)/2 sin 2 theta."""
+        """Return the sum of m x'y'/cos 2 theta, where x'y' = x y cos 2 theta - (x^2 - y^2)/2 sin 2 theta."""
         left = (m * (r[0] * r[1] - (r[0] ** 2 - r[1] ** 2) / 2 * found) for m, r in seen_particles(body, point))
         return sum(left, Integer(0)), Integer(0)
 

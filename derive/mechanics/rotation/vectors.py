@@ -95,7 +95,7 @@ class RateOfEnergy(RateByParticles):
 
 @dataclass(frozen=True)
 class RateOfTurning(RateByParticles):
-    """The rate of the angular momentum L = I w in space: the sum of m r x a. Along L it has the component of N."""
+    """The rate of the angular momentum L = I w in space: the sum of m r x a. Its component along L is N . L/|L|."""
 
     inertia: Quantity
     omega: Quantity
@@ -169,7 +169,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     """
     body = along.subject.body
     if body is not None:
-        body.point(through)  # an error if the body has no such point
+        body.point(through)  # raises an error if the body has no such point
     length = tidied(Norm(along.value))
     return establish(
         SPIN,
@@ -237,7 +237,7 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
 
 
 def whether_zero(v: Any) -> str:
-    """Return `zero`; `generic` if v is not zero for any values of its symbols; `in_general` if this is unknown."""
+    """Return `zero`; `generic` if v is nonzero for all values of its symbols; `in_general` if this is unknown."""
     if is_zero(v):
         return "zero"
     common, rest = factored_matrix(v)

@@ -43,7 +43,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class About:
-    """A potential energy of one coordinate `q`, its matter, and the value `place` of `q` at rest or in steady motion.
+    """A potential energy of one coordinate `q`, the matter behind it, and the value of `q` at rest or in steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
     momenta   the symbols of the cyclic momenta and their values in the steady motion
@@ -70,7 +70,7 @@ class About:
         return bound(bound(bound(value, self.momenta), self.letter), self.instead)
 
     def by_momenta(self) -> Iterator[About]:
-        """Yield versions in which a momentum gives a rate: s = w - Omega cos(alpha) from w = s + Omega cos(alpha)."""
+        """Yield versions without one rate: a momentum w = s + Omega cos(alpha) gives s = w - Omega cos(alpha)."""
         for momentum, value in self.momenta.items():
             for turning in self.rates.values():
                 found = solved_for_letter(momentum - value, turning) if isinstance(turning, Symbol) else None
@@ -100,17 +100,19 @@ FREQUENCY_SQUARED_ABOUT = Rule(
 def frequency_squared_about(
     of: Quantity, at: Quantity, without: Expr | None = None, symbol: str = "omega_0", key: str = "frequency_squared"
 ) -> Quantity:
-    """Square of the frequency of small oscillations, omega_0^2 = U''(q_0)/mu(q_0), of one coordinate with the kinetic
-    energy (1/2) mu(q) q_dot^2: about an equilibrium, or about a steady motion with the effective potential energy U.
+    """Square of the frequency of small oscillations of one coordinate, omega_0^2 = U''(q_0)/mu(q_0).
+
+    The kinetic energy is (1/2) mu(q) q_dot^2. The oscillations are about an equilibrium, or about a steady motion with
+    the effective potential energy U.
 
     of        a potential energy, an effective potential energy, or a Lagrangian, J
     at        an equilibrium of `of`, as `equilibria` yields it; or, for an effective potential energy, the condition of
     a steady motion of the same Lagrangian, as `steady_motion` yields it
-    without   the symbol that the condition of the steady motion eliminates; by default the symbol that gives the
-    shortest result
+    without   the symbol to eliminate with the condition of the steady motion; by default the symbol whose elimination
+    gives the shortest result
     During the oscillation, the momenta of the cyclic coordinates have the values of the steady motion.
     Second route: d'Alembert's principle for all coordinates, including the cyclic ones, to first order in the
-    displacements: the determinant of its equations vanishes for oscillations of this frequency.
+    displacements: the determinant of these equations vanishes for oscillations of this frequency.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).
     Errors: several coordinates remain; the condition belongs to another Lagrangian, or does not eliminate the symbol.
     Source: Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
@@ -181,7 +183,7 @@ def _about_steady(of: Quantity, at: Quantity, without: Expr | None) -> About:
         raise Rejected(Complaint("different-subjects", message))
     q, matter = _only(of), seen.matter
     if {c.needed(OfCoordinate).coordinate.symbol for c in seen.constants} != set(steady.rates):
-        message = f"`{of.key}` does not have all cyclic coordinates eliminated"
+        message = f"`{of.key}`: not all cyclic coordinates are eliminated"
         raise Rejected(Complaint("wrong-argument", message))
     place = steady.values[q]
     about = About(of, matter, q, place, steady.rates, {}, {})
@@ -235,7 +237,7 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
 
 
 def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity) -> dict[Symbol, Expr]:
-    """Return a symbol of a given momentum, with its value: w = s + Omega cos(a) from C w = C (s + Omega cos(a))."""
+    """Return a symbol in a given momentum, and its value: w = s + Omega cos(a) from C w = C (s + Omega cos(a))."""
     known = explicit(lagrangian.value).free_symbols | value.free_symbols
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := solved_for_letter(given - value, letter)) is not None:
@@ -246,10 +248,10 @@ def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantit
 
 
 def _determinant_about(about: About, found: Expr) -> Expr:
-    """Return the determinant of d'Alembert's principle to first order, with displacements e^(s t), s^2 = -omega^2.
+    """Return the determinant of d'Alembert's principle to first order, for displacements e^(s t), s^2 = -omega^2.
 
-    The unknown of a cyclic coordinate is its rate, so its column has one factor s less. Common powers of s are divided
-    out.
+    The unknown of a cyclic coordinate is its rate, so the column of this coordinate has one factor s less. Common
+    powers of s are divided out.
     """
     matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
     moving = [about.q, *about.rates]
@@ -261,7 +263,7 @@ def _determinant_about(about: About, found: Expr) -> Expr:
         other = moving[int(j)]
         slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
         at_place = [_without_angles(each.xreplace({**still, about.q: about.place}), about.rates) for each in slopes]
-        if j:  # of a cyclic coordinate only rates occur: its rate is the unknown
+        if j:  # only the rates of a cyclic coordinate occur, so its rate is the unknown
             return at_place[1] + s * at_place[2]
         return at_place[0] + s * at_place[1] + s**2 * at_place[2]
 

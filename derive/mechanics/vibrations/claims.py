@@ -131,7 +131,7 @@ def square(facts: Judged, fact: SquareOf) -> bool:
 
 
 def mode(facts: Judged, fact: Mode) -> bool:
-    """Whether the squared frequency is the root, or minus the root for a growing mode, and the columns are shapes."""
+    """Whether the squared frequency is the root (minus the root for a growing mode), and every column is a shape."""
     root = fact.root
     squared = explicit(facts.result) ** 2
     if not is_zero(squared - root.value) and not (root.sign == -1 and is_zero(squared + root.value)):
@@ -221,7 +221,7 @@ def always(steady: bool) -> Predicate:
 
 
 def depends(facts: Judged) -> bool:
-    """Whether the conditions together hold exactly where no motion grows, except on their boundaries.
+    """Whether, away from their boundaries, all conditions hold exactly where no motion grows.
 
     The result must be one of the conditions.
     """
@@ -344,7 +344,7 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
-    """Whether det(K - lambda M) vanishes at lambda = `square`; for a repeated root its derivative must vanish too."""
+    """Whether det(K - lambda M) vanishes at lambda = `square`, and its derivative only at a repeated root."""
 
     def is_so(point: Point) -> bool:
         polynomial, place = _polynomial(facts, point), value_at(explicit(square), point)
@@ -423,7 +423,7 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge the equation by its terms: whether it is displaced, whether it has drag, and whether it is driven."""
+    """Judge whether an equilibrium value is not zero, whether there is drag, and whether the equation is driven."""
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
@@ -483,7 +483,7 @@ def nothing_is_left(facts: Judged, drift: Any) -> bool:
 
 
 def root_under_the_sign(facts: Judged, name: Any) -> bool:
-    """Whether the square of the result is a numbered root, and the sentence names the root number 1, the smallest."""
+    """Whether the square of the result is a numbered root, and the sentence names root number 1, the smallest root."""
     square = facts.result**2
     return isinstance(square, OrderedRoot) and str(name) == f"{str(square.name).rpartition('_')[0]}_1"
 
@@ -523,7 +523,7 @@ def taken_out(facts: Judged, relation: Any) -> bool:
 
 
 def trial(unit: Any, role: str) -> Naming:
-    """Check that the trial function starts at 1, and that its rate is the function times `unit` and the exponent."""
+    """Check that the trial function starts at 1, and its rate is the product of function, `unit` and exponent."""
 
     def is_so(facts: Judged, value: Any) -> bool:
         return value.subs(TIME, 0) == 1 and is_zero(diff(value, TIME) - unit * facts.inputs[role] * value)
@@ -532,7 +532,7 @@ def trial(unit: Any, role: str) -> Naming:
 
 
 def oscillator(facts: Judged, equation: Any) -> bool:
-    """Whether the equation, multiplied by the inertia, is the linear equation if the result replaces omega_0^2."""
+    """Whether the stated equation, times the inertia and with the result for omega_0^2, is the linear equation."""
     linear = explicit(facts.quantities["linear"].value).residual
     inertia = explicit(facts.inputs.get("inertia", Integer(1)))
     there = equation.left.doit().subs(facts.symbol, explicit(facts.result))
@@ -605,7 +605,7 @@ def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
 
 
 def _of_an_equation(facts: Judged, outcome: str) -> bool:
-    """Whether the coordinate is a symbol, and its law is an equation or is solved for its rate or acceleration."""
+    """Whether the coordinate is a symbol, and its law is a relation or is solved for its rate or acceleration."""
     q, found = facts.inputs["q"], facts.quantities.get("equation")
     solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
     return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)
@@ -616,7 +616,7 @@ def swings_of_its_equation(facts: Judged, outcome: str) -> bool:
 
 
 def positive_where_real(facts: Judged, outcome: str) -> bool:
-    """Whether the frequency is numerically nowhere negative where it is real."""
+    """Whether, numerically, the frequency is never negative if it is real."""
     return nowhere_negative_where_real(facts)
 
 

@@ -91,7 +91,7 @@ def _characteristic(equations: DampedModes) -> Quantity:
 
 DAMPED_FREE = Rule(
     "vibrations.damped_free",
-    source="that of `normal_modes`",
+    source="the same as for `normal_modes`",
     evidence={"put_back": CHECK},
 )
 
@@ -99,7 +99,7 @@ DAMPED_FREE = Rule(
 def _free(equations: DampedModes, characteristic: Quantity) -> Quantity:
     """Exponent zero: a displacement without a restoring force.
 
-    Source: that of `normal_modes`.
+    Source: the same as for `normal_modes`.
     """
     letter = equations.letter
     return establish(
@@ -121,7 +121,7 @@ def _left(characteristic: Quantity) -> Expr:
 
 DAMPED_RATE = Rule(
     "vibrations.damped_rate",
-    source="that of `normal_modes`",
+    source="the same as for `normal_modes`",
     outcomes={kind: claims.gyroscopic_rate(kind) for kind in ("oscillator", "decay", "growth")},
     evidence={"put_back": CHECK},
 )
@@ -131,7 +131,7 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
     """Decay rate.
 
     Outcomes: oscillator, decay, growth.
-    Source: that of `normal_modes`.
+    Source: the same as for `normal_modes`.
     """
     a, _, *rest = root.factor.coefficients
 
@@ -168,7 +168,7 @@ def _remainder_at(characteristic: Quantity, letter: Symbol, middle: Expr, square
 
 DAMPED_FREQUENCY = Rule(
     "vibrations.damped_frequency",
-    source="that of `normal_modes`",
+    source="the same as for `normal_modes`",
     outcomes={"oscillating": claims.damped(1), "conditional": claims.damped(None), "overdamped": claims.damped(-1)},
     evidence={"motion": CHECK},
     statements=[claims.positive_where_real],
@@ -178,7 +178,7 @@ DAMPED_FREQUENCY = Rule(
 def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, number: str) -> Quantity:
     """Frequency of a damped oscillation, sqrt(omega_0^2 - beta^2).
     Outcomes: oscillating, conditional, overdamped (half the difference of the two decay rates).
-    Source: that of `normal_modes`.
+    Source: the same as for `normal_modes`.
     """
     a, b, c = root.factor.coefficients
     turned = -1 if root.sign == -1 else 1
@@ -214,7 +214,7 @@ def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, 
 
 DAMPED_SHAPE = Rule(
     "vibrations.damped_shape",
-    source="that of `normal_modes`",
+    source="the same as for `normal_modes`",
     outcomes={
         "in_phase": claims.sign_of_product(1),
         "opposite": claims.sign_of_product(-1),
@@ -230,12 +230,12 @@ def _shape(
     """Amplitudes of one damped motion.
 
     Outcomes: in_phase, opposite, generic.
-    Source: that of `normal_modes`.
+    Source: the same as for `normal_modes`.
     """
     linear = equations.linear
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Check that the residuals of the equations are multiples of the factor, so they vanish at its roots."""
+        """Check that the residuals are multiples of the factor, so the equations hold at the roots of the factor."""
         letter = Symbol("s_trial")
         course = exp(letter * T)
         left = [(value / course).expand() for value in with_motion(linear, [a * course for a in found])]

@@ -61,8 +61,9 @@ def steady_amplitude(
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
-    Outcomes: damped, undamped (the oscillation is in phase with the force, or opposite to it).
-    Errors: the equation is not linear with constant coefficients, or is not driven by a single oscillation.
+    Outcomes: damped, undamped (in phase with the force); of the lag also: opposite (without damping).
+    Errors: the equation is not linear with constant coefficients, or is not driven by a single oscillation; an
+    undamped oscillator is at resonance.
     Source: Taylor, *Classical Mechanics*, section 5.5.
     """
     linear = linear_equation(equation, q)
@@ -223,6 +224,6 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
 
 def _sense(equation: Quantity, linear: LinearCoefficients, q: Coordinate) -> int:
-    """Return 1 if the equation has these coefficients, -1 if all its coefficients have the opposite sign."""
+    """Return 1 if the equation has these coefficients, -1 if all of them have the opposite sign."""
     unit = put_back(equation, q, Integer(1)) - put_back(equation, q, Integer(0))
     return 1 if tidied(unit - linear.c) == 0 else -1

@@ -37,7 +37,7 @@ class Linear(LinearSystem, Fact):
     place: tuple[tuple[Coordinate, Expr], ...] = ()
 
     def rows_of(self, matrix: MatrixBase) -> MatrixBase:
-        """Divide each row of a matrix of the amplitudes by the common factor of its equation."""
+        """Divide each row of a matrix by the common factor of the equation that belongs to this row."""
         size = range(matrix.shape[0])
         return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
 
@@ -59,7 +59,7 @@ class Linear(LinearSystem, Fact):
 
 @dataclass(frozen=True)
 class Mode(Fact):
-    """The root lambda = omega^2 behind the frequency or growth rate of a mode, with its sign and its columns."""
+    """The root lambda = omega^2 behind the frequency or growth rate of a mode, with its sign and its amplitudes."""
 
     missing = "is not the frequency of a normal mode"
     root: CharacteristicRoot

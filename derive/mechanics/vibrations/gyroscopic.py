@@ -108,7 +108,7 @@ def _characteristic(equations: TurningModes) -> Quantity:
 
 
 def _in_quadrature(found: Relation, equations: TurningModes) -> tuple[Relation, Relation]:
-    """Compare with cosines and sines: the determinant of their real amplitudes is the square of the result."""
+    """Compare with cosines and sines: the determinant for their real amplitudes is the left side squared."""
     return Relation(explicit(found).residual ** 2, found.operator, 0), Relation(
         _of_cosines_and_sines(equations), "=", 0
     )
@@ -134,7 +134,7 @@ def _of_cosines_and_sines(equations: TurningModes) -> Expr:
 
 GYROSCOPIC_FREQUENCY = Rule(
     "vibrations.gyroscopic_frequency",
-    source="that of `normal_modes`",
+    source="the same as for `normal_modes`",
     outcomes={
         "oscillating": claims.frequency(1),
         "growing": claims.frequency(-1),
@@ -149,7 +149,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
     """Frequency of one mode, or its growth rate.
 
     Outcomes: oscillating, growing, free, conditional.
-    Source: that of `normal_modes`.
+    Source: the same as for `normal_modes`.
     """
     system, letter = equations.system, equations.letter
     root = system.roots[n]
@@ -195,7 +195,7 @@ def _by_square(value: Expr, letter: Symbol, square: Expr) -> Expr:
 def _sum_of_squares(system: LinearSystem) -> Expr:
     """Return the sum of all omega^2: tr(M^-1 K) - tr((M^-1 G)^2)/2.
 
-    This is the trace of -A^2/2, where A is the matrix of the equivalent first-order system.
+    The sum is the trace of -A^2/2, where A is the matrix of the equivalent first-order system.
     """
     inverse = system.mass.inv()
     turning = inverse * system.turning
@@ -240,7 +240,7 @@ def _motion(
         return [_of_time(entry, w, root.turn) for entry in column]
 
     def in_equations(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Substitute the motion into the linear equations, at any time."""
+        """Check that the motion satisfies the linear equations at all times."""
         left = with_motion(linear, list(explicit(found)))
         return ImmutableDenseMatrix(left), ImmutableDenseMatrix([ZERO] * len(left))
 
@@ -280,7 +280,7 @@ def _of_time(entry: Expr, w: Expr, turn: int) -> Expr:
 
 
 def _outcome(column: Sequence[Expr], root: CharacteristicRoot) -> str:
-    """Return the outcome of a mode: if two coordinates move, the shape of the path and the sense of rotation.
+    """Return the outcome of a mode; for two coordinates it states the shape of the path and the sense of rotation.
 
     The path turns forwards if it turns from the first coordinate to the second.
     """
@@ -306,13 +306,13 @@ def linear_stability(
     """Stability of an equilibrium with gyroscopic forces: all omega^2 must be real, positive and distinct.
 
     linear   all equations of the system, as `linearised` yields them
-    letter   the symbol that a condition is solved for; by default the only symbol that occurs as a square, if there is
-    exactly one
+    letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
+    exactly one such symbol
     Gyroscopic forces are linear in the rates. They may stabilise an equilibrium that is not a minimum of the potential
     energy; drag, however small, makes such an equilibrium unstable again.
     Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this
     determinant comes from cosines and sines that are substituted into the equations.
-    Outcomes: stable, unstable, depends; if there are several conditions first, further, last.
+    Outcomes: stable, unstable, depends; if there are several conditions: first, further, last.
     Errors: there is drag; the determinant does not factor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
     """
@@ -321,7 +321,7 @@ def linear_stability(
         message = "`linear_stability` needs forces linear in the rates that do no work, but there is also drag"
         raise Rejected(Complaint("wrong-argument", message))
     letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
-    is_shared = key == "stability" and not together.is_conservative  # then the modes share this equation
+    is_shared = key == "stability" and not together.is_conservative  # then the modes have the same equation
     system = together.of_kind(Gyroscopic)
     equations = TurningModes(linear, system, letter_of_frequency, "" if is_shared else f"{key}_")
     characteristic = _characteristic(equations)
@@ -390,7 +390,7 @@ def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, ke
     """Stability that is the same for all values of the symbols.
 
     Outcomes: stable, unstable.
-    Source: that of `linear_stability`.
+    Source: the same as for `linear_stability`.
     """
     return establish(
         GYROSCOPIC_STABILITY,
@@ -427,7 +427,7 @@ def _condition(
     """One of the conditions that stability requires.
 
     Outcomes: depends, first, further, last.
-    Source: that of `linear_stability`.
+    Source: the same as for `linear_stability`.
     """
     condition, square = conditions[i], Symbol("z")
 
@@ -470,7 +470,7 @@ def _without_squares(value: Expr, square: Symbol) -> Expr:
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """Return the remainder of the value on division by left minus right side of a condition, in one of its symbols."""
+    """Return the remainder of the value, divided by left minus right side of a condition as polynomials in a symbol."""
     residual = Poly(condition.residual.as_numer_denom()[0].expand())
     letter = min(residual.gens, key=lambda each: (not each.is_Symbol, str(each)))
     return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual.as_expr(), letter)).as_expr()

@@ -1,4 +1,4 @@
-"""The linear equations of all coordinates as one linear system, and motions that are substituted into them."""
+"""The linear equations of all coordinates as one linear system, and motions substituted into the equations."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}  # s
 
 @dataclass(frozen=True)
 class Equations(Generic[Kind]):
-    """Linear equations with their linear system, the symbol of its roots, and the beginning of the keys of results."""
+    """Linear equations, their linear system, the symbol of its roots, and the text with which keys of results begin."""
 
     linear: Sequence[Quantity]
     system: Kind
@@ -41,7 +41,7 @@ class Equations(Generic[Kind]):
         return self.together.rows_of(self.system.at(s))
 
     def judged_by(self, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
-        """Return the data for judging an outcome: the matrices, and the stated conditions."""
+        """Return the data with which an outcome is tested: the matrices, and the stated conditions."""
         system = self.system
         found: dict[str, Any] = {"stiffness": system.stiffness, "turning": system.turning, "mass": system.mass}
         exists = {} if system.exists is None else {"exists": system.exists}
@@ -92,7 +92,7 @@ def factors_of_amplitudes(linear: Sequence[Quantity], course: Expr) -> MatrixBas
 
 
 def left_by_drift(linear: Sequence[Quantity], column: Sequence[Expr], time: Expr) -> list[Expr]:
-    """Return the residuals of the full equations of motion for a uniform motion from equilibrium along a column."""
+    """Return the residuals of the full equations of motion for a uniform motion from equilibrium along `column`."""
     equations = {e.needed(OfCoordinate).coordinate: e for each in linear for e in each.parents if e.fact(OfCoordinate)}
     place, moved = linear[0].needed(Linear).place, {}
     for (q, at), share in zip(place, column, strict=True):

@@ -176,7 +176,7 @@ def solution(
 
 
 def _by_powers(motion: Expr) -> Expr:
-    """Sort a motion by powers of the time, each with one factor; if it is not a polynomial, write separate terms."""
+    """Sort a polynomial in the time by powers, each with one coefficient; write any other motion as separate terms."""
     powers = motion.as_poly(TIME) if motion.is_polynomial(TIME) else None
     if powers is None:
         return by_terms(motion.expand())
@@ -200,7 +200,7 @@ def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relati
 
 
 def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
-    """Return the residual of an equation, in its original form, for this function of the time."""
+    """Substitute this function of the time into the original form of an equation, and return the residual."""
     state = (q.symbol, q.rate, q.acceleration)
     value = explicit(equation.value)
     left = value.residual if isinstance(value, Relation) else equation.symbol - value
@@ -242,7 +242,7 @@ def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
 
 
 def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
-    """Return the outcome, which names the kind of motion, and its condition if the symbols leave the kind open."""
+    """Return the outcome, which names the kind of motion, and the condition for this kind; None if it is certain."""
     a, b, c = linear.a, linear.b, linear.c
     key = "the motion along a mode" if equation is None else f"`{equation.key}`"
     if case is not None and case not in CASES:
@@ -352,7 +352,7 @@ def is_linear_in_time(angle: Expr) -> bool:
 
 def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
     message = f"`solution`: the driving force in `{equation.key}` contains {term}"
-    help_line = "it may contain powers of t, exponentials, sines and cosines"
+    help_line = "a driving force may contain powers of t, exponentials, sines and cosines"
     return Rejected(Complaint("unknown-driving", message, help=help_line))
 
 
@@ -388,7 +388,7 @@ def _under_exponential(linear: LinearCoefficients, k: Expr) -> Expr:
 
 
 def _under_swing(linear: LinearCoefficients, swing: Expr) -> Expr:
-    """Return the forced oscillation; if the force has the frequency of an undamped free motion, it grows with time."""
+    """Return the forced oscillation; at the frequency of an undamped free motion, the oscillation grows with time."""
     (angle,) = swing.args
     w = diff(angle, TIME)
     stiff, loss = tidied(linear.c - linear.a * w**2), tidied(linear.b * w)
@@ -461,7 +461,7 @@ def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: LinearCoefficie
 def _joined(free: Expr, particular: Expr) -> Expr:
     """Add the free motion and the particular motion, in the shortest form.
 
-    If the two motions cancel at the start, the sum is written like v_t (1 - e^(-t/T)).
+    If a constant particular motion cancels the free motion at t = 0, the sum is written like v_t (1 - e^(-t/T)).
     """
     if not particular.has(TIME) and particular != 0 and not free.is_Add:
         outside, inside = free.as_independent(TIME, as_Add=False)

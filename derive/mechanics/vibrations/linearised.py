@@ -1,8 +1,8 @@
 """Equations of motion to first order about an equilibrium, in any number of coordinates.
 
-The equations are M eta_ddot + G eta_dot + K eta = f(t), with the displacements eta and the driving forces f. The
-matrices are coefficients in the equations of motion. The second route derives the matrices from the kinetic energy of
-mass points and from the virtual work of all forces, including drag and given forces, to second order.
+The equations are M eta_ddot + G eta_dot + K eta = f(t), with the displacements eta and the driving forces f. The step
+takes the matrices from the equations of motion, as coefficients. The second route derives the matrices from the kinetic
+energy of mass points and from the virtual work of all forces, including drag and given forces, to second order.
 """
 
 from __future__ import annotations
@@ -53,8 +53,8 @@ def linearised(
     Forces linear in the rates, such as drag, give G; terms f that depend only on the time drive the motion. If a
     coordinate is not 0 at equilibrium, its displacement is called eta, or eta_1, eta_2, ... if there are several.
     Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
-    Outcomes: generic, displaced (some coordinate is not 0 at equilibrium), and with drag or a driving force damped,
-    displaced_damped, driven, displaced_driven.
+    Outcomes: generic, displaced (some coordinate is not 0 at equilibrium); with drag damped, displaced_damped; with a
+    driving force driven, displaced_driven.
     Errors: a force remains at the given equilibrium; the value or the equation of a coordinate is missing; the
     coefficients depend on the time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
@@ -85,7 +85,7 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
 
 
 def _if_linear(step: Step) -> str:
-    """Return the key of the equation that a step repeats because this equation is already linear; otherwise empty."""
+    """Return the key of the equation of motion if this equation is already linear, otherwise an empty text."""
     roles = dict(step.roles)
     return str(roles["motion"].name) if "as_it_is" in roles else ""
 
@@ -123,7 +123,7 @@ def _one(
     """Linear equation of one coordinate.
 
     Outcomes: generic, displaced, damped, displaced_damped, driven, displaced_driven.
-    Source: that of `linearised`.
+    Source: the same as for `linearised`.
     """
     eta = linear.displacements
     ordered = [
@@ -256,7 +256,7 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
         kept = next((q for q in others if any(q == c.force for c in constraints_of(equation))), None)
         if kept is not None:
             message = f"`linearised`: `{equation.key}` contains {kept.name}, the multiplier of a constraint"
-            help_line = "write the places with fewer coordinates, without this constraint"
+            help_line = "write the positions with fewer coordinates, so that this constraint is not needed"
             raise Rejected(Complaint("constrained", message, help=help_line))
         if others:
             message = f"`linearised`: `{equation.key}` also has {others[0].name}, for which there is no equation"
@@ -265,7 +265,7 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
 
 
 def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: Any) -> dict[Symbol, Expr]:
-    """Return the equilibrium value of each coordinate; 0 for a coordinate of which only rates occur."""
+    """Return the equilibrium value of each coordinate; 0 for a coordinate that occurs only through its rates."""
     known = dict.fromkeys((q.symbol for q in moving), ZERO) if at is None else place_given(at)
     strange = [s for s in known if s not in {q.symbol for q in moving}]
     if strange:
@@ -350,7 +350,7 @@ def _of_second_order(
     place: Mapping[Symbol, Expr],
     eta: Sequence[Coordinate],
 ) -> Relation:
-    """Return the same equation from mass points and forces: momentum and generalised force, differentiated at rest.
+    """Derive the equation from mass points: differentiate momentum and generalised force at equilibrium.
 
     The kinetic energy does not suffice, because it does not give the forces if cyclic coordinates are eliminated.
     """

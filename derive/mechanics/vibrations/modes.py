@@ -57,11 +57,11 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     linear   the equations, as `linearised` yields them
     key      the beginning of the keys, if the page has other modes; then give a `symbol` too
     Keys: characteristic_equation; frequency_1, frequency_2, ... in ascending order; mode_1, mode_2, ... for the shapes,
-    of which only the ratios of the entries have a meaning. For one coordinate the only key is `frequency`, and
-    `frequency_squared` determines omega_0.
-    With gyroscopic forces, which are linear in the rates and do no work, the modes are motions: cosines and sines. With
-    drag the keys are decay_1, decay_2, ... for the decay rates, and a frequency for each quadratic factor of the
-    determinant.
+    of which only the ratios of the entries have a meaning. For one coordinate without drag the steps are
+    `frequency_squared`, for omega_0^2, and `frequency`, which is the only result.
+    With gyroscopic forces, which are linear in the rates and do no work, each mode is a motion in cosines and sines,
+    not a shape. With drag the keys are decay_1, decay_2, ... for the decay rates, and a frequency for each quadratic
+    factor of the determinant.
     Second route: the motion satisfies the linear equations; omega^2 is Rayleigh's quotient of stiffness and mass for
     the shape; the sum of all omega^2 is the trace of M^-1 K; the shapes are orthogonal with respect to M.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (the sign of omega^2
@@ -112,14 +112,14 @@ CHARACTERISTIC = Rule(
 def _characteristic(equations: Equations[Conservative]) -> Quantity:
     """Characteristic equation, det(K - omega^2 M) = 0.
 
-    Source: that of `normal_modes`.
+    Source: the same as for `normal_modes`.
     """
     linear, letter = equations.linear, equations.letter
     matrix = equations.matrix(I * letter)
     factored = equations.system.written(letter).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
-        """Compare with the factors of the amplitudes after substituting eta = a cos(omega t) into the equations."""
+        """Compare with the determinant of the equations after substituting eta = a cos(omega t)."""
         return found, Relation(expanded_by_rows(factors_of_amplitudes(linear, cos(letter * T))), "=", 0)
 
     return establish(
@@ -136,9 +136,9 @@ def _characteristic(equations: Equations[Conservative]) -> Quantity:
 
 
 def _drift(linear: Sequence[Quantity], root: CharacteristicRoot) -> dict[str, Any]:
-    """Return the residuals of the full equations of motion for a uniform motion along a zero mode, if all vanish.
+    """Substitute a uniform motion along a mode of frequency zero into the full equations of motion.
 
-    In this case no force acts to any order; otherwise the result is empty.
+    If all residuals vanish, no force acts to any order, and the result contains them; otherwise the result is empty.
     """
     if root.sign != 0:
         return {}
@@ -167,7 +167,7 @@ def _frequency(equations: Equations[Conservative], characteristic: Quantity, n: 
 
     Outcomes: oscillating, growing, free, conditional, oscillating_repeated, growing_repeated, free_repeated,
     conditional_repeated.
-    Source: that of `normal_modes`.
+    Source: the same as for `normal_modes`.
     """
     system, letter = equations.system, equations.letter
     root = system.roots[n]
@@ -214,7 +214,7 @@ def _frequency(equations: Equations[Conservative], characteristic: Quantity, n: 
     )
 
 
-@lru_cache(maxsize=8)  # the same for all frequencies of a system
+@lru_cache(maxsize=8)  # the trace is the same for all frequencies of a system
 def _trace(mass: MatrixBase, stiffness: MatrixBase) -> Expr:
     """Return the trace of M^-1 K: the sum of K_ij times the cofactor of M_ij, divided by det M."""
     size = range(mass.shape[0])
@@ -246,7 +246,7 @@ def _shape(
     """Amplitudes of one mode.
 
     Outcomes: in_phase, opposite, alone, generic, uniform, departing, any_of_several.
-    Source: that of `normal_modes`.
+    Source: the same as for `normal_modes`.
     """
     linear, root, n = equations.linear, frequency.needed(Mode).root, len(before) + 1
     drift = _drift(linear, root)
@@ -322,7 +322,7 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
         raise Rejected(Complaint("no-oscillation", f"`{of.key}` is not the frequency of an oscillation"))
 
     def same_again(found: Expr) -> tuple[Expr, Expr]:
-        """Check that the phase increases by one full turn, with its cosine and sine and the cosine of half of it."""
+        """Check the phase after one period: its cosine is 1, its sine 0, and the cosine of half the phase -1."""
         turn = tidied(of.value * found)
         u, v = (stand_in(name) for name in ("u", "v"))
         return cos(turn) + u * sin(turn) + v * cos(turn / 2), 1 - v

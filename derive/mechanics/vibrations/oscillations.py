@@ -112,7 +112,7 @@ def _squared_form(value: Expr) -> Expr:
 
 
 def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:
-    """Return the outcome, which depends on the sign of omega_0^2 = k/m where the equilibrium exists."""
+    """Return the outcome from the sign of omega_0^2 = k/m, under the condition for which the equilibrium exists."""
     value = tidied(value)
     if value == 0:
         return "neutral"
@@ -123,7 +123,7 @@ def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -
 
 
 def _turned(value: Expr) -> Expr:
-    """Return minus the value; a sum with a minus sign takes up the sign: M g (a/2 - R) for M g (R - a/2)."""
+    """Return minus the value; a factor like R - a/2 changes sign: M g (a/2 - R) for M g (R - a/2)."""
     factors = list(Mul.make_args(value))
     sums = [
         i for i, f in enumerate(factors) if isinstance(f, Add) and any(t.could_extract_minus_sign() for t in f.args)
@@ -167,10 +167,10 @@ def frequency_and_growth(
     """Frequency of small oscillations, omega_0, if the square is positive; growth rate, kappa, if it is negative.
 
     squared     the square of the frequency, as `frequency_squared` yields it, 1/s^2
-    keys        the keys of the frequency and of the growth rate; if the sign of the square is known, one step is both
+    keys        the keys of the frequency and of the growth rate; if the sign is known, both keys name one step
     condition   as for `frequency`
     Check: as for `frequency`.
-    Outcomes: those of `frequency`; if the frequency is conditional, growing for the growth rate.
+    Outcomes: the same as for `frequency`; the growth rate next to a conditional frequency has the outcome growing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
     first, second = keys
@@ -205,7 +205,7 @@ def _rate(
 
     Check: the motion is substituted back into its equation; the result is not negative.
     Outcomes: stable, conditional, neutral, unstable, growing (the growth rate if the sign of the square is unknown).
-    Source: that of `frequency`.
+    Source: the same as for `frequency`.
     """
     known = squared.needed(SquareOf)
     grows = outcome in ("unstable", "growing")
@@ -223,7 +223,8 @@ def _rate(
     def positive_root(found: Expr) -> tuple[Expr, Expr]:
         """Check the sign of the result for one set of numbers.
 
-        The motion does not determine this sign, and the sign changes only where the result is zero.
+        The equation of motion holds for either sign of the result, and the sign can change only where the result is
+        zero.
         """
         letters = sorted(squared.value.free_symbols, key=str)
         drawn = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}

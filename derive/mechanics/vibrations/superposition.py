@@ -1,8 +1,8 @@
 """The motion of coupled coordinates from their initial values, as a sum of normal modes.
 
 The shapes are orthogonal with respect to M. So the motion along each shape a is the motion of one oscillator, with the
-mass a.M a, the stiffness a.K a and, if drag does not mix the modes, the drag a.C a. Its initial value is
-a.M eta(0)/(a.M a).
+mass a.M a, the stiffness a.K a and, if drag does not mix the modes, the drag a.C a. The initial value of this
+oscillator is a.M eta(0)/(a.M a).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ExcitedMode:
-    """One mode in a motion: its shape, the initial values of its oscillator, and its frequency if a step derives it."""
+    """One mode in a motion: its shape, the initial values of its oscillator, and a frequency if a step derives one."""
 
     column: MatrixBase
     first: Expr
@@ -76,7 +76,7 @@ def motions_by_modes(
     start        the value of each coordinate at t = 0; by default its equilibrium value
     start_rate   the rate of each coordinate at t = 0; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
-    Keys: of_t and the name of the coordinate; or `key` in place of of_t.
+    Keys: of_t_x for a coordinate x; with a `key`, this key in place of of_t.
     Check: the motion is substituted back into all linear equations; it has the given values and rates at t = 0.
     Outcomes: generic, zero (this coordinate does not move).
     Errors: drag mixes the modes; gyroscopic forces act; an initial value is not constant.
@@ -189,7 +189,7 @@ def _motion(
     """Coordinate as a function of the time.
 
     Outcomes: generic, zero.
-    Source: that of `motions_by_modes`.
+    Source: the same as for `motions_by_modes`.
     """
     q = together.displacements[i]
     own = [s for s in excited if not is_zero(s.column[i])]
@@ -252,7 +252,7 @@ def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) ->
 def _as_product(excited: Sequence[ExcitedMode], i: int) -> Expr | None:
     """Write A cos(w_1 t) + A cos(w_2 t) as 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), which shows the beats.
 
-    The product contains the symbols of the frequencies. The result is None for any other sum.
+    In the product the frequencies are symbols. For any other sum of modes the result is None.
     """
     plain = [s for s in excited if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
     if len(excited) != 2 or len(plain) != 2:
@@ -291,7 +291,7 @@ def _in_results(
     values: Values = NONE,
     case: str | None = None,
 ) -> Quantity | tuple[Quantity, ...]:
-    """Return the motion of one coordinate, or the motions of all coordinates as sums of modes, from initial values."""
+    """Return, from initial values, the motion of one coordinate, or all motions as sums of modes."""
     if start is None and len(motions) > 1:
         return checked(motions_by_modes)(motions, *_start_by_name(values, coordinates), case, key)
     for argument, name, value in (("q", "for", q), ("start", "start", start)):

@@ -22,7 +22,7 @@ from derive.figures.space import Stance, Vector, angle_of, size_of, unit
 
 ANGLE = pi / 5
 APART = 0.25  # least distance in the view between a tip and a corner, in body sizes
-SHARES = (0.8, 0.6, 1.0, 0.7)  # lengths of coordinates in the drawing, in units of the given lengths
+SHARES = (0.8, 0.6, 1.0, 0.7)  # values of length coordinates without a number, in units of the typical length
 
 
 def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:
@@ -80,7 +80,7 @@ class Numbers:
         return self._found[expr]
 
     def vector(self, column: Any) -> Vector:
-        """Return a position or direction in numbers; a column of two components lies in the plane of the drawing."""
+        """Return a position or direction as numbers; a column of two components lies in the plane of the drawing."""
         x, y, *rest = (self.of(entry) for entry in _entries(column))
         return x, y, rest[0] if rest else 0.0
 

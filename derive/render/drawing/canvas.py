@@ -98,7 +98,7 @@ def with_margin(extent: Extent) -> Extent:
 
 
 def _reached(piece: Piece) -> Iterable[Spot]:
-    """Return points whose extent is the extent of a piece."""
+    """Return points with the same bounding box as the piece."""
     if not isinstance(piece, Bullet):
         return piece.spots
     (x, y), size = piece.spot, piece.size

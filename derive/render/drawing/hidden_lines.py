@@ -1,4 +1,4 @@
-"""Paper on which marks draw themselves: it projects positions to points and finds hidden lines of surfaces.
+"""Paper on which marks draw themselves; the paper projects positions to points and finds hidden lines of surfaces.
 
 Every surface is convex, so an edge is hidden if both faces that meet at the edge face away from the eye.
 """
@@ -25,7 +25,7 @@ from derive.figures.space import (
     unit,
 )
 
-FLAT = 0.25  # in units of the radius: a flatter body hides too little for dashed lines
+FLAT = 0.25  # least height in units of the radius: a flatter body has no dashed lines
 
 
 class OnPaper(Paper):
@@ -73,7 +73,7 @@ class OnPaper(Paper):
         axis = unit(plus(centres[-1], centres[0], -1.0))
 
         def side(k: int) -> list[float]:
-            """Return for each point around ring k by how much the side up to the next ring faces the eye."""
+            """Return, for each point around ring k, how much the side up to the next ring faces the eye."""
             height, widening = size_of(plus(centres[k + 1], centres[k], -1.0)), radii[k + 1] - radii[k]
             return [height * dot(outward, eye) - widening * dot(axis, eye) for outward in outwards]
 
@@ -100,7 +100,7 @@ class OnPaper(Paper):
 
 
 def _turns(facing: Sequence[float]) -> list[tuple[int, float]]:
-    """Return where a side turns away from the eye: the index of a point on a rim, and the fraction to the next."""
+    """Return where a side turns away from the eye: index of a rim point, and fraction of the distance to the next."""
     pairs = enumerate(pairwise(facing))
     return [(i, at / (at - after)) for i, (at, after) in pairs if (at >= 0) != (after >= 0)]
 

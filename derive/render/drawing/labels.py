@@ -1,9 +1,9 @@
 """Positions of the labels of a drawing: each next to the thing that it names, covering as little else as possible.
 
-Each label tries a ring of positions around its point and takes the position that covers least; among equals, the one
-nearest to the side that its mark prefers. Labels on the things that they name choose first; labels of lines, which
-can slide, choose last. Then each label chooses again. If labels still cover something, labels with few positions go
-first.
+Each label tries a ring of positions around its point and takes the position that covers least; of equal positions, it
+takes the position nearest to the side that its mark prefers. Labels on the things that they name choose first; labels
+of lines, which can slide, choose last. Then each label chooses again. If labels still cover something, a second search
+lets labels with few positions choose earlier, and the better result is used.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from derive.figures.space import Spot, direction, is_within
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
 CLEAR = 1.5  # points between a label and a line
-LINE, HEAVY = 3.0, 60.0  # costs: covering a point of a line, covering another label
+LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering another label
 HEAVY_ENOUGH = 20.0
-NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # near a line: distance, cost of each of its points, most in all
+NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # distance near a line; cost of each near point, and largest total
 WIDE = 1.0  # points: a wider line is represented by its two edges
 OWN = 1.5  # points: a line this close to the line that a label names is the same line
 ROUNDS = 3
@@ -51,7 +51,7 @@ def placed(
     tried = [sorted(enumerate(_weighed(tag, measured, drawn)), key=lambda each: each[1][0]) for tag in tags]
     order = sorted(range(len(tags)), key=lambda i: (not tags[i].on, tags[i].way is not None))
     cost, found = _one_by_one(order, tried, drawn)
-    if cost >= HEAVY_ENOUGH:  # labels cover something: those with the fewest positions choose first
+    if cost >= HEAVY_ENOUGH:  # labels cover something: search again, fewest positions first
         other = sorted(order, key=lambda i: (not tags[i].on, len(tried[i])))
         cost, found = min((cost, found), _one_by_one(other, tried, drawn), key=lambda each: each[0])
     return [Placed(tags[i].label, found[i][:2], found[i]) for i in order]
@@ -74,7 +74,7 @@ def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Sp
 
 
 def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tuple[float, Extent]:
-    """Return the box of least total cost with this cost: the box's base cost plus the cost of what it covers."""
+    """Return the least total cost with its box: the base cost of a box plus the cost of what the box covers."""
     least, best = inf, (-1, (0.0, 0.0, 0.0, 0.0))
     for place, (cost, box) in tried:
         if cost > least:
@@ -88,7 +88,7 @@ def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tupl
 def _weighed(
     tag: Tag, measured: Callable[[Any], tuple[float, float]], drawn: Sequence[Spot]
 ) -> Iterable[tuple[float, Extent]]:
-    """Yield the boxes of a label with costs; a line's label near another line costs more, to avoid confusion."""
+    """Yield the boxes of a label with costs; the label of a line costs more near another line, to avoid confusion."""
     tried = _tried(tag, *measured(tag.label))
     if tag.way is None:
         yield from tried
@@ -120,7 +120,7 @@ def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Exten
             angle = turn * pi / 8
             x = base[0] * cos(angle) - base[1] * sin(angle)
             y = base[0] * sin(angle) + base[1] * cos(angle)
-            # The box touches a circle about the point, so its middle is farther by half its size in that direction.
+            # The box touches a circle about the point, so the middle of the box is farther by half its size there.
             away = gap + min(width / 2 / max(abs(x), 1e-9), height / 2 / max(abs(y), 1e-9), hypot(width, height) / 2)
             yield abs(turn) * 0.8 + ring * 2.5, _box(_moved(tag.spot, (x, y), away), width, height)
 

@@ -1,6 +1,6 @@
 """Formulas as contours: matplotlib's mathtext sets them in Computer Modern, the font of the page.
 
-Importing matplotlib and numpy takes longer than drawing, so no other module does.
+Importing matplotlib and numpy takes longer than drawing, so no other module imports them.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ Letters: TypeAlias = Callable[[Collection[str]], Mapping[str, Lettered]]
 
 
 def letters_of(texts: Collection[str]) -> dict[str, Lettered]:
-    """Return the contours of each text of mathtext, which begin at the origin, by text."""
-    # One thread is enough without products of matrices, and a process with threads should not fork.
+    """Return the contours of each text of mathtext, by text; the contours begin at the origin."""
+    # One thread suffices because no matrices are multiplied, and a process with threads should not fork.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     import matplotlib
 

@@ -18,7 +18,7 @@ SMALLEST = 15.0  # points: the size of the drawing if its parts of fixed size le
 
 
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
-    """Return the pieces in points, scaled so that all but the labels fits into width x height, in centimetres."""
+    """Return the pieces in points; without their labels the pieces fit into `width` x `height` centimetres."""
     paper = _paper(drawing, numbers)
     room = width * POINTS_PER_CM, height * POINTS_PER_CM
     for _ in range(TRIES):  # because of parts with a fixed size, the size is not quite proportional to the scale
@@ -41,7 +41,7 @@ def _paper(drawing: Drawing, numbers: Numbers) -> OnPaper:
 
 
 def _labels_at_the_top(pieces: list[Piece], top: float) -> list[Spot]:
-    """Return the right ends of labels at the highest points, so that the arrow of gravity does not cover them."""
+    """Return the right ends of the labels at the top, so that the arrow of gravity does not cover these labels."""
     tags = [p for p in pieces if isinstance(p, Tag) and p.label is not None and p.towards[0] > 0 and p.way is None]
     return [(tag.spot[0] + tag.gap + LABEL, tag.spot[1]) for tag in tags if tag.spot[1] > top - ARROW]
 

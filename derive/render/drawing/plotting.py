@@ -93,7 +93,7 @@ class Writing:
         return scale * (right - left), scale * (above - below)
 
     def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
-        """Return a text with the fractions `share` of its width and height to the left of and below the point."""
+        """Place a text at a point, with the fractions `share` of the text's width and height to the left and below."""
         contour, extent = self.known[text]
         if upwards:
             contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])
@@ -171,7 +171,7 @@ def _title(letter: str, numbers: str) -> str:
 def _ticks(low: float, high: float, in_degrees: bool, room: float = 0.0) -> Ticks:
     """Return a few round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
 
-    If there is room, the numbers continue beyond both ends, so that each end lies between two of them.
+    If there is room, the numbers continue beyond both ends of the range, so that each end lies between two numbers.
     """
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
@@ -235,7 +235,7 @@ def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
 
 
 def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float) -> Iterator[Shape]:
-    """Yield all shapes of a panel; `ends` are its left and right edges, `size` scales the numbers above it."""
+    """Yield all shapes of a panel with left and right edges `ends`; `size` scales the numbers above the panel."""
     left, below, right, above = frame.paper
     yield from shapes_of(list(_pieces(panel, frame)))
     for x, text in panel.across:

@@ -1,7 +1,7 @@
 """Shapes on paper as files, a PDF for TeX and an SVG for other pages; the same shapes always give the same bytes.
 
-Lengths are in points and the sheet is as large as its contents, so a drawing is included at its natural size and its
-letters match those of the page. Letters are shapes like everything else: no font is needed to show a drawing.
+Lengths are in points, and the sheet is as large as its contents. So a page includes a drawing at its natural size, and
+the letters of drawing and page match. Letters are shapes like everything else: no font is needed to show a drawing.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The formats of a single page: each module of this package defines one, and no other module names it.
 
-A module defines `FORMAT = Format(...)`. This adds a value of `--format`, a text in `Rendered` and, if the format is
-`built`, a file of each build. Modules are imported wherever formats are listed, even by `--help`, so they import the
-code that renders a page only when they render.
+A module defines `FORMAT = Format(...)`. This definition adds a value of `--format`, a text in `Rendered` and, if the
+format is `built`, a file of each build. Listing the formats, even in `--help`, imports all these modules. So a module
+imports the code that renders a page only when it renders a page.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from derive.steps.derivation import Derivation
     from derive.steps.step import Step
 
-# Documents of a set are not formats: a document needs the page and its set, a format only the page.
+# Documents of a set are not formats: a document needs a page and its set, but a format needs only a page.
 TYPESET, HTML = ("latex", "pdf"), "html"
 WRITTEN = "Written by derive"  # a file that begins with this line may be replaced; other files are handwritten
 

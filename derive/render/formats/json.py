@@ -1,4 +1,4 @@
-"""The data of a page for other programs: docs/json.md."""
+"""The data of a page for other programs, which docs/json.md describes."""
 
 from __future__ import annotations
 

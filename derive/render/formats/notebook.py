@@ -1,4 +1,4 @@
-"""A page as a Jupyter notebook, without stored output, whose cells derive the problem again."""
+"""A page as a Jupyter notebook without stored output; the cells derive the problem again."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ class Binding(IntEnum):
     PRODUCT    factors side by side: 2 M a
     DOTTED     numbers and letters with a dot between them: M·1/2 a
     MEASURED   a number with its unit: 2 cm
-    OPEN       includes everything that follows: a·b and w x L of vectors, an integral, d/dt (...)
+    OPEN       extends over everything that follows: a·b and w x L of vectors, an integral, d/dt (...)
     SIGNED     -M a
     """
 

@@ -1,7 +1,8 @@
 """The layout of a formula quoted in LaTeX, so that a terminal shows it like the formulas of a page.
 
 A quoted formula may contain errors, so it is laid out without interpretation: fractions, roots, indices, and letters
-in the order in which they are printed. `course/latex/quoting.py` has checked that every command is known and nested.
+in the order in which they are printed. `course/latex/quoting.py` has checked that every command is known and correctly
+nested.
 """
 
 from __future__ import annotations
@@ -187,7 +188,7 @@ class _Reader:
         return Upright(text)
 
     def function(self, name: str) -> Layout:
-        """Return a function with its argument, the factor after it, which may be a number and a letter."""
+        """Return a function with its argument: the next factor, or a number and a letter."""
         _, power = self.scripts()
         if not self.next or self.next in _OPERATORS or self.next in _CLOSING | {"}"}:
             return Upright(name)

@@ -86,7 +86,7 @@ SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-.95em]{0pt}{2.45em}", "[3pt]"
 
 
 def latex(layout: Layout, *, inline: bool = False) -> str:
-    """Return the LaTeX of a layout; with `inline`, fractions are written a/b if this is unambiguous, else small."""
+    """Return the LaTeX of a layout; with `inline`, fractions are a/b where this is unambiguous, and small elsewhere."""
     return _Printer(inline).show(_with_strokes(layout) if inline else layout)
 
 
@@ -103,7 +103,7 @@ def _with_strokes(layout: Layout) -> Layout:
     around = (None, *items, None)
     alone = [all(x is None or x in BETWEEN_TERMS for x in (around[i], around[i + 2])) for i in range(len(items))]
     if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
-        return row(*items)  # if one fraction cannot be written a/b, none is
+        return row(*items)  # if one fraction cannot be written a/b, no fraction is changed
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
 
 
@@ -274,7 +274,7 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 def _name(name: Name) -> str:
     base = name.letter
     if base == BLANK:
-        return "{?}"  # braces give it the spacing of a letter
+        return "{?}"  # braces give the question mark the spacing of a letter
     letter = rf"\{base}" if base in GREEK_LETTERS else base
     if base in SCRIPT_LETTERS:
         letter = rf"\mathcal{{{base[-1]}}}"

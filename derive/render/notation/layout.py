@@ -161,7 +161,7 @@ GREEK_LETTERS = {
     "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ",
     "Omega": "Ω", "infty": "∞",
 }  # fmt: skip
-SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # for results whose usual symbol is in use
+SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # for results whose usual symbol is taken
 
 DEGREE_SIGN = Upright("degree")  # the only unit without a space after its number
 DOT, TIMES, PLUS, MINUS, THIN_SPACE = (Operator(kind) for kind in ("dot", "times", "plus", "minus", "space"))
@@ -242,7 +242,7 @@ POSITION = re.compile(r"^r(?P<primes>'*)_(?P<of>[^_]+)_(?P<axis>[xyz])(?=_d*dot$
 
 
 def layout_of_name(name: str) -> Name:
-    """Split `omega_x`, `theta_dot`, `J_xy` into symbol, subscript and dots; `r_C_z`, a component of r_C, is z_C."""
+    """Split `omega_x`, `theta_dot`, `J_xy` into symbol, subscript and dots; the component `r_C_z` becomes z_C."""
     name = POSITION.sub(r"\g<axis>\g<primes>_\g<of>", name)
     match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
     if not match:

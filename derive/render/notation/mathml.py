@@ -26,7 +26,7 @@ def in_pieces(
 ) -> list[tuple[float, Html]]:
     """Return each term of a sum as a separate formula with its width in characters; a line may end between two terms.
 
-    Before the first term is the relation `sign`, or nothing; with `goes_on` the sum continues from another line.
+    The relation `sign`, if any, precedes the first term; with `goes_on` the sum continues from another line.
     """
     first, *others = latex_of_terms(layout, inline=inline)
     begun = _going_on(first, inline) if goes_on else of_latex(f"{sign} {first}".strip(), inline=inline)
@@ -41,7 +41,7 @@ def _going_on(formula: str, inline: bool) -> Html:
 
 @cache
 def of_latex(formula: str, inline: bool = False) -> Html:
-    """Return the MathML for LaTeX written by `latex`, which can always be converted.
+    """Return the MathML of a formula that `latex` has written; such a formula can always be converted.
 
     The extra height of rows in a column is removed: only TeX needs it, since a browser fits rows to their contents.
     """

@@ -3,9 +3,10 @@
 The engine decides the form of a line, because it checks lines: which terms are collected, which are one fraction, what
 is multiplied out (`derive.algebra.tidy`, `derive.algebra.collect`). This module, with `products` and `binding`, decides
 the printed form, once for every format: the order of terms and factors, the factor in front of a vector or a
-bracket, roots under one sign or below, signs, fractions, brackets and dots. `latex` and `text` set the layout.
+bracket, roots under one root sign or in the denominator, signs, fractions, brackets and dots. `latex` and `text` write
+the layout.
 
-`Notation` has the only data that depends on a problem: the dimensions of symbols, which determine their order.
+`Notation` contains the only data that depend on a problem: the dimensions, which determine the order of symbols.
 """
 
 from __future__ import annotations
@@ -280,7 +281,7 @@ class Notation:
         return signed(sign, row(*items)) if sign else row(*items)
 
     def _operand(self, inner: Layout, *, leads: bool, ends: bool) -> Layout:
-        """Return a vector or tensor for use next to another, in brackets if necessary; w x L at the end needs none."""
+        """Return a vector or tensor for use next to another, in brackets if needed; a final w x L has no brackets."""
         if not leads and begins_with_number(inner):
             return Fenced(inner)
         return within(inner, Binding.OPEN if ends else Binding.PRODUCT)
@@ -349,7 +350,7 @@ class Notation:
     # --- integrals ---
 
     def _integral(self, expr: Integral) -> Layout:
-        """Return an integral: its signs from the outermost, the integrand, the differentials from the innermost."""
+        """Return an integral: its signs, outermost first; the integrand; the differentials, innermost first."""
         signs = [IntegralSign(self.layout(lower), self.layout(upper)) for _, lower, upper in reversed(expr.limits)]
         inside: list[Layout] = [self._as_factor(expr.function)] if expr.function != 1 else []
         for x, *_ in expr.limits:

@@ -82,7 +82,7 @@ def ordered_factors(factors: list[Expr], dimension_of: Callable[[Any], Dimension
 def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
     """Write omega_z omega_x, to match omega_x omega_y and omega_y omega_z in the components of a cross product.
 
-    Next to a product of inertia such as I_xz, the rates have the order of its axes.
+    Next to a product of inertia such as I_xz, the rates keep the order of the two axes.
     """
     names = [factor.name if isinstance(factor, Symbol) else "" for factor in factors]
     for i, name in enumerate(names):

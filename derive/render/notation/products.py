@@ -1,4 +1,4 @@
-"""The form of a product or sum: its sign, numerical factors and symbols, and the order of these."""
+"""The printed form of a product or sum: its sign, and the order of numerical factors, symbols and terms."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def sign_and_size(term: Any) -> tuple[Operator | None, Any]:
 
 
 def roots_last(terms: list[Any]) -> list[Any]:
-    """Put terms with roots of sums last if terms have units; terms with symbols have this order too."""
+    """Put terms with roots of sums last if any term has a unit, to match the order of terms in symbols."""
 
     def is_root(term: Any) -> bool:
         return any(isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Add for f in Mul.make_args(term))
@@ -184,7 +184,7 @@ def under_one_root(number: Expr) -> list[Expr]:
 
 
 def _digits(*numbers: Expr) -> int:
-    """Return how many digits rational numbers and their roots have in print; a 1 is not printed."""
+    """Return the number of digits that rational numbers or their square roots have in print; a 1 is not counted."""
     fractions = [number**2 if number.is_Pow else number for number in numbers]
     return sum(len(str(n)) for number in fractions for n in (number.p, number.q) if n != 1)
 
@@ -295,7 +295,7 @@ def rank_of_dimension(dimension: Dimension | None) -> Place:
 
 
 def rank_of_sum(places: Iterable[Place]) -> Place:
-    """Return the place of a sum: masses or accelerations have that of their terms, (M + m) r_dot^2, m (g + a) l."""
+    """Return the place of a sum; sums of masses or accelerations come early: (M + m) r_dot^2, m (g + a) l."""
     return {frozenset({Place.MASS}): Place.SUM_OF_MASSES, frozenset({Place.ACCELERATION}): Place.ACCELERATION}.get(
         frozenset(places), Place.SUM
     )

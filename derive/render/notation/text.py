@@ -2,7 +2,7 @@
 
 These are the rules for reading a line; `tests/printed/from_text.py` reads every printed line by these rules:
 
-    a b, 2a      a product; it binds tighter than `·` and `×` between vectors, and those tighter than + and -
+    a b, 2a      a product; it binds tighter than `·` and `×` of vectors, which bind tighter than + and -
     1/2 M a²/b   from left to right: half of M a², over b; one factor follows the stroke, a product is in brackets
     a·3b         a product with a later factor that begins with a number
     a⃗·b⃗, a⃗ × b⃗  of vectors: everything on either side, up to the next sign
@@ -229,7 +229,7 @@ def _row(items: tuple[Layout, ...]) -> TextBox:
 
 
 def _piece(before: Layout | None, item: Layout) -> TextBox:
-    """Return the text of an item in a row; it may depend on the item before."""
+    """Return the text of an item in a row; a sign at the beginning of a sum has its own text."""
     leads = before is None or isinstance(before, Operator) and before.kind not in ("plus", "minus", "space", "close")
     return TextBox((LEADING_SIGNS[item],)) if leads and item in LEADING_SIGNS else text_box(item)
 
@@ -242,7 +242,7 @@ def _gap(before: tuple[Layout, ...], item: Layout, piece: TextBox) -> str:
 
 
 def _needs_space(before: Layout, item: Layout) -> bool:
-    """Return whether a space is needed: `13/12 M a²`, but `2a` and `3(x + y)`."""
+    """Return whether two items need a space between them: `13/12 M a²`, but `2a` and `3(x + y)`."""
     if isinstance(before, Operator | IntegralSign) or isinstance(item, Operator):
         return False
     if item == DEGREE_SIGN or is_differential(before):

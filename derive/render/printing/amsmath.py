@@ -32,7 +32,7 @@ def display_latex(display: Display, notation: Notation, numbered: bool = False) 
 def display_rows(
     display: Display, notation: Notation, limit: float = LINE_WIDTH, ending: Callable[[Printed], str] | None = None
 ) -> list[Row]:
-    """Return each row with its punctuation and then its `ending`."""
+    """Return the rows of a display; each row has its `ending`, and the last row of a step its punctuation before it."""
     return [
         _row(lines, (stop if lines is rows[-1] else "") + (ending(lines[-1]) if ending else ""))
         for group, stop in zip(display.groups, display.stops, strict=True)
@@ -59,7 +59,7 @@ def _number(line: Printed) -> str:
 
 
 def _row(lines: Sequence[Printed], end: str) -> Row:
-    """Return the row for one line, or for lines in a common frame, which follows the relation."""
+    """Return the row for one line, or for several lines in a common frame."""
     first, *others = lines
     left = latex(first.left) if first.left else ""
     if not others:

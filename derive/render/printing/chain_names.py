@@ -1,9 +1,9 @@
 """The names in the lines of a step: the value of each name, and its text as plain SymPy.
 
-A symbol is written as its own name if that identifier is free in every chain that contains it. Otherwise the identifier
-is changed: the vector `omega` becomes `omega_` if a scalar omega also occurs. The identifier of a formula such as
-dV/dtheta is the key of its step. Such a formula is written out, `Derivative(V, theta(t))`, if it gives the right
-value after its names are substituted.
+A symbol is written as its own name if that identifier is free in every chain that contains the symbol. Otherwise the
+identifier is changed: the vector `omega` becomes `omega_` if a scalar omega also occurs. The identifier of a formula
+such as dV/dtheta is the key of its step. Such a formula is written out, `Derivative(V, theta(t))`, if it gives the
+right value after its names are substituted.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ PerRoot = str | list[str]  # a list contains one text for each of two roots
 
 @dataclass(frozen=True)
 class Page:
-    """The steps of a page; they determine which coordinates are functions of time and the identifiers of names."""
+    """The steps of a page, which determine the identifiers of names and the coordinates that are functions of time."""
 
     steps: Sequence[Step]
 
@@ -116,7 +116,7 @@ class StepNames:
         return _of_each_root(written(expr, setting).text for setting in self._in_letters)
 
     def factor(self, i: int) -> Any:
-        """Return f in: residual of line i - 1 = f times residual of line i.
+        """Return the factor f for which the residual of line i - 1 is f times the residual of line i.
 
         Names, and for `because: motion` also the rates, are substituted first.
         """
@@ -142,7 +142,7 @@ class StepNames:
 
     @property
     def motion(self) -> dict[str, PerRoot]:
-        """Return the value that the equations of motion give each rate."""
+        """Return the value of each rate that follows from the equations of motion."""
         return {written(rate, self._plain).text: self.text_of_value(value) for rate, value in self.step.motion}
 
     @cached_property
@@ -156,7 +156,7 @@ class StepNames:
 
     @cached_property
     def _with_names(self) -> list[Setting]:
-        """Return the setting of the lines, one for each root if there are two."""
+        """Return the `Setting` for writing the lines, or one for each of two roots."""
         own = {self.step.symbol} if self.has_formula else set()
         return self._for_each_root({name: self.identifiers[name] for name in self.values if name not in own})
 
@@ -200,7 +200,7 @@ def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
 
 
 def factor_between(before: Any, here: Any) -> Any:
-    """Return the simplest factor f with before = f times here."""
+    """Return the simplest factor f for which `before` is f times `here`."""
     for sign in (Integer(1), Integer(-1)):
         if equal(before, sign * here):
             return sign

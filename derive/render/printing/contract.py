@@ -5,8 +5,9 @@ value of each name in the chain. After SymPy has parsed the lines and these valu
 one before, with these exceptions:
 
     a number        (`because: rounded`) differs from the last line before the numbers by at most `within`
-    a relation      has a residual, left minus right: the residual before is `factor` times this one, and the factor is
-                    not zero if no `nonzero` is zero (for an inequality: if each `nonzero` is positive)
+    a relation      has a residual, left minus right: the residual of the line before is `factor` times the residual of
+                    this line; the factor is not zero if no entry of `nonzero` is zero (for an inequality: if each entry
+                    is positive)
     a series        (`because: series`) equals the line before up to an `order` in its `variable`
     the motion      (`because: motion`): the line equals the one before after `motion` is substituted
 
@@ -139,7 +140,7 @@ def _symbol(step: Step, notation: Notation) -> str:
 
 
 def number_told(value: Any) -> dict[str, Any] | None:
-    """Return the rounded value (for a relation, of the right side), or None if it contains symbols."""
+    """Return the numerical value, for a relation that of the right side; None if the value contains symbols."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
     if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
         return None  # a comparison of two numbers

@@ -1,7 +1,7 @@
 """A page as HTML: the templates of `templates/html` filled with formulas in MathML and drawings in SVG.
 
-A page needs no script, no installed font and no network. An equation is a row of sides, which continue below one
-another in a narrow window; a side that is still too wide scrolls within its line.
+A page needs no script, no installed font and no network. An equation is a row of sides. In a narrow window the sides
+are below one another, and a side that is still too wide can be scrolled.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class HtmlPage:
         rubric: Mapping[str, Sequence[Credit]] | None = None,
         top: int = 1,
     ):
-        """Prepare a page below a heading of the level `top`."""
+        """Prepare a page with a title at heading level `top`; a page with level 1 is a separate document."""
         self.standalone = top == 1
         self.document = standalone(document) if self.standalone else document
         self.words, self.notation, self.rubric = words, notation, rubric or {}
@@ -187,7 +187,7 @@ class HtmlPage:
         return f'<div class="row"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
-        """Return whether a number appears for the first time; folded lines repeat numbers, but not their anchors."""
+        """Return whether a number appears for the first time: only then the row has an anchor."""
         known = number in self._placed
         self._placed.add(number)
         return not known
@@ -227,7 +227,7 @@ def _sides(line: Printed, stop: str) -> str:
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:
-    """Add punctuation that never begins a line: if the last side scrolls, the punctuation is inside its element."""
+    """Add punctuation that never begins a line: if the last side scrolls, its element includes the punctuation."""
     closed = CLOSED * (2 if sides[-1].endswith(CLOSED * 2) else 1)
     return "".join([*sides[:-1], sides[-1].removesuffix(closed), _stop(stop), closed])
 
@@ -268,7 +268,7 @@ def _numbers_of(blocks: Sequence[Block]) -> Iterator[Number]:
 
 
 class HtmlQuestions(HtmlPage):
-    """The questions alone; a reference to an equation names the part that shows the equation."""
+    """The questions without solutions; a reference to an equation names the part that shows the equation."""
 
     def _node(self, node: Inline) -> str:
         if isinstance(node, Ref):

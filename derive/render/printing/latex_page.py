@@ -31,7 +31,7 @@ from derive.render.rendered import Tex
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 FEW_ROWS = 4  # a display with at most this many rows is not divided between pages
-NARROW = 26  # characters: less than half of a line
+NARROW = 26  # characters: two steps of this width fit on one line
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ class LatexPage:
         return Tex(escaped(self.words.worth(part.points, part.extra)))
 
     def credits(self, part: PartPage) -> Sequence[Credit]:
-        """Return the points of the steps of a part; only documents that show points have any."""
+        """Return the points of the steps of a part; empty in documents that do not show points."""
         return self.rubric.get(part.label, ())
 
     def worth_of(self, credit: Credit) -> str:
@@ -228,7 +228,7 @@ class LatexPage:
         return Tex(rf"{{{drawing.stem}.pdf}}{{{alt}}}{{{number}}}{{{caption}}}")
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
-        """Return the note next to a display and its words: the grade, and the first route or check that fits there."""
+        """Return the note next to a display and its words: the grade, and the first route or check that has room."""
         lines = [escaped(self.words.grades[display.grade])]
         said = second_ways(display, self.words)
         fitting = [route for route in said if _note_height(route) <= self._height(display, before)]
@@ -252,14 +252,14 @@ class LatexPage:
 
 
 class _Questions(LatexPage):
-    """The questions alone; a reference to an equation names the part that shows the equation."""
+    """The questions without solutions; a reference to an equation names the part that shows the equation."""
 
     def _reference(self, key: str) -> str:
         return escaped(f"{self.words.labels['part']} ({self.document.shown_in.get(key, '')})")
 
 
 def passages_of(blocks: Sequence[Block]) -> list[Passage]:
-    """Split a part into drawings with sentences before and after; two drawings share the sentences between them."""
+    """Split a part into drawings with sentences before and after; sentences between drawings are split equally."""
     passages = [Passage()]
     for sentence in sentences(blocks):
         first, last = sentence[0], passages[-1]

@@ -1,4 +1,4 @@
-"""Packs the forms of a chain into lines: as many as fit, but a reason ends a line; forms too long are broken."""
+"""Packs the forms of a chain into lines: a reason ends a line, and a form that is too long for a line is broken."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from derive.render.notation.text import plain
 LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
-MOST_SIDES = 4  # on one line of a chain
+MOST_SIDES = 4  # the most sides on one line of a chain
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 
 
@@ -36,7 +36,7 @@ class Printed:
 
     @property
     def frames_all(self) -> bool:
-        """Return whether the frame includes the whole line: not if the line continues a chain with a relation."""
+        """Return whether the frame includes the whole line; in a continued chain the relation is before the frame."""
         stands_alone = self.left is not None or self.sides[0][0] in ("start", "on")
         return self.framed == len(self.sides) and stands_alone
 
@@ -45,7 +45,7 @@ class Printed:
         return (width(self.left) if self.left else 0) + sum(2 + width(side) for _, side in self.sides)
 
 
-@lru_cache(maxsize=1024)  # every format needs these lines, and so does the height of a display
+@lru_cache(maxsize=1024)  # every format and the height of a display need these lines
 def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> tuple[Printed, ...]:
     """Return the lines of one step, at most `limit` characters wide; the last line has the number."""
     packed: list[Printed] = []
@@ -66,7 +66,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed.append(Printed(left, (side,), line.reason, framed=framed))
             continue
         if last and line.relation == "equals" and _alike(last.sides[-1][1], side[1]):
-            # Two forms with equal layouts are shown once.
+            # Two forms that print the same terms, in any order, are shown once.
             packed[-1] = replace(last, sides=(*last.sides[:-1], side), framed=max(last.framed, framed))
             continue
         reason_room = max(reason_width(line.reason), reason_width(last.reason)) if last else 0

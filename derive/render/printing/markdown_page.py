@@ -153,11 +153,11 @@ def formula_markdown(tex: str) -> str:
     """Return a formula without characters that have a meaning in Markdown."""
     tex = _SIGNS.sub(lambda sign: _IN_WORDS[sign[0]], _BREAK.sub(r"\\cr ", tex))
     tex = re.sub(r"\\bm(?=\W)", r"\\boldsymbol", tex)
-    # A character within a word or before a space does not begin emphasis.
+    # In Markdown, a `_` within a word or before a space does not begin emphasis.
     tex = re.sub(r"(?<!\w)_", "_ ", tex).replace("](", "] (")
     return re.sub(r" +\n", "\n", re.sub(r" {2,}", " ", tex)).strip()
 
 
 def _in_text(text: str) -> str:
-    """Return text for the braces of `\\text`."""
+    """Return text for use in the braces of `\\text`."""
     return re.sub(r"[\\{}$#%&_^~]", " ", text)

@@ -1,8 +1,9 @@
 """An expression of the engine as plain SymPy text.
 
 A symbol keeps its name; a name with another meaning in SymPy or Python (`I`, `S`, `beta`, `lambda`) is written
-`Symbol('I')`. A coordinate that moves is a function of time, `theta(t)`, and its rates are derivatives of it. A result
-that an earlier step named is written as an identifier, for which the reading program substitutes the value.
+`Symbol('I')`. A coordinate that moves is a function of time, `theta(t)`, and its rates are derivatives of this
+function. A result that an earlier step named is written as an identifier, for which the reading program substitutes the
+value.
 """
 
 from __future__ import annotations
@@ -113,7 +114,7 @@ class _PlainSymPy(StrPrinter):
 
     @contextmanager
     def _within(self, variables: tuple[Any, ...]) -> Iterator[None]:
-        """Treat these variables of an integral or an antiderivative as bound, so that they are not renamed."""
+        """Treat these variables of an integral or antiderivative as bound, so that they are not functions of time."""
         outside, self._variables = self._variables, (*self._variables, *variables)
         try:
             yield

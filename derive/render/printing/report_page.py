@@ -46,7 +46,7 @@ class ReportPage:
     def steps(self, row: Row) -> Tex:
         """Return the steps of a row, each named by its symbol and equation number.
 
-        A step that has neither is described by its inputs.
+        A step without a symbol and a number is described by its inputs.
         """
         named = [name for key in row.steps if (name := self._step(key))]
         if len(named) < len(row.steps):
@@ -60,7 +60,7 @@ class ReportPage:
         return [f"{escaped(self.words.labels['report_page']['made_from'])} {', '.join(found)}"] if found else []
 
     def _step(self, key: str) -> str:
-        """Return the symbol and number of a step, or "" if it has neither."""
+        """Return the symbol, the number or both of a step, or "" if the step has neither."""
         symbol, number = self.document.symbols.get(key), self.document.numbers.get(key)
         numbered = f"({number})" if number is not None else ""
         if symbol is None:
@@ -85,7 +85,7 @@ class ReportPage:
         return self.quoted(erratum.instead) if erratum.instead else self._in_our_letters(erratum, erratum.right)
 
     def quoted(self, text: str) -> Tex:
-        """Return prose whose formulas between dollar signs are rewritten with known commands."""
+        """Return prose whose formulas between dollar signs are written again with known commands only."""
         if "$" not in text:
             return Tex(escaped(text))
         from derive.course.latex.quoting import quoted  # a late import, because few documents need it
@@ -99,7 +99,7 @@ class ReportPage:
         return rf"\fitto{{\linewidth}}{{{tex}}}"
 
     def _in_our_letters(self, erratum: Erratum, value: Any) -> Tex:
-        """Return `L = (...)` in the notation of the page if the source was not transcribed literally."""
+        """Return the value in the notation of the page, as `L = (...)`, for a source that is not quoted literally."""
         if isinstance(value, MatrixBase) and value.shape[1] == 1:
             value = tuple(value)
         right = latex(self.notation.result(value), inline=True)

@@ -54,7 +54,7 @@ def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) ->
 
 
 def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
-    """Fill the text of a template above a certain line; return nothing if the line or a fact is missing."""
+    """Fill the text of a template above a certain line; return empty text if the line or a fact is missing."""
     with suppress(TemplateError, OSError, UnicodeError):
         above, found, _ = (folder / "latex" / template).read_text(encoding="utf-8").partition(line)
         if found:
@@ -112,7 +112,7 @@ def _environment(folder: Path, kind: str) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        finalize=printed,  # so that every template escapes
+        finalize=printed,  # so that every template escapes the values that it prints
     )
     if kind == LATEX:
         made.filters["bookmark"] = bookmark_text

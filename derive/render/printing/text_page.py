@@ -133,7 +133,7 @@ class _Page:
         return "\n".join(lines)
 
     def _evidence(self, display: Display) -> str:
-        """Return the note that is in the margin of a typeset page."""
+        """Return the note on how a display was checked, which a typeset page has in its margin."""
         said = [self.words.grades[display.grade], *second_ways(display, self.words)[:1]]
         return textwrap.shorten(f"[{'; '.join(said)}]", PAGE_COLUMNS, placeholder="\u2026]")
 

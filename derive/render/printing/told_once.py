@@ -1,6 +1,7 @@
 """Theorems on a page of several problems: the first problem that uses a theorem states it, and others refer to it.
 
-The problems of a page are printed separately, so each contains both texts between marks, which are then removed.
+The problems of a page are printed separately, so each problem contains both texts, between marks. Afterwards one text
+and the marks are removed.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Answers of a description: quantities with the names that parts ask for. Each is derived once.
+"""Answers of a description: quantities with the names that parts ask for. Each quantity is derived once.
 
     class BallAnswers(Answers[Ball]):
         @answer
@@ -67,7 +67,7 @@ def answer_for_each(
 class Answers(Generic[D]):
     """The answers about one system, body, rotation or impact.
 
-    `found` has the derived answers of methods with `answer_for_each`, by name.
+    `found` is name -> answer, for the answers that methods with `answer_for_each` have derived.
     """
 
     def __init__(self, described: D):
@@ -75,7 +75,8 @@ class Answers(Generic[D]):
         self.found: dict[str, Any] = {}
 
     def asks(self) -> dict[str, Callable[[], Any]]:
-        """Return every name that a part may ask for, in the order of the class."""
+        """Return name -> function that derives the answer, for every name that a part may ask for, in the order of the
+        class."""
         asks: dict[str, Callable[[], Any]] = {}
         for name, own in vars(type(self)).items():
             if isinstance(own, answer):
@@ -110,9 +111,9 @@ class StockAnswers(Answers[W]):
         return None
 
     def solve(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return the answers by the names that parts ask for, and draw the described objects."""
+        """Return name -> answer for the requested names; a subclass also draws the described objects."""
         return self.by_name.answers(asked)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every name that parts may ask for, or the error that prevents their derivation."""
+        """For every name that parts may ask for, return the steps, or the error that prevents the derivation."""
         return self.by_name.every()

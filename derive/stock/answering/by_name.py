@@ -5,9 +5,9 @@ A name may be
 - the name of an answer that the description offers, in the singular or in the plural;
 - such a name with a number, for one of the steps of the answer;
 - the name of a result;
-- the key of a step on which one of these depends.
+- the key of a step on which an answer or a result depends.
 
-The order of earlier questions does not matter.
+The answer does not depend on the order in which names are asked for.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from derive.stock.keys.results import Result
 DIGITS = "0123456789"
 IRREGULAR = {"equilibrium": "equilibria", "momentum": "momenta", "axis": "axes"}
 _NUMBERED = re.compile(r"(\w+)_([1-9]\d?)")
-_ALIKE = 0.85  # a name at least this similar to an offered one is a typing error: no further search
+_ALIKE = 0.85  # a name more similar than this to an offered name is taken as a typing error of that name
 
 
 class ByName:
@@ -41,7 +41,7 @@ class ByName:
     what          the kind of description: "a rotation"
     results       results computed from answers
     coordinates   the coordinates that results may use
-    again         makes the same answers again, with nothing derived
+    again         makes a second object for the same answers, in which nothing is derived yet
     elsewhere     derives an answer of a body about a point or axis other than the given one
     """
 
@@ -64,7 +64,7 @@ class ByName:
         self.asks |= {name: partial(one.made, *given) for name, one in self.results.items()}
 
     def answers(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return each answer that a part asks for; an error is reported at the part that asks for the answer."""
+        """Return requested name -> answer; an error is reported at the part that asks for the answer."""
         offered_first = sorted(asked, key=lambda name: self.offered(name) is None)
         try:
             found = dict(each([partial(self._answer, name) for name in offered_first]))
@@ -112,7 +112,8 @@ class ByName:
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
-        """Derive a name on the current record; after an error, on an empty record, where all symbols are free."""
+        """Derive the answer of a name with the current record; after an error, try again with a record without steps,
+        in which all symbols are free."""
         try:
             return self._derived(name, None)
         except DeriveError:
@@ -197,7 +198,7 @@ class ByName:
     def _in_order(self, name: str, likely: bool) -> Iterator[str]:
         """Yield the likely offered names, or all other offered names.
 
-        A name is likely if `name` begins with it, or if its derivation contains most steps of a system.
+        An offered name is likely if `name` begins with it, or if its derivation contains most steps of a system.
         """
         for own in self.asks:
             begins = name.startswith(f"{own}_") or own in ("lagrangian", "equations_of_motion")
@@ -213,7 +214,7 @@ class ByName:
             rejected("name-clash", message, name.place, "give the result another name")
 
     def _check_own_key(self, result: Result) -> None:
-        """Check that no other step has the name of a result."""
+        """Check that no other step has the name of a result as its key."""
         run = current_run.get()
         if run is None or result.name not in self._known:
             return

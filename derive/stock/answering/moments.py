@@ -33,7 +33,8 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
 
 
 def struck(impact: Impact) -> Moment:
-    """Return the positions and rates just before an impact, its impulses, and the places that collide."""
+    """Return the positions and rates just before an impact, the given impulses at places, and the places that
+    collide."""
     pushes = [act for act in impact.acts if isinstance(act, Impulse) and len(act.at) > 1]  # not the angular impulses
     meeting = [place for act in impact.acts if isinstance(act, Collision) for place in (act.start, act.end) if place]
     rates = {q: impact.before[rate(q)] for q in impact.moving}

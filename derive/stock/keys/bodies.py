@@ -1,4 +1,5 @@
-"""Bodies as `given:` describes them: a named shape with its sizes, a position map between limits, or parts."""
+"""Bodies as `given:` describes them: by a named shape and its sizes, by a formula for the positions of their points, or
+by parts."""
 
 from __future__ import annotations
 
@@ -51,7 +52,8 @@ OTHER_NAMES = {
 
 @cache
 def shapes() -> dict[str, type[Body]]:
-    """Return every body with sizes, by its id, which is its name in YAML: `thick_shell`."""
+    """Return id -> class, for every body with sizes. The id, such as `thick_shell`, is the name of the shape in
+    YAML."""
     offered = (getattr(derive.mechanics, name) for name in dir(derive.mechanics))
     bodies = (each for each in offered if isinstance(each, type) and issubclass(each, Body) and is_dataclass(each))
     return {body.id: body for body in bodies}
@@ -144,7 +146,7 @@ class DescribedBody:
     def body(self) -> Body:
         """Return the body; errors are reported where the body is described."""
         with told_at(self.place):
-            for part in self.parts:  # again, because the numbers of the symbols are known now
+            for part in self.parts:  # check again, because the numbers of the symbols are known now
                 body: Body = part.body if isinstance(part, PlacedPart) else part
                 if is_dataclass(type(body)):
                     body.check_sizes()
@@ -163,7 +165,8 @@ class DescribedBody:
 
     @property
     def point_names(self) -> tuple[str, ...]:
-        """Return the names of its points; with parts or named points, only `centre`, `origin` and the named points."""
+        """Return the names of the points of the body. If it has parts or named points, these are `centre`, `origin` and
+        the named points."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts
@@ -338,7 +341,7 @@ class Bodies:
 
 
 class WithVariables(InLetters):
-    """The symbols of a description, and the variables of a position map."""
+    """The symbols of a description, and the variables in the `position` of a body."""
 
     def __init__(self, others: InLetters, variables: Mapping[str, Declared]):
         self.variables = variables

@@ -44,13 +44,14 @@ class Deferred(Generic[N]):
             return self.make(*self.of, **self.named, **bodies)
 
     def __repr__(self) -> str:
-        """Return the same text in each process: the digest of a problem depends on it."""
+        """Return a text that is the same in each process, because the digest of a problem depends on this text."""
         return f"{self.make.__qualname__}{(self.of, dict(self.named), dict(self.bodies))!r}"
 
 
 @contextmanager
 def told_at_part(described: Sequence[Deferred[Any]], made: Sequence[Any], otherwise: Place | None) -> Iterator[None]:
-    """Report an error about one of the parts where this part was described, and any other error at `otherwise`."""
+    """Report an error about a part at the place where the file describes this part, and any other error at
+    `otherwise`."""
     with told_at(otherwise):
         try:
             yield

@@ -20,7 +20,7 @@ from derive.steps.step import Quantity
 
 @dataclass(frozen=True)
 class OfKnownDimension(Declared):
-    """The placeholder of an answer, whose dimension is that of its value."""
+    """A symbol whose dimension is known from a value, such as the placeholder of an answer."""
 
     has: Dimension | None = None
 
@@ -32,7 +32,8 @@ class OfKnownDimension(Declared):
 
 @dataclass(frozen=True)
 class FoundLetter(Declared):
-    """The symbol of an unknown that is also an answer, such as a constraint force; a formula uses the answer."""
+    """The symbol of an unknown that is also an answer, such as a constraint force; in a formula it denotes the
+    answer."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ class Formula:
 
 
 def formula(node: Tree, letters: Mapping[str, Declared]) -> Formula:
-    """Return the formula of an expression."""
+    """Return the formula that is written at this place in the file."""
     if not isinstance(node, Scalar) or node.empty:
         rejected("wrong-type", "a formula must be an expression such as `pi*rate/frequency`", node.place)
     return Formula(node, letters)

@@ -30,7 +30,7 @@ RATE = "_dot"
 
 @dataclass(frozen=True)
 class ImpulseKeys(Record):
-    """The keys of one entry of `impulses:`, at a place or on an angle."""
+    """The keys of one entry of `impulses:`, an impulse at a place or an angular impulse on an angle."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place where it acts", PLACE)
@@ -112,7 +112,7 @@ class CollisionKeys(Record):
         return str(self.letter or "K")
 
     def brings(self, letters: InLetters, size: int) -> list[str]:
-        """Return the symbols of its impulse."""
+        """Return the symbols of the impulse of this collision."""
         if self.letter is not None and not is_letter(self.letter):
             rejected(
                 "symbol",
@@ -176,7 +176,7 @@ class ImpactKeys(Record):
 def _value(
     name: Word, node: Tree, ending: str, coordinates: Mapping[str, Declared], letters: InLetters
 ) -> tuple[str, Expr]:
-    """Return the name of a coordinate, and its value or (if `ending` is that of rates) the value of its rate."""
+    """Return the name of a coordinate and the value of the coordinate; if `ending` is `_dot`, the value of its rate."""
     q = str(name).removesuffix(ending)
     known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
     check_known(name, known, "rate" if ending else "coordinate")

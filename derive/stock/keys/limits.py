@@ -1,4 +1,4 @@
-"""`limits:` of a problem: limiting and special cases that check answers, each a step like any other."""
+"""`limits:` of a problem: limiting and special cases that check answers; each case is a verified step."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
     """Return the steps of each case: the limiting case, and steps that compare it with a known result.
 
     Each case has a separate record, which also contains the general results of the script. Two limits of one quantity
-    can therefore have the same symbol. A case has no steps, and is left out, in three situations: its step does not
-    exist for the current inputs; the inputs or the result no longer contain its symbol; or a symbol that it needs
-    changes in the limit.
+    can therefore have the same symbol. No steps are returned for a case in three situations: the step of the case does
+    not exist for the current inputs; the inputs or the result no longer contain a symbol of the case; or the value of
+    another symbol in the case changes in the limit.
     """
     if not problem.limits:
         return []
@@ -98,7 +98,8 @@ def _case(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str,
 
 
 def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str, Declared]) -> bool:
-    """Return whether the result contains the symbols of the case; another input may have replaced one of them."""
+    """Return whether the result contains the symbols of the case; if the inputs were changed, a symbol may be
+    missing."""
     if given.of is None:
         return True
     told = _read(given.letter, letters).free_symbols if given.letter else {_letter(x, letters) for x in given.where}
@@ -136,7 +137,8 @@ def _read(formula: Formula, letters: Mapping[str, Declared]) -> Expr:
 def _as_stated(
     given: LimitKeys, case: Quantity, letters: Mapping[str, Declared], known: Mapping[str, Quantity], keys: set[str]
 ) -> list[Quantity]:
-    """Check the result that the file states for a case; return a step if it contains symbols of other steps."""
+    """Check the result that the file states for a case. If the stated result contains symbols of other steps, return a
+    step that writes the result with these symbols."""
     if given.stated is None:
         return []
     stated, value = _read(given.stated, letters), explicit(case.value)

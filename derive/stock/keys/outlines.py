@@ -74,7 +74,7 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
 
 
 def drawn_free(answers: Any, turns: bool) -> None:
-    """Draw a body with known principal moments; if it `turns`, also its angular velocity and its angular momentum.
+    """Draw a body with known principal moments; if `turns`, also draw its angular velocity and its angular momentum.
 
     The two vectors always have distinct directions in the drawing.
     """

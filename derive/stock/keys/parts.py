@@ -90,7 +90,7 @@ class CentralKeys(Record):
 
 @dataclass(frozen=True)
 class ForceKeys(Record):
-    """The keys of one entry of `forces:`, at a place or along a coordinate."""
+    """The keys of one entry of `forces:`, a force at a place or a torque on an angle."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place where it acts", PLACE)

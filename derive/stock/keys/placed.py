@@ -75,7 +75,7 @@ class MovingBodyKeys(BodyKeys):
         return Deferred(held, (body, turned, point), named, place=self.places[""])
 
     def _check_used(self) -> None:
-        """Check that each key has an effect together with the others."""
+        """Reject a key that has no effect together with the other keys."""
         own = {"moments", "middle", "mass", "turned", "centre", "held", "on", "across"}
         beside = {
             "moments": [name for name in self.values_at if name not in own],
@@ -143,7 +143,7 @@ class RollingKeys(Record):
 
 
 def _ground(written: WrittenPlace, places: Places) -> Location | Axes:
-    """Return a place of the surface; for a place along rotating axes, return these axes, as for a turntable."""
+    """Return a place of the surface, or the rotating axes in which the surface is at rest, as for a turntable."""
     way = written.way
     if written.name is not None and str(written.name) in {str(name) for name in places.turns}:
         return places.axes(written.name)
@@ -172,7 +172,8 @@ def _made(body: DescribedBody | RigidBody) -> Any:
 
 
 def rolls(body: Any, at: Location, ground: Any, force: str = "") -> tuple[Any, ...]:
-    """Return the conditions of rolling: as constraints with forces, or solved for coordinates or rates."""
+    """Return the conditions of rolling: with `force`, as constraints that this force enforces; otherwise, solved for
+    coordinates or rates."""
     if force:
         return rolling_constraint(body, at, force, ground)
     found = no_slip(body, at, ground)

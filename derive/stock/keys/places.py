@@ -144,7 +144,7 @@ class Places:
         letters: InLetters,
         carried: Mapping[Word, WrittenPlace | None] | None = None,
     ):
-        """Set up the places; the name of a particle in `carried` also denotes its place."""
+        """Set up the places; the name of a particle in `carried` also denotes the place of the particle."""
         self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns
@@ -174,7 +174,7 @@ class Places:
             self.on_the_way.pop()
 
     def at(self, written: WrittenPlace, name: str) -> Location:
-        """Return the location of a place of the file; errors call it `name`."""
+        """Return the location of a place that is written in the file; errors call this place `name`."""
         if written.name is not None:
             return self.named(written.name)
         assert written.way is not None

@@ -15,7 +15,7 @@ from typing import Any
 
 from sympy import Expr
 
-import derive.mechanics  # noqa: F401  whose verbs are those of `results:`
+import derive.mechanics  # noqa: F401  registers the verbs of `results:`
 from derive.course.declared import INFINITE
 from derive.course.expression import names_in
 from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
@@ -92,7 +92,7 @@ class Surroundings:
     elsewhere: Callable[..., Quantity] | None = None
 
     def one(self, name: Word) -> Quantity:
-        """Return the answer of a name; if the name has several answers, return the one with this key."""
+        """Return the answer of a name; if the name has several answers, return the one whose key is this name."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -181,7 +181,7 @@ def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters)
 
 
 def _one_answer(result: Result, key: ResultKey, found: tuple[Word, ...], around: Surroundings) -> Quantity:
-    """Return the only answer; if a single name has several answers, return the one with this key."""
+    """Return the only answer; if a single name has several answers, return the one whose key is this name."""
     of = [quantity for name in found for quantity in around.answers(name)]
     if len(of) > 1 and len(found) == 1:
         of = [quantity for quantity in of if quantity.key == found[0]] or of
@@ -210,7 +210,8 @@ def _functions_made(
 
 
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
-    """Return the values by names without a position in the file, because only calls with such names are recalled."""
+    """Return name -> value with names that are plain texts: a call with names that carry a position in the file cannot
+    be stored."""
     return {str(name): value for name, value in found.items()}
 
 
@@ -289,7 +290,7 @@ _RESULT: Reader[Any] = record_of(ResultKeys, "a result", "a mapping such as `{li
 
 
 def _result(node: Tree, name: str, faults: Faults) -> Record | None:
-    """Read one of `results:`, and check that its keys fit together."""
+    """Read one entry of `results:`, and check that its keys fit together."""
     found: Record | None = _RESULT.read(node, name, faults)
     if found is not None:
         _check_verb(found, name, faults)
@@ -378,7 +379,7 @@ class Result:
         coordinates: Mapping[str, Coordinate],
         elsewhere: Callable[..., Quantity] | None = None,
     ) -> Any:
-        """Compute the result by its verb; an error is reported at the key of the wrong argument."""
+        """Compute the result with its verb; an error about an argument is reported at the key of this argument."""
         around = Surroundings(answers, coordinates, elsewhere)
         keys = self.verb.arguments
         given = {

@@ -59,7 +59,7 @@ from derive.stock.keys.results import RESULTS, names, read_results, written_in
 
 STATE = mapping_of(SCALAR)
 RELATIONS = as_written(one_or_more(SCALAR.schema), "a relation such as `l < r_0`, or a list of them")
-POSITIVE_CONSTANT = "positive"  # before the symbol of a constant, as in `positive length`
+POSITIVE_CONSTANT = "positive"  # before the symbol of a constant momentum, as in `phi: positive l`
 INDIFFERENT_TO_STATES = (
     "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
     "energy_function_rate", "hamiltonian", "hamilton_equations", "no_slip", "angular_velocity", "accelerations",
@@ -127,10 +127,10 @@ class DescribedSystem(Described):
     """A described system, whose values are expressions in its symbols.
 
     coordinates   the name of each coordinate, its kind, and whether it is positive
-    particles, bodies, rolling, acting   the parts of the system, in the order of the file; `acting` has the others
-    conserved     the symbols of constant momenta, by coordinate; `kept` has the constant momenta with given values
+    particles, bodies, rolling, acting   the parts of the system, in the order of the file; `acting` has all other parts
+    conserved     each coordinate with the symbol of its constant momentum; `kept`: with a given value of this momentum
     at, at_rest   the state about which motions are linearised, by values or by the name of an equilibrium
-    impact        what happens at one instant
+    impact        impulses and collisions at one instant
     brought       the symbols of constraint forces and of constant momenta, with their positions in the file
     named         the places that have names
     given         a Lagrangian that replaces all bodies, and its kind
@@ -154,7 +154,7 @@ class DescribedSystem(Described):
 
 
 def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
-    """Return the description in the declared symbols and the coordinates.
+    """Return the description with its values as expressions in the declared symbols and the coordinates.
 
     The order in which values are read matters, because numbers get their symbols in this order.
     """
@@ -208,7 +208,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
 
 
 def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
-    """Return the bodies of the system and what acts on them, by the fields of its description."""
+    """Return field of `DescribedSystem` -> its value, for the particles, the bodies, the rolling and everything that
+    acts on them."""
 
     def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
         return attempted(faults, each, [partial(one.part, *more) for one in keys]) or []
@@ -229,7 +230,8 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
 
 
 def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | None] | None:
-    """Return the formula of a given Lagrangian, and its kind if the kind has a name."""
+    """Return the formula of a given Lagrangian, and its kind; None in place of the kind if no kind has its
+    dimension."""
     if written.lagrangian is None:
         return None
     beside = next((name for name in REPLACED_BY_LAGRANGIAN if name in written.places), None)
@@ -278,7 +280,7 @@ def _momenta(
 
 
 def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
-    """Return the symbols of constraint forces, also in rolling; results may be solved for these symbols."""
+    """Return the symbols of constraint forces, including those of rolling; results may be solved for these symbols."""
     names = [one.named["force"] for one in keeping if "force" in one.named]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
@@ -290,7 +292,8 @@ def _brought(written: SystemKeys) -> list[Word]:
 
 
 def _symbols(written: Mapping[Word, Tree]) -> dict[Word, tuple[Word, bool]]:
-    """Return the symbols of constant momenta, and whether each is declared positive; other entries are values."""
+    """Return coordinate -> symbol of its constant momentum, and whether this symbol is declared positive. Entries with
+    a value in place of a symbol are left out."""
     found = {}
     for q, node in written.items():
         word = node.word if isinstance(node, Scalar) else ""
@@ -370,7 +373,8 @@ def _state(
 
 
 def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
-    """Reject a state at an end of its range or beyond: small displacements need room on both sides."""
+    """Reject a value at an end of the range of its coordinate, or beyond: small displacements need room on both
+    sides."""
     if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
         message = f"`{q}` lies between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"
         rejected("range", message, q.place, help=f"give `{q}` a wider range, or none")
