@@ -63,7 +63,7 @@ MANY = 20  # for each point that is needed, at most this many are drawn, because
 FIRST, POINTS = 2, 26  # numbers of points before the exact decision, and after an exact decision that failed
 TURNS = 400  # most points drawn to find a point at which a sign differs
 FEWEST = 8  # the fewest points at which both sides must have values
-UNTOLD = "undefined wherever it was tried"
+UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols
 UNDEFINED = (nan, zoo, oo, -oo)
 

@@ -165,7 +165,7 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
             where = tuple((str(name), str(number)) for name, number in point.items())
             return Verdict(Grade.REFUTED, f"the remainder does not vanish to order {power}", where)
     if not seen:
-        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+        return Verdict(Grade.REFUTED, "undefined at every tested point")
     return Verdict(Grade.APPROXIMATION, "numerically")
 
 
