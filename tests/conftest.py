@@ -25,10 +25,12 @@ settings.load_profile("any machine")
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection() -> Generator[None, object, object]:
-    """Disable garbage collection during the collection of tests: none of the collected objects is ever freed."""
+    """Disable garbage collection during the collection of tests: none of the collected objects is ever freed. Collect
+    rarely afterwards, because the caches of SymPy grow and are kept."""
     gc.disable()
     found = yield
     gc.freeze()
+    gc.set_threshold(100_000, 50, 50)
     gc.enable()
     return found
 

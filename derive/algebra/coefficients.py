@@ -1,4 +1,4 @@
-"""The coefficients of an expression that is a polynomial in some of its symbols, multiplied out without SymPy.
+"""The coefficients of an expression that is a polynomial in some of its symbols; SymPy does not multiply it out.
 
 Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used.
 """

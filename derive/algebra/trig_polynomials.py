@@ -234,8 +234,7 @@ class TrigRing(Ring):
         return form
 
     def related_letter(self, key: object, order: int, of: Form) -> int:
-        """Return the place of the letter whose power `order` equals the form `of`; a new letter is added to the
-        ring."""
+        """Return the place of the letter whose `order`-th power equals `of`; a new letter is added to the ring."""
         known = key in self.letters
         place = self.place(key)
         if not known:

@@ -178,7 +178,7 @@ class _Build:
         self.manifest.complete = False
         with writing(self.outputs):  # until all outputs are up to date, `make` has work to do
             (self.outputs / ".built").unlink(missing_ok=True)
-        self.prepares = not os.listdir(at_hand().name)  # all workers share the formats of this folder
+        self.prepares = not os.listdir(at_hand().name)  # all workers share the TeX formats in this folder
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.manifest.evidence = heading.evidence

@@ -162,7 +162,12 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
     if part and (said := sum(part.rubric.values(), Fraction(0))) > (part.points or 0):
         has = f"has {points_text(part.points)}" if part.points is not None else "has no points"
         message = f"the steps of `rubric` have {points_text(said)} points, but the part {has}"
-        faults.error("points", message, part.places["rubric"], help="lower them to at most the points of the part")
+        faults.error(
+            "points",
+            message,
+            part.places["rubric"],
+            help="lower them until their sum is at most the points of the part",
+        )
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "a part that is not `extra` is shown at every detail"
         faults.error("detail", message, part.places["detail"], help="leave `detail` out, or write `extra: true`")

@@ -79,8 +79,7 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros of a function; for a periodic function, only zeros in about three half periods on each side of one
-    zero.
+    """All real zeros of a function; of a periodic one, the zeros within about three half periods of one zero.
 
     A product of sines and cosines that cannot be solved is written as a sum and tried again.
     """

@@ -131,7 +131,7 @@ def is_negative(value: Expr) -> bool:
 
 
 def may_be_zero(value: Expr) -> bool:
-    """Whether a value may vanish: its sign is unknown, or trial numbers do not confirm the sign."""
+    """Whether a value may vanish: it is zero, its sign is unknown, or trial numbers do not confirm the sign."""
     sign = sign_known(value)
     return sign in (None, 0) or sign_found(value) != sign
 

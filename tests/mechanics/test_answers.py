@@ -143,7 +143,7 @@ def test_a_square_of_a_rate_and_a_cosine_are_unknowns() -> None:
         (lambda x, y: unknown("S", "farce"), "no kind `farce`"),
         (lambda x, y: let("e", lambda: Eq(h, h)), "always equal"),
         (lambda x, y: let("e", lambda: Eq(h, -h)), "never equal"),
-        (lambda x, y: let("e", lambda: Eq(x.symbol, h), kind="length"), "has no letter and no kind"),
+        (lambda x, y: let("e", lambda: Eq(x.symbol, h), kind="length"), "has neither a symbol nor a kind"),
     ],
 )
 def test_what_cannot_be_solved_is_refused(wrong: Callable[..., Any], said: str) -> None:
@@ -414,7 +414,7 @@ def test_what_has_no_extremum_or_the_other_one_is_refused() -> None:
     for wrong in (lambda: maximum(given(x0), x0), lambda: maximum(given(x0 + R**2 / x0, "g_1"), x0)):
         with pytest.raises(Rejected, match="no place"):
             wrong()
-    with pytest.raises(Unverified, match="beyond it"):
+    with pytest.raises(Unverified, match="beyond the extreme value"):
         maximum(given(c**3 / 3 - R**2 * c, "cubic"), c, within=(-3 * R, 3 * R))
 
 
@@ -469,7 +469,7 @@ def test_energies_that_are_not_kept_are_refused() -> None:
         speed_from_energy(oscillator, x, x0)
     free = equation(m * x.acceleration + k * x.symbol, key="free")
     thrown = speed_from_energy(oscillator, x, x0, v0, motion=free)
-    with pytest.raises(Rejected, match="at a letter"):
+    with pytest.raises(Rejected, match="at a symbol"):
         period_by_energy(thrown)
     with pytest.raises(Rejected, match="not the square of a rate"):
         period_by_energy(oscillator)

@@ -120,7 +120,7 @@ def named_as(function: Any, name: str) -> Any:
 
 def test_the_axes_of_a_part_are_not_reflected() -> None:
     part = Disc(R, M).turned("x", pi / 2)
-    with pytest.raises(Unverified, match="are not a rotation of those of the whole"):
+    with pytest.raises(Unverified, match="the axes of a part are not rotated axes"):
         replace(part, turn=-part.turn)
 
 

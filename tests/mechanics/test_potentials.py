@@ -126,7 +126,7 @@ def test_a_border_may_be_given_by_hand() -> None:
 
 
 def test_a_case_in_which_the_curvature_does_not_vanish_is_no_border() -> None:
-    with pytest.raises(Rejected, match="not its boundary"):
+    with pytest.raises(Rejected, match="not a boundary"):
         leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a))
 
 

@@ -157,7 +157,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     "a way in space that is turned in a plane": (lambda: point(l, b, a).turned(k), "rotates a displacement in a plane"),
     "a border that is none": (
         lambda: leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a)),
-        "not its boundary",
+        "not a boundary",
     ),
     "a shape of a potential that changes": (
         lambda: leading_order(potential(0 * l, TIME * l * cos(THETA.symbol), THETA)),

@@ -147,7 +147,7 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
 
 def _is_short(product: Expr, x: Symbol) -> bool:
     """Return whether SymPy integrates the product quickly: a power of x, or sines and cosines of one argument. Products
-    of powers and sines, or of sines with several arguments, must have few factors."""
+    of powers and sines, or of sines of different arguments, must have few factors."""
     power, waves, arguments = 0, 0, set()
     for factor in Mul.make_args(product):
         base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, Integer(1))

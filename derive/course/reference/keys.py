@@ -42,7 +42,7 @@ class ErratumKeys(Record):
 
 @dataclass(frozen=True)
 class EntryKeys(Record):
-    """The keys of one of `entries:`."""
+    """The keys of one entry of `entries:`."""
 
     part: Word | None = key("the part of the document", SCALAR_TEXT)
     line: int | None = key("the line of the document", LINE)

@@ -98,7 +98,9 @@ def limiting_case(
     solved = _solved_for(of)
     if isinstance(of.value, Relation) and solved is None:
         if symbol is not None:
-            raise Rejected(Complaint("wrong-argument", f"`{of.key}` is an equation, which has no letter"))
+            raise Rejected(
+                Complaint("wrong-argument", f"`{of.key}` is an equation, so its limit has no symbol of its own")
+            )
         return equation_in_limit(of, letter, to, order, key)
     value = explicit(of.value.right if solved is not None else of.value)
     name = _name(of) if solved is None else solved

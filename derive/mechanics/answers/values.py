@@ -290,7 +290,7 @@ def let(
 
     is_equation = isinstance(scalar_law(*(q.symbol for q in quantities)), Relation)
     if is_equation and (symbol or kind):
-        message = f"`let`: `{key}` is an equation, which has no letter and no kind"
+        message = f"`let`: `{key}` is an equation, so it has neither a symbol nor a kind"
         raise Rejected(Complaint("wrong-argument", message))
     reason = {"because": because} if because else {}
     return establish(

@@ -147,8 +147,8 @@ def volume_of_its_sections(facts: Judged, outcome: str) -> bool:
 
 
 def section_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the point of the result and, if it states x = s cos(theta) and y = s sin(theta), these
-    formulas have the area element of the integral and x = s at theta = 0."""
+    """Whether the sentence names the point of the result. If it states x = s cos(theta) and y = s sin(theta), these
+    formulas must give the area element of the integral, and x = s at theta = 0."""
     if ("polar" in facts.words) != ("x_is" in facts.inputs):
         return False
     if "x_is" in facts.inputs:

@@ -1,4 +1,4 @@
-"""Constraints enforced by forces: between coordinates, f(q, t) = c, or linear in the rates of coordinates."""
+"""Constraints enforced by forces: relations f(q, t) = c between coordinates, or relations linear in their rates."""
 
 from __future__ import annotations
 

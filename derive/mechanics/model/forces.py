@@ -263,7 +263,7 @@ def potential(energy: Any) -> StoredEnergy:
     moving = coordinates_in(given)
     fast = [q for q in moving if given.has(rate(q), rate(q, 2))]
     if fast:
-        message = f"`potential` needs an energy of the coordinates, but it depends on the rate of {fast[0].name}"
+        message = f"`potential` must depend on coordinates only, but it depends on the rate of {fast[0].name}"
         raise Rejected(Complaint("wrong-argument", message))
     if not moving:
         raise Rejected(Complaint("wrong-argument", f"`potential` needs an energy of coordinates, but {given} has none"))

@@ -220,7 +220,7 @@ def always(sign: int) -> Predicate:
 
 
 def runs_away(facts: Judged) -> bool:
-    """Whether a displacement grows for all numbers for which the energy falls in some direction.
+    """Whether a displacement grows at every set of trial numbers at which the energy falls in some direction.
 
     This must be checked because gyroscopic forces could stabilise the equilibrium.
     """
@@ -338,7 +338,7 @@ def higher_lasts(facts: Judged) -> bool:
 def sides_as_told(facts: Judged) -> bool:
     """Whether the sentence mentions a side exactly if a side is assumed.
 
-    If a step states all these assumptions in words, the sentence says that springs are stretched.
+    If a step states every assumed side in words, the sentence says that springs are stretched.
     """
     sides = [
         each for each in assumed() if each.operator == ">" and explicit(each.residual).has(*facts.inputs["sought"])

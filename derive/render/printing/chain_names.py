@@ -42,7 +42,8 @@ class Page:
 
     @cached_property
     def moving(self) -> frozenset[str]:
-        """Return the coordinates that are functions of time: their rates or derivatives with respect to them occur."""
+        """Return the coordinates that are functions of time: those whose rate occurs, or with respect to which an
+        expression is differentiated."""
         coordinates = {q for step in self.steps for q, _ in step.coordinates}
         parts = {part for step in self.steps for expr in _exprs(step) for part in preorder_traversal(expr)}
         along = {

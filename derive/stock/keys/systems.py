@@ -112,7 +112,7 @@ class SystemKeys(Record):
         mapping_of(SCALAR),
     )
     assume: Tree | None = key(
-        "relations between constant symbols that are true: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
+        "inequalities that hold between constant symbols: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
     )
     at: Tree | None = key(
         "the state about which equations are linearised and stability is decided: `{theta: 0}`, or an equilibrium by "
