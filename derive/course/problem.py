@@ -16,6 +16,7 @@ from pathlib import Path, PurePosixPath
 from posixpath import normpath
 
 from sympy import Integer, Symbol
+from sympy.core.random import seed
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import IN_DEGREES, Amount, Relation, explicit
@@ -242,6 +243,7 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
     record.letters = _letters_of(problem)
+    seed(1)  # SymPy chooses points at random when it factors; the same points give the same page in the same time
     with deriving(problem, record):
         for declared in problem.letters:
             _assume_range(declared)

@@ -41,10 +41,13 @@ from derive.mechanics.lagrange.lagrangian import *
 from derive.mechanics.lagrange.momenta import *
 from derive.mechanics.lagrange.symmetry import *
 from derive.mechanics.model.constraint import *
+from derive.mechanics.model.contacts import *
 from derive.mechanics.model.forces import *
 from derive.mechanics.model.located import *
 from derive.mechanics.model.no_slip import *
 from derive.mechanics.model.rigid import *
+from derive.mechanics.model.strings import *
+from derive.mechanics.model.surfaces import *
 from derive.mechanics.model.system import *
 from derive.mechanics.motion.conservation import *
 from derive.mechanics.motion.energy_integral import *

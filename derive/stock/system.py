@@ -51,7 +51,7 @@ from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
 from derive.stock.answering.held_rest import rest_with_forces
 from derive.stock.answering.moments import started, struck
 from derive.stock.answering.of_impacts import ImpactAnswers
-from derive.stock.keys.deferred import told_at_part
+from derive.stock.keys.deferred import made, parts_of, told_at_part
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
 
@@ -73,7 +73,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             with told_at(self.described.place):
                 start = started(self.described.results, self.system)
                 impact = struck(self.of_impact.impact) if self.of_impact is not None else None
-                sketch(SYSTEM, self.system, named=self.described.named, start=start, impact=impact)
+                named = made(self.described.named, self.parts_by_name)
+                sketch(SYSTEM, self.system, named=named, start=start, impact=impact)
         answers = super().solve(asked)
         self._check_letters()
         return answers
@@ -95,10 +96,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         if described.given is not None:
             message = "this needs bodies and forces, but the Lagrangian is given in place of them"
             raise Rejected(Complaint("given-lagrangian", message))
-        acting = [part.made(self.parts_by_name) for part in described.acting]
+        acting = self.acting
         weights = [weight(described.gravity)] if described.gravity is not None else []
         with told_at_part(described.acting, acting, described.place):
-            system = System(*self.bodies.values(), *self.particles.values(), *acting, *weights, *self.rolling)
+            parts = chain(*map(parts_of, acting))
+            system = System(*self.bodies.values(), *self.particles.values(), *parts, *weights, *self.rolling)
         for rolling in described.rolling:
             with told_at(rolling.place):
                 check_ground(system, rolling.named["ground"])
@@ -107,12 +109,15 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @cached_property
     def particles(self) -> dict[str, Any]:
         """Return the particles by name."""
-        return {name: particle.made({}) for name, particle in self.described.particles.items()}
+        return {name: particle.made(self.bodies) for name, particle in self.described.particles.items()}
 
     @cached_property
     def bodies(self) -> dict[str, Any]:
         """Return the bodies with a position, by name."""
-        return {name: body.made({}) for name, body in self.described.bodies.items()}
+        found: dict[str, Any] = {}
+        for name, body in self.described.bodies.items():  # a body may be held at a point of an earlier body
+            found[name] = body.made(found)
+        return found
 
     @property
     def parts_by_name(self) -> dict[str, Any]:
@@ -120,8 +125,13 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return {**self.particles, **self.bodies}
 
     @cached_property
+    def acting(self) -> list[Any]:
+        """Return what acts on the particles and bodies, in the order of the description."""
+        return [part.made(self.parts_by_name) for part in self.described.acting]
+
+    @cached_property
     def rolling(self) -> tuple[Any, ...]:
-        """Return the conditions of rolling without slipping."""
+        """Return the conditions of `rolling:`."""
         return tuple(chain(*(one.made(self.bodies) for one in self.described.rolling)))
 
     # -- energies and equations of motion --------------------------------------------------------------------------
@@ -228,7 +238,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @answer
     def no_slip(self) -> tuple[Quantity, ...]:
         kept = "constraint forces enforce rolling here, so `no_slip` eliminates no coordinate"
-        solved = [each for each in self.rolling if isinstance(each, Quantity)]
+        parts = [*self.rolling, *chain(*map(parts_of, self.acting))]
+        solved = [each for each in parts if isinstance(each, Quantity)]
         return _some(solved, kept if self.rolling else "nothing rolls in this system")
 
     @answer

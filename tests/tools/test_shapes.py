@@ -19,4 +19,4 @@ def test_every_shape_has_its_line_with_its_centre_of_mass() -> None:
     lines = {line.split("`")[1]: line for line in MADE["table"]().splitlines()[2:]}
     assert lines.keys() == shapes().keys()
     assert "`circle_centre` (0, 0, 0), `centre_of_mass` (0, 4*R/(3*pi), 0)" in lines["half_disc"]
-    assert "`end` (0, 0, 0), `centre_of_mass` (0, 0, l/2)" in lines["rod"]
+    assert "`end` (0, 0, 0), `far_end` (0, 0, l), `centre_of_mass` (0, 0, l/2)" in lines["rod"]

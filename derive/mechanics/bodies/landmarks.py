@@ -69,6 +69,7 @@ def _is_on_rim(body: Any, region: Region, at: Any) -> bool:
 _TESTS: dict[str, Callable[[Any, Region, Any], bool]] = {
     "corner": _is_corner,
     "end": _is_corner,
+    "far_end": _is_corner,
     "apex": _is_apex,
     "base": _is_base,
     "rim": _is_on_rim,

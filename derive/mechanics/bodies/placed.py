@@ -74,6 +74,15 @@ class PlacedBody:
         here = ImmutableDenseMatrix(self.at.components)
         return not coordinates_in(here) and TIME not in here.free_symbols
 
+    def place_of(self, point: Any) -> PointOfBody:
+        """The place of a point of the body, which moves with the body.
+
+        point   the point, by its name or by components along the body axes
+        """
+        arm = ImmutableDenseMatrix((_point_of(self.body, point).position - self.point.position).expand())
+        place = self.at + self.seen_in_space(arm) if any(arm) else self.at
+        return PointOfBody(tuple(tidied(c) for c in place.components), body=self)
+
     def moved(self, values: Mapping[Symbol, Expr]) -> PlacedBody:
         """The same body with expressions substituted for some coordinates."""
         at = self.at.with_values(values)
@@ -87,6 +96,17 @@ class PlacedBody:
         """All components of the position and the orientation of the body."""
         turning = list(self.turned.in_space) if isinstance(self.turned, Axes) else [self.turned]
         return ImmutableDenseMatrix([*self.at.components, *turning])
+
+
+@dataclass(frozen=True)
+class PointOfBody(Location):
+    """The place of a material point of a body."""
+
+    body: Any = None
+
+    def with_values(self, values: Any) -> PointOfBody:
+        found = super().with_values(values)
+        return self if found is self else PointOfBody(found.components, body=self.body.moved(values))
 
 
 def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
@@ -127,14 +147,16 @@ class Placeable:
         at   the point, by its name or by components along the body axes
         on   the place of this point, by default the origin
         """
-        own: Any = self
-        by_name = getattr(own, "point_called", None) or own.point
-        named = by_name(at) if isinstance(at, str) else _point_at(at)
         origin = Location((Integer(0),) * (3 if isinstance(turned, Axes) else 2))
-        return _placed(own, turned, named, on or origin, across)
+        return _placed(self, turned, _point_of(self, at), on or origin, across)
 
 
-def _point_at(components: Any) -> Point:
+def _point_of(body: Any, components: Any) -> Point:
+    """Return a point of a body by its name, or by its components along the body axes."""
+    if isinstance(components, str):
+        by_name = getattr(body, "point_called", None) or body.point
+        named: Point = by_name(components)
+        return named
     if not isinstance(components, tuple | list) or len(components) != 3:
         message = "give a point of a body by its name, or by three components along its axes"
         raise Rejected(Complaint("wrong-argument", message))

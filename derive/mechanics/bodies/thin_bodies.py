@@ -56,7 +56,8 @@ class Rod(RoundBody):
 
     length   length
     mass     mass
-    Points: end, centre. All of the mass is on the axis of the rod, so the moment of inertia about this axis is zero.
+    Points: end (at the origin), far_end, centre. All of the mass is on the axis of the rod, so the moment of inertia
+    about this axis is zero.
     """
 
     length: Expr
@@ -73,6 +74,9 @@ class Rod(RoundBody):
     @property
     def extent(self) -> Expr:
         return self.length
+
+    def points(self) -> Mapping[str, Point]:
+        return {**super().points(), "far_end": Point("far_end", column(0, 0, self.length))}
 
     def particles(self) -> Particles:
         return drawn_out([(self.mass, ORIGIN)], self.ends)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, cos, eye, sin
+from sympy import Expr, ImmutableDenseMatrix, atan2, cos, eye, pi, sin
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.equality import equal
@@ -77,6 +78,22 @@ def point(*components: Any) -> Location:
         return Location(tuple(as_expr(value_behind(c)) for c in components), found)
     except TypeError:
         raise Rejected(Complaint("wrong-argument", "`point` needs expressions, one for each component")) from None
+
+
+def angle_of(direction: Location) -> Expr | None:
+    """Return the angle of a unit vector in a plane, from right to up; None if the angle is unknown.
+
+    The angle is a multiple of a right angle plus or minus an angle in the components, or a number.
+    """
+    x, y = direction.components
+    if x.is_number and y.is_number:
+        return atan2(y, x)
+    inside = dict.fromkeys(each.args[0] for c in (x, y) for each in c.atoms(cos, sin))
+    for angle, sign, quarters in product(inside, (1, -1), range(4)):
+        found: Expr = sign * angle + quarters * pi / 2
+        if equal(cos(found), x) and equal(sin(found), y):
+            return found
+    return None
 
 
 X, Y, Z = point(1, 0, 0), point(0, 1, 0), point(0, 0, 1)

@@ -23,7 +23,7 @@ from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
 from derive.mechanics.model.constraint import Constrained, Constraint
-from derive.mechanics.model.dalembert import Matter, Reaction
+from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.gradients import gradient_length
 from derive.mechanics.model.rigid import by_squares
 from derive.solving.divisors import told_of_divisors
@@ -369,7 +369,7 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
     matter = problem.lagrangian.needed(Matter)
     total = ZERO
     for q, dq in way.items():
-        kept = Add(*(load.work_along(q) for load in matter.others if isinstance(load, Reaction)))
+        kept = Add(*(load.work_along(q) for load in matter.others if load.multiplier is not None))
         total += dq * (matter.inertia_along(q) - matter.force_along(q) + kept)
     if not problem.keeping:
         return total.xreplace(_solution(problem)).xreplace(problem.known)

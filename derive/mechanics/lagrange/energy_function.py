@@ -23,7 +23,7 @@ from derive.mechanics.lagrange.facts import Energies, FromLagrangian, Varied, en
 from derive.mechanics.lagrange.given_lagrangian import energy_of, rate_of_energy
 from derive.mechanics.lagrange.lagrangian import coordinates_of
 from derive.mechanics.model.constraint import Constrained
-from derive.mechanics.model.dalembert import Load, Matter
+from derive.mechanics.model.dalembert import Matter
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import free_letter
 from derive.steps.rule import CHECK, ROUTE, Rule
@@ -54,7 +54,7 @@ def _of_given(of: Quantity) -> str:
 def _power_beside(of: Quantity) -> Expr:
     """Return the power of forces without a potential energy, and of the forces of moving constraints."""
     matter = of.needed(Matter)
-    loads = [load for load in matter.others if isinstance(load, Load)]
+    loads = [load for load in matter.others if load.multiplier is None]
     works = [rate(q) * load.work_along(q) for q in matter.coordinates for load in loads]
     return explicit(Add(*works, *_powers_of_conditions(of)))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from sympy import Add, Expr, Integer, Symbol, diff
@@ -11,8 +11,10 @@ from sympy import Add, Expr, Integer, Symbol, diff
 from derive.algebra.expressions import Relation, TimeRate, as_expr, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.errors import Complaint, Rejected, Unverified
-from derive.mechanics.model.dalembert import Reaction
-from derive.mechanics.model.part import Part
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.dalembert import Load, Reaction
+from derive.mechanics.model.material import material_point
+from derive.mechanics.model.part import Part, moved
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, is_zero
 from derive.witness import description as plain
@@ -20,6 +22,27 @@ from derive.witness import description as plain
 __all__ = ["constraint"]
 
 ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class PointForce:
+    """One of the forces of a contact, a string or a joint: the multiplier of the constraint times `direction`, N.
+
+    at   the place where the force acts
+    of   the body or particle on which it acts; None for the ground
+    """
+
+    direction: tuple[Expr, ...]
+    at: Location
+    of: Any
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> PointForce:
+        direction = tuple(c.subs(known) for c in self.direction)
+        return PointForce(direction, self.at.with_values(known), moved(self.of, known))
+
+    def load(self, multiplier: Symbol) -> Load:
+        point = material_point("constraint", self.of, self.at)
+        return Load(tuple(multiplier * c for c in self.direction), point.place, point.held, multiplier)
 
 
 @dataclass(frozen=True)
@@ -31,12 +54,21 @@ class Constraint(Part):
     right     c, as written in the script
     force     the multiplier
     in_rates  whether the constraint is linear in the rates
+    forces    the forces on material points, if the constraint comes from a contact, a string, a rod or a joint; second
+    routes use them in place of the derivatives of f
     """
 
     left: Expr
     right: Expr
     force: Symbol
     in_rates: bool = False
+    forces: tuple[PointForce, ...] = ()
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Constraint:
+        if not self.forces:
+            return self
+        forces = tuple(each.moved(known) for each in self.forces)
+        return replace(self, left=self.left.subs(known), right=self.right.subs(known), forces=forces)
 
     @property
     def residual(self) -> Expr:
@@ -65,7 +97,9 @@ class Constraint(Part):
     def acts_by(self) -> tuple[Expr, ...]:
         return (self.residual,)
 
-    def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Reaction]:
+    def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load | Reaction]:
+        if self.forces:
+            return [each.load(self.force) for each in self.forces if each.of is not None]
         return [Reaction(self.force, tuple((q, self.along(q)) for q in moving))]
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
@@ -77,6 +111,8 @@ class Constraint(Part):
 
         The first term that is a number times a coordinate, or times a rate, determines the kind.
         """
+        if self.forces:
+            return "force"
         for term in Add.make_args(self.residual.expand()):
             for q, kind in self.coordinates.items():
                 if (term / (rate(q) if self.in_rates else q)).is_number:

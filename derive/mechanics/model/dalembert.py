@@ -40,11 +40,13 @@ class Load:
 
     held   pairs of a symbol in the place and the value of the symbol; the symbol, such as a component of the position
     of a particle in its body, is constant in every displacement
+    multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces
     """
 
     force: Vector
     place: Vector
     held: tuple[tuple[Symbol, Expr], ...] = ()
+    multiplier: Symbol | None = None
 
     def work_along(self, q: Symbol) -> Expr:
         """F . dr/dq"""
@@ -97,11 +99,11 @@ class Reaction:
     factors   pairs of q and a_q; for a constraint f = c between coordinates, a_q is df/dq
     """
 
-    force: Symbol
+    multiplier: Symbol
     factors: tuple[tuple[Symbol, Expr], ...]
 
     def work_along(self, q: Symbol) -> Expr:
-        return self.force * dict(self.factors).get(q, Integer(0))
+        return self.multiplier * dict(self.factors).get(q, Integer(0))
 
 
 @dataclass(frozen=True)

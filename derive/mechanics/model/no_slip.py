@@ -30,7 +30,7 @@ from derive.steps.step import Fact, Form, Level, Quantity, is_zero
 __all__ = ["no_slip", "rolling_constraint"]
 
 ZERO = Integer(0)
-Ground: TypeAlias = Location | Axes
+Ground: TypeAlias = Location | Axes | PlacedBody
 
 
 def no_slip(
@@ -44,8 +44,8 @@ def no_slip(
 
     body     a body that is placed or held; r is the place of its given point, and v the velocity of this point
     at       the place where the body touches the surface, m
-    ground   a place on the surface, if the surface moves without rotation; or the axes in which the surface is at rest,
-    for example those of a turntable; by default the surface is at rest in space
+    ground   a place on the surface, if the surface moves without rotation; the axes in which the surface is at rest,
+    such as those of a turntable; or the body that carries the surface; by default the surface is at rest in space
     fixes    the coordinate whose rate to isolate, if possible; by default the coordinate of the last rotation
     There is one condition for each rate that can be isolated. A condition that can be integrated may be a part of a
     `System`; it then expresses one coordinate by other coordinates.
@@ -183,7 +183,7 @@ def _check(body: Any, at: Location, ground: Ground | None) -> None:
     for place in (at, ground):
         if (
             place is not None
-            and not isinstance(place, Axes)
+            and not isinstance(place, Axes | PlacedBody)
             and (not isinstance(place, Location) or len(place.components) != len(body.at.components))
         ):
             raise Rejected(Complaint("wrong-argument", "`no_slip` needs a contact in the plane or space of the body"))
@@ -215,31 +215,37 @@ def _order(body: PlacedBody, at: Location) -> list[Symbol]:
 
 def contact_velocity(body: PlacedBody, at: Location, ground: Ground | None) -> ImmutableMatrix:
     """Velocity of the particle at the contact relative to the surface: v + omega x (r_contact - r) - v_surface."""
-    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
-    arm = ImmutableDenseMatrix((at - body.at).components)
-    v = ImmutableDenseMatrix([explicit(TimeRate(c, *moving)) for c in body.at.components])
-    if isinstance(body.turned, Axes):
-        turns = body.turned.turns
+    v = velocity_at(body, at) - velocity_at(ground, at)
+    return ImmutableDenseMatrix([tidied(c) for c in v.components])
+
+
+def velocity_at(of: Any, at: Location) -> Location:
+    """Velocity of the material at a place, m/s.
+
+    of   a body: v + omega x (r_place - r); rotating axes in which the material is at rest: R_dot R^T r, which is
+    omega x r; a place or a particle that moves with the material; None for material at rest
+    """
+    if of is None:
+        return Location((ZERO,) * len(at.components))
+    if isinstance(of, Axes):
+        turn, moving = of.in_space, list(coordinates_in(of.in_space))
+        turning = turn.applyfunc(lambda entry: explicit(TimeRate(entry, *moving))) * turn.T
+        return Location(tuple(turning * ImmutableDenseMatrix(at.components)))
+    if not isinstance(of, PlacedBody):
+        place = of if isinstance(of, Location) else of.at
+        return Location(tuple(explicit(TimeRate(c, *coordinates_in(c))) for c in place.components))
+    moving = list(coordinates_in(ImmutableDenseMatrix([*of.depends_on, *at.components])))
+    arm = ImmutableDenseMatrix((at - of.at).components)
+    v = ImmutableDenseMatrix([explicit(TimeRate(c, *moving)) for c in of.at.components])
+    if isinstance(of.turned, Axes):
+        turns = of.turned.turns
         omega = column(0, 0, 0)
         for i, (axis, angle) in enumerate(turns):
             about = after(turns[:i]) * column(*(int(k == axis) for k in range(3)))
             omega = omega + explicit(TimeRate(angle, *moving)) * about
-        v = v + omega.cross(arm)
-    else:
-        speed = explicit(TimeRate(body.turned, *moving))
-        v = v + ImmutableDenseMatrix([-speed * arm[1], speed * arm[0]])
-    if ground is not None:
-        v = v - _velocity_of_ground(ground, at)
-    return ImmutableDenseMatrix(v.applyfunc(tidied))
-
-
-def _velocity_of_ground(ground: Ground, at: Location) -> ImmutableMatrix:
-    """Velocity of the surface at the contact: for rotating axes R_dot R^T r, which is omega x r."""
-    if isinstance(ground, Location):
-        return ImmutableDenseMatrix([explicit(TimeRate(c, *coordinates_in(c))) for c in ground.components])
-    turn, moving = ground.in_space, list(coordinates_in(ground.in_space))
-    turning = turn.applyfunc(lambda entry: explicit(TimeRate(entry, *moving))) * turn.T
-    return ImmutableDenseMatrix(turning * ImmutableDenseMatrix(at.components))
+        return Location(tuple(v + omega.cross(arm)))
+    speed = explicit(TimeRate(of.turned, *moving))
+    return Location(tuple(v + ImmutableDenseMatrix([-speed * arm[1], speed * arm[0]])))
 
 
 def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
@@ -338,6 +344,12 @@ def _all_rates(body: PlacedBody, at: Location, ground: Ground | None, fixes: Coo
     return found
 
 
+def _particle_of_ground(ground: Ground, at: Location) -> MaterialPoint:
+    if isinstance(ground, Axes):
+        return at_rest_in(ground, at)
+    return particle_of(ground, at) if isinstance(ground, PlacedBody) else MaterialPoint(ground.components)
+
+
 def velocity_of_particle(body: PlacedBody, at: Location, ground: Ground | None) -> list[Expr]:
     """Velocity of the particle at the contact relative to the surface, by differentiation with respect to t.
 
@@ -349,6 +361,6 @@ def velocity_of_particle(body: PlacedBody, at: Location, ground: Ground | None) 
     fast = [by_functions_of_time(c, moving).subs(point.values) for c in place]
     if ground is None:
         return fast
-    surface = at_rest_in(ground, at) if isinstance(ground, Axes) else MaterialPoint(ground.components)
+    surface = _particle_of_ground(ground, at)
     slow = [by_functions_of_time(c, list(coordinates_in(c))).subs(surface.values) for c in surface.place]
     return [a - b for a, b in zip(fast, slow, strict=True)]

@@ -26,6 +26,7 @@ from derive.steps.subject import NOTHING, Subject
 __all__ = ["angular_velocity"]
 
 Inertia: TypeAlias = Quantity | Expr  # a step, or the symbol of a moment about the axis perpendicular to the plane
+MANY_TERMS = 20
 _SQUARES = (lambda value: value, TR5, TR6)  # unchanged; squares of sines by cosines; squares of cosines by sines
 
 
@@ -96,8 +97,10 @@ def angular_velocity(
 def by_squares(value: Expr) -> Expr:
     """Rewrite squares of sines or cosines if the result is shorter: -cos^2 a/sin a, not (sin^2 a - 1)/sin a."""
     value = tidied(value)
-    above, below = value.as_numer_denom()
-    uppers, lowers = (_factored_by_squares(part.expand()) for part in (above, below))
+    above, below = (part.expand() for part in value.as_numer_denom())
+    if max(len(Add.make_args(part)) for part in (above, below)) > MANY_TERMS:
+        return value  # SymPy may need minutes to factor such a polynomial
+    uppers, lowers = (_factored_by_squares(part) for part in (above, below))
     forms = [upper / lower for upper in uppers for lower in lowers]
     return min((value, *forms), key=lambda form: (length(form) + _minuses_below(form), len(form.atoms(Add))))
 

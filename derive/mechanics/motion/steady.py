@@ -22,7 +22,7 @@ from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, ki
 from derive.mechanics.lagrange.applied_forces import ActedOn
 from derive.mechanics.lagrange.facts import WithMomenta
 from derive.mechanics.lagrange.lagrangian import coordinates_of
-from derive.mechanics.model.dalembert import Load, Matter
+from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import Steady
 from derive.solving.presentation import presented, without_positive
@@ -207,7 +207,7 @@ def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
             speed = slope(c.xreplace(motion), TIME)
             left += point.mass * slope(speed, TIME) * slope(c, q).xreplace(motion)
     fields = [field.load(matter.coordinates) for field in matter.fields]
-    works = (load.work_along(q) for load in (*matter.loads, *fields, *matter.others) if isinstance(load, Load))
+    works = (load.work_along(q) for load in (*matter.loads, *fields, *matter.others) if load.multiplier is None)
     return left - explicit(Add(*works)).xreplace(rates).xreplace(motion)
 
 

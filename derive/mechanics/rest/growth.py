@@ -18,7 +18,7 @@ from sympy import Expr, Integer, Rational, Symbol, lambdify
 from derive.algebra.expressions import explicit, rate
 from derive.algebra.ranges import has_meaning, rational_in_range
 from derive.mechanics.hamilton.facts import SeenWith
-from derive.mechanics.model.dalembert import Matter, Reaction
+from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.system import System
 from derive.mechanics.rest.facts import matter_behind
 from derive.steps.step import Quantity
@@ -85,7 +85,7 @@ def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequen
 def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
     """Return m a - F along each coordinate as a function of coordinates, rates, accelerations and other symbols."""
     moving = matter.coordinates
-    idle = {other.force: Integer(0) for other in matter.others if isinstance(other, Reaction)}
+    idle = {other.multiplier: Integer(0) for other in matter.others if other.multiplier is not None}
     left = [explicit(matter.inertia_along(q) - matter.force_along(q)).xreplace(idle) for q in moving]
     varied = [each for order in (0, 1, 2) for each in ([rate(q, order) for q in moving] if order else moving)]
     letters = tuple(sorted(set().union(*(each.free_symbols for each in left)) - set(varied), key=str))

@@ -13,6 +13,7 @@ from typing import Any, Generic, TypeVar
 
 from derive.course.stock import told_at
 from derive.errors import Place
+from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.acted_on import ActsOnNothing
 
 N = TypeVar("N")
@@ -26,6 +27,7 @@ class Deferred(Generic[N]):
     of      the positional arguments of `make`
     named   the arguments of `make` by name
     bodies  argument of `make` -> names of bodies or particles; any other name, such as `ground`, is passed on as text
+    forces  the symbols of the constraint forces that the object introduces
     place   where the object was described
     """
 
@@ -34,6 +36,7 @@ class Deferred(Generic[N]):
     named: Mapping[str, Any] = field(default_factory=dict)
     bodies: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     place: Place | None = field(default=None, compare=False)
+    forces: tuple[str, ...] = ()
 
     def made(self, known: Mapping[str, Any]) -> N:
         """Make the object; `known` has the bodies and particles of the system by name."""
@@ -41,11 +44,41 @@ class Deferred(Generic[N]):
         meant = {argument: [known.get(name, name) for name in names] for argument, names in there.items()}
         bodies = {argument: found[0] if len(found) == 1 else tuple(found) for argument, found in meant.items()}
         with told_at(self.place):
-            return self.make(*self.of, **self.named, **bodies)
+            of = [made(each, known) for each in self.of]
+            return self.make(*of, **{name: made(each, known) for name, each in self.named.items()}, **bodies)
 
     def __repr__(self) -> str:
         """Return a text that is the same in each process, because the digest of a problem depends on this text."""
         return f"{self.make.__qualname__}{(self.of, dict(self.named), dict(self.bodies))!r}"
+
+
+@dataclass(frozen=True)
+class Material:
+    """A body or particle, or a point of a body, by its name.
+
+    point   the point, by its name or by components along the body axes; None for the body or particle itself
+    by      a displacement from this point
+    """
+
+    body: str
+    point: Any = None
+    by: Location | None = None
+
+    def __add__(self, by: Location) -> Material:
+        return Material(self.body, self.point, by if self.by is None else self.by + by)
+
+    def made(self, known: Mapping[str, Any]) -> Any:
+        if self.point is None:
+            return known[self.body]
+        found = known[self.body].place_of(self.point)
+        return found if self.by is None else found + self.by
+
+
+def made(given: Any, known: Mapping[str, Any]) -> Any:
+    """Return an argument in which every deferred object is made."""
+    if isinstance(given, tuple):
+        return tuple(made(each, known) for each in given)
+    return given.made(known) if isinstance(given, Deferred | Material) else given
 
 
 @contextmanager
@@ -57,5 +90,10 @@ def told_at_part(described: Sequence[Deferred[Any]], made: Sequence[Any], otherw
             yield
         except ActsOnNothing as error:
             pairs = zip(described, made, strict=True)
-            with told_at(next((part.place for part, own in pairs if own is error.part), None)):
+            with told_at(next((part.place for part, own in pairs if error.part in parts_of(own)), None)):
                 raise
+
+
+def parts_of(made: Any) -> tuple[Any, ...]:
+    """Return the parts of a system that a described object yields: one part, or several."""
+    return made if isinstance(made, tuple) else (made,)

@@ -28,6 +28,7 @@ from derive.course.stock import InLetters, each
 from derive.course.yaml_tree import Sequence, Tree, Word
 from derive.errors import Faults, did_you_mean, rejected
 from derive.mechanics import Particle, central, charge, constraint, couple, damping, force, spring
+from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.material import GROUND, MASSLESS
 from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
@@ -192,13 +193,23 @@ class ConstraintKeys(Record):
             if other != dimension and not equals.is_zero:
                 message = "`condition` and `equals` have different dimensions"
                 rejected("dimension", message, self.values_at["equals"])
-        named = {"force": force_letter(self.force, letters)}
-        return Deferred(constraint, (condition, equals), named, place=self.places[""])
+        force = force_letter(self.force, letters)
+        return Deferred(constraint, (condition, equals), {"force": force}, forces=(force,), place=self.places[""])
 
 
 def components_of(nodes: Collection[Tree], kind: str, letters: InLetters) -> tuple[Expr, ...]:
     """Return the components of a vector of this kind."""
     return tuple(each([partial(letters.of_kind, node, "a component", kind) for node in nodes]))
+
+
+def direction_of(nodes: Collection[Tree], letters: InLetters) -> Location:
+    """Return a direction: components that all have the same dimension."""
+    read = each([partial(letters.read, node, "a component") for node in nodes])
+    dimensions = [(node, dimension) for node, (value, dimension) in zip(nodes, read, strict=True) if value != 0]
+    for node, dimension in dimensions:
+        if dimension != dimensions[0][1]:
+            rejected("dimension", "the components of a direction have different dimensions", node.place)
+    return Location(tuple(value for value, _ in read))
 
 
 def force_letter(name: Word | None, letters: InLetters) -> str:

@@ -7,18 +7,21 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from sympy import Expr
+from sympy import Expr, pi
 
+from derive.algebra.tidy import tidied
 from derive.course.schema import SCALAR, TEXT, Record, as_written, key, list_of, mapping_of, one_of, record_of
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Faults, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
-from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.kinematics.places import Axes, Location, angle_of
+from derive.mechanics.model.surfaces import dot, unit
+from derive.steps.step import is_zero
 from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
-from derive.stock.keys.deferred import Deferred
-from derive.stock.keys.parts import force_letter, list_of_parts
-from derive.stock.keys.places import PLACE, Places, WrittenPlace, check_known
+from derive.stock.keys.deferred import Deferred, Material
+from derive.stock.keys.parts import direction_of, force_letter, list_of_parts
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, check_known
 
 POINT = as_written(
     {"anyOf": [TEXT.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3}]},
@@ -47,27 +50,31 @@ class MovingBodyKeys(BodyKeys):
     centre: WrittenPlace | None = key("the position of its centre of mass", PLACE)
     held: Tree | None = key("in place of `centre`, the point of the body that is held, by name or components", POINT)
     on: WrittenPlace | None = key("the place at which this point is held; by default the origin", PLACE)
+    start: WrittenPlace | None = key(
+        "for a rod, the place of its end, in place of `held: end` and `on`", PLACE, called="from"
+    )
+    to: WrittenPlace | None = key("for a rod with `from`: the place of its other end, in place of `turned`", PLACE)
+    along: tuple[Tree, ...] = key(
+        "for a rod, its direction from its end to its other end, in place of `turned`: `[sin(theta), -cos(theta)]`",
+        COMPONENTS,
+    )
     across: str | None = key(
         "in a plane, the axis of the body that is perpendicular to the plane", one_of(("x", "y", "z"))
     )
 
     def part(self, name: Word, alone: bool, places: Places, letters: InLetters) -> Deferred[Any]:
         called = "" if alone else str(name).replace("_", " ")
-        if self.centre is None and self.held is None:
-            rejected(
-                "missing-key", "a body needs either `centre` or `held`, which specifies its position", self.places[""]
-            )
-        if self.centre is not None and self.held is not None:
-            message = "a body has either `centre` or `held`, not both: each specifies its position"
-            rejected("twice", message, self.places["held"], "leave one of them out")
+        self._check_one("position", "centre", "held", "from")
+        self._check_one("orientation", "turned", "along", "to")
         self._check_used()
-        if self.turned is None:
-            rejected("missing-key", "a body needs `turned`, which specifies its orientation", self.places[""])
         body: DescribedBody | RigidBody = (
             self._by_moments(called, letters) if self.moments else Bodies(letters).body(self, called)
         )
-        turned = self._turned(self.turned, places, letters)
+        turned = self._turned(places, letters)
         named: dict[str, Any] = {"across": self.across}
+        if self.start is not None:
+            named["on"] = places.at(self.start, "from")
+            return Deferred(held, (body, turned, "end"), named, place=self.places[""])
         if self.centre is not None:
             return Deferred(placed, (body, turned, places.at(self.centre, "centre")), named, place=self.places[""])
         point = self._point(letters, body)
@@ -76,10 +83,11 @@ class MovingBodyKeys(BodyKeys):
 
     def _check_used(self) -> None:
         """Reject a key that has no effect together with the other keys."""
-        own = {"moments", "middle", "mass", "turned", "centre", "held", "on", "across"}
+        own = {"moments", "middle", "mass", "turned", "centre", "held", "on", "across", "from", "to", "along"}
         beside = {
             "moments": [name for name in self.values_at if name not in own],
             "centre": [name for name in ("on",) if name in self.values_at],
+            "from": [name for name in ("on",) if name in self.values_at],
         }
         faults = Faults()
         for first, others in beside.items():
@@ -93,10 +101,53 @@ class MovingBodyKeys(BodyKeys):
             )
         faults.stop()
 
-    def _turned(self, turned: Tree, places: Places, letters: InLetters) -> Axes | Expr:
+    def _check_one(self, what: str, *names: str) -> None:
+        """Require exactly one of these keys."""
+        given = [name for name in names if name in self.values_at]
+        listed = f"`{names[0]}`, `{names[1]}` or `{names[2]}`"
+        if not given:
+            rejected("missing-key", f"a body needs {listed}, which specifies its {what}", self.places[""])
+        if len(given) > 1:
+            message = f"a body has only one of {listed}: each specifies its {what}"
+            rejected("twice", message, self.places[given[1]], "leave one of them out")
+
+    def _turned(self, places: Places, letters: InLetters) -> Axes | Expr:
+        if self.turned is None:
+            return self._turned_along(places, letters)
+        turned = self.turned
         if isinstance(turned, Scalar) and turned.text.strip() in {str(name) for name in places.turns}:
             return places.axes(turned.word)
         return letters.of_kind(turned, "turned", "angle")
+
+    def _turned_along(self, places: Places, letters: InLetters) -> Expr:
+        """Return the angle of rotation of a rod from its direction. At zero angle the rod points upwards."""
+        name = "along" if self.along else "to"
+        if self.shape != "rod":
+            message = f"`{name}` gives the direction of a rod, but this body is not a rod"
+            rejected("unused-key", message, self.places[name], "give `turned`")
+        way = direction_of(self.along, letters) if self.along else self._way(places, letters)
+        with told_at(self.places[name]):
+            angle = angle_of(unit("a rod", way)) if len(way.components) == 2 else None
+        if angle is None:
+            message = "the angle of this direction is unknown, so the orientation of the rod is unknown"
+            help_line = "give the direction by sines and cosines of one angle: `along: [sin(theta), -cos(theta)]`"
+            rejected("wrong-argument", message, self.places[name], help_line)
+        return angle - pi / 2
+
+    def _way(self, places: Places, letters: InLetters) -> Location:
+        if self.start is None:
+            rejected("missing-key", "a rod with `to` also needs `from`", self.places["to"])
+        assert self.to is not None
+        ends = places.ends(self.start, self.to)
+        start, end = (each if isinstance(each, Location) else None for each in ends)
+        if start is None or end is None:
+            message = "the direction between points of other bodies is unknown here"
+            rejected("wrong-argument", message, self.places["to"], "give the direction as `along`")
+        length = letters.constant(self.length, "length", "length") if self.length is not None else None
+        if length is not None and not is_zero(tidied(dot(end - start, end - start)) - length**2):
+            message = f"the places `from` and `to` are not at the distance {length}, the length of the rod"
+            rejected("sizes", message, self.places["to"])
+        return end - start
 
     def _by_moments(self, called: str, letters: InLetters) -> RigidBody:
         if self.mass is None:
@@ -136,13 +187,15 @@ class RollingKeys(Record):
     def part(self, places: Places, letters: InLetters, names: Collection[str]) -> Deferred[tuple[Any, ...]]:
         check_known(self.body, names, "body")
         named: dict[str, Any] = {"ground": _ground(self.ground, places) if self.ground else None}
+        forces: tuple[str, ...] = ()
         if self.force:
-            named["force"] = force_letter(self.force, letters)
+            forces = (force_letter(self.force, letters),)
+            named["force"] = forces[0]
         bodies = {"body": (str(self.body),)}
-        return Deferred(rolls, (), {"at": places.at(self.at, "at"), **named}, bodies, self.places[""])
+        return Deferred(rolls, (), {"at": places.at(self.at, "at"), **named}, bodies, self.places[""], forces)
 
 
-def _ground(written: WrittenPlace, places: Places) -> Location | Axes:
+def _ground(written: WrittenPlace, places: Places) -> Location | Material | Axes:
     """Return a place of the surface, or the rotating axes in which the surface is at rest, as for a turntable."""
     way = written.way
     if written.name is not None and str(written.name) in {str(name) for name in places.turns}:

@@ -32,6 +32,7 @@ from derive.errors import Complaint, Faults, Place, Rejected, did_you_mean, reje
 from derive.mechanics import X, Y, Z, point, space
 from derive.mechanics.kinematics.coordinates import kind_of_rate
 from derive.mechanics.kinematics.places import Axes, Location
+from derive.stock.keys.deferred import Material
 
 ANGLE, LENGTH, CHARGE = "angle", "length", "charge"
 
@@ -134,6 +135,11 @@ def _range(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
     return POSITIVE if sort.positive else None
 
 
+def point_called(name: str) -> str:
+    """Return the name that a body has for one of its points."""
+    return "centre" if name == "centre_of_mass" else name
+
+
 class Places:
     """The named places and axes of a description, each computed when it is first needed."""
 
@@ -143,27 +149,32 @@ class Places:
         turns: Mapping[Word, tuple[Mapping[Word, Tree], ...]],
         letters: InLetters,
         carried: Mapping[Word, WrittenPlace | None] | None = None,
+        bodies: Collection[str] = (),
     ):
-        """Set up the places; the name of a particle in `carried` also denotes the place of the particle."""
+        """Set up the places. The name of a particle in `carried` also denotes the place of the particle; the name of a
+        body denotes its centre of mass, and `rod.end` denotes a point of the body `rod`."""
         self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns
         self.letters = letters
+        self.bodies = {str(name) for name in bodies}
         self.on_the_way: list[str] = []
         self.first: tuple[int, str] | None = None  # the number of components of the first place, and its name
 
-    def all_named(self) -> dict[str, Location]:
+    def all_named(self) -> dict[str, Location | Material]:
         return dict(each([partial(self._with_name, Word.at(n, w.place)) for n, w in self.written.items()]))
 
-    def _with_name(self, name: Word) -> tuple[str, Location]:
+    def _with_name(self, name: Word) -> tuple[str, Location | Material]:
         return str(name), self.named(name)
 
-    def named(self, name: Word) -> Location:
+    def named(self, name: Word) -> Location | Material:
         written = self.written.get(name) or self.carried.get(name)
+        body, _, point = name.partition(".")
+        if written is None and body in self.bodies:
+            return Material(body, point_called(point or "centre"))
         if written is None:
-            help_line = (
-                did_you_mean(name, [*self.written, *self.carried]) or "give it under `places`, or write its components"
-            )
+            known = [*self.written, *self.carried, *self.bodies]
+            help_line = did_you_mean(name, known) or "give it under `places`, or write its components"
             rejected("no-such-place", f"`{name}` is not a named place", name.place, help_line)
         if name in self.on_the_way:
             rejected("circle", f"the position of `{name}` depends on `{name}` itself", written.place)
@@ -173,8 +184,9 @@ class Places:
         finally:
             self.on_the_way.pop()
 
-    def at(self, written: WrittenPlace, name: str) -> Location:
-        """Return the location of a place that is written in the file; errors call this place `name`."""
+    def at(self, written: WrittenPlace, name: str) -> Location | Material:
+        """Return a place that is written in the file; errors call this place `name`. A point of a body gets its place
+        only when the body is made."""
         if written.name is not None:
             return self.named(written.name)
         assert written.way is not None
@@ -185,7 +197,7 @@ class Places:
             self._check_size(found, name)
             return self.named(way.start) + found if way.start else found
 
-    def ends(self, start: WrittenPlace, end: WrittenPlace) -> list[Location]:
+    def ends(self, start: WrittenPlace, end: WrittenPlace) -> list[Location | Material]:
         """Return the two places between which something acts."""
         return each([partial(self.at, start, "from"), partial(self.at, end, "to")])
 

@@ -25,7 +25,18 @@ from derive.mechanics import potential
 from derive.mechanics.kinematics.coordinates import kind_of_rate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import kind_of_momentum
-from derive.stock.keys.deferred import Deferred
+from derive.stock.keys.connections import (
+    CONTACTS,
+    MASSLESS_RODS,
+    STRINGS,
+    SURFACES,
+    Connected,
+    ContactKeys,
+    MasslessRodKeys,
+    StringKeys,
+    SurfaceKeys,
+)
+from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.formulas import FoundLetter
 from derive.stock.keys.impacts import IMPACT, DescribedImpact, ImpactKeys
 from derive.stock.keys.parts import (
@@ -67,7 +78,7 @@ INDIFFERENT_TO_STATES = (
 )  # fmt: skip
 REPLACED_BY_LAGRANGIAN = (
     "axes", "places", "particles", "bodies", "rolling", "gravity", "springs", "central", "potential", "charges",
-    "constraints", "impact",
+    "constraints", "impact", "surfaces", "contacts", "strings", "massless_rods",
 )  # fmt: skip
 OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
 
@@ -105,6 +116,10 @@ class SystemKeys(Record):
     damping: Sequence[DampingKeys] = key("drag that is proportional to a velocity and opposite to it", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
     constraints: Sequence[ConstraintKeys] = key("conditions that constraint forces enforce", CONSTRAINTS)
+    surfaces: Mapping[Word, SurfaceKeys] = key("surfaces that bodies touch, by name", SURFACES)
+    contacts: Sequence[ContactKeys] = key("bodies that touch a surface, with the normal force and friction", CONTACTS)
+    strings: Sequence[StringKeys] = key("massless inextensible strings", STRINGS)
+    massless_rods: Sequence[MasslessRodKeys] = key("rigid rods without mass", MASSLESS_RODS)
     impact: ImpactKeys | None = key("impulses and collisions at one instant", IMPACT, formerly="blow")
     conserved: Mapping[Word, Tree] = key(
         "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
@@ -149,7 +164,7 @@ class DescribedSystem(Described):
     impact: DescribedImpact | None = None
     brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
     place: Place | None = field(default=None, repr=False, compare=False)
-    named: tuple[Location, ...] = ()
+    named: tuple[Location | Material, ...] = ()
     given: tuple[Expr, str | None] | None = None
 
 
@@ -160,7 +175,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     """
     letters = coordinate_letters(written.coordinates, symbols, faults)
     known = InLetters({**symbols, **letters})
-    places = Places(written.points, written.axes, known, {name: one.at for name, one in written.particles.items()})
+    carried = {name: one.at for name, one in written.particles.items()}
+    places = Places(written.points, written.axes, known, carried, written.bodies)
     named = attempted(faults, places.all_named) or {}
     parts = _parts(written, places, known, faults)
     given = attempted(faults, _lagrangian, written, known)
@@ -224,6 +240,9 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     bodies = by_name(written.bodies, len(written.bodies) == 1, places, known)
     rolling = of_each(written.rolling, places, known, {str(name) for name in written.bodies})
     names = {str(name) for name in (*written.bodies, *written.particles)}
+    surfaces = by_name(written.surfaces, places, known, names)
+    connected = Connected(names, surfaces, places, known)
+    acting += of_each([*written.contacts, *written.strings, *written.massless_rods], connected)
     with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)
     return {"particles": particles, "bodies": bodies, "rolling": tuple(rolling), "acting": tuple(acting)}
@@ -281,13 +300,15 @@ def _momenta(
 
 def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
     """Return the symbols of constraint forces, including those of rolling; results may be solved for these symbols."""
-    names = [one.named["force"] for one in keeping if "force" in one.named]
+    names = [name for one in keeping for name in one.forces]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
 
 def _brought(written: SystemKeys) -> list[Word]:
     """Return the symbols that the description introduces in addition to its coordinates."""
     forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
+    connections: list[Any] = [*written.contacts, *written.strings, *written.massless_rods]
+    forces += [symbol for one in connections for symbol in one.symbols()]
     return [*(force for force in forces if force), *(symbol for symbol, _ in _symbols(written.conserved).values())]
 
 

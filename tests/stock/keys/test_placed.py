@@ -64,10 +64,10 @@ def test_a_hoop_that_rolls_has_one_coordinate(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("body", "said"),
     [
-        ("{shape: rod, length: l, mass: m, turned: theta}", "a body needs either `centre` or `held`"),
+        ("{shape: rod, length: l, mass: m, turned: theta}", "a body needs `centre`, `held` or `from`"),
         (
             "{shape: rod, length: l, mass: m, turned: theta, centre: [0, 0], held: end}",
-            "either `centre` or `held`, not both",
+            "a body has only one of `centre`, `held` or `from`",
         ),
         ("{shape: rod, length: l, mass: m, held: end}", "a body needs `turned`"),
         ("{shape: rood, length: l, mass: m, held: end, turned: theta}", "rood"),

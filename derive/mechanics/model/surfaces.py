@@ -1,0 +1,177 @@
+"""Surfaces that bodies touch: planes and circles or spheres, fixed, moving, or carried by a body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Self, TypeAlias
+
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol, factor, sqrt
+
+from derive.algebra.expressions import TIME, as_expr
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected, Spelled
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.model.part import moved
+from derive.steps.record import coordinates_in
+
+__all__ = ["circle", "plane"]
+
+Vector: TypeAlias = tuple[Expr, ...]
+Ground: TypeAlias = Location | Axes | PlacedBody
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A surface with a free side, where the bodies that touch it are.
+
+    of      the body or particle that carries the surface; None if no described body does
+    moves   the motion of the material of the surface, if no body carries it: the axes in which it is at rest, as for a
+            turntable, or a place that moves with it, as for a belt; None if it is at rest
+    """
+
+    of: Any
+    moves: Location | Axes | None
+
+    def distance(self, at: Location) -> Expr:
+        """The distance of a place from the surface, m; positive on the free side."""
+        raise NotImplementedError
+
+    def normal(self, at: Location) -> Location:
+        """The unit vector perpendicular to the surface, towards the free side, on the normal through a place."""
+        raise NotImplementedError
+
+    @property
+    def ground(self) -> Ground | None:
+        """What gives the velocity of the material of the surface; None if it is at rest."""
+        if self.of is None:
+            return self.moves
+        return self.of if isinstance(self.of, PlacedBody) else self.of.at
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(self, of=moved(self.of, known))
+
+
+@dataclass(frozen=True)
+class Plane(Surface):
+    """A plane through a place, with a unit normal; in a plane of motion, a straight line."""
+
+    through: Location
+    unit_normal: Location
+
+    def distance(self, at: Location) -> Expr:
+        return tidied(dot(self.unit_normal, at - self.through))
+
+    def normal(self, at: Location) -> Location:
+        return self.unit_normal
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        through, normal = self.through.with_values(known), self.unit_normal.with_values(known)
+        return replace(super().moved(known), through=through, unit_normal=normal)
+
+
+@dataclass(frozen=True)
+class Circle(Surface):
+    """A circle in a plane of motion, or a sphere in space; the free side is outside or inside."""
+
+    centre: Location
+    radius: Expr
+    inside: bool = False
+
+    def distance(self, at: Location) -> Expr:
+        beyond = distance_between(self.centre, at) - self.radius
+        return -beyond if self.inside else beyond
+
+    def normal(self, at: Location) -> Location:
+        return direction_between(*((at, self.centre) if self.inside else (self.centre, at)))
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), centre=self.centre.with_values(known), radius=self.radius.subs(known))
+
+
+def plane(
+    through: Location, normal: Any = None, along: Any = None, of: Any = None, moves: Location | Axes | None = None
+) -> Plane:
+    """A plane surface through a place.
+
+    normal   a vector perpendicular to the plane, towards the free side; its length has no effect
+    along    in a plane of motion, in place of `normal`: a vector along the surface; the free side is on its left, so it
+             is above a surface from left to right
+    of       the body or particle that carries the surface
+    moves    the axes in which the surface is at rest, or a place that moves with it; by default it is at rest
+    """
+    if (normal is None) == (along is None):
+        raise Rejected(Complaint("wrong-argument", "`plane` needs either `normal` or `along`"))
+    across = vector("plane", normal, through) if along is None else _left_of(vector("plane", along, through))
+    return Plane(of, moves, through, unit("plane", across))
+
+
+def circle(centre: Location, radius: Any, inside: bool = False, of: Any = None, moves: Any = None) -> Circle:
+    """A circular surface in a plane of motion, or a spherical surface in space.
+
+    inside   whether the free side is inside, as in a bowl; by default it is outside
+    of, moves   as for `plane`
+    """
+    return Circle(of, moves, centre, as_expr(radius), inside)
+
+
+def dot(u: Location, v: Location) -> Expr:
+    return Add(*(a * b for a, b in zip(u.components, v.components, strict=True)))
+
+
+def vector(verb: str, given: Any, like: Location) -> Location:
+    """Return a vector with as many components as a place has."""
+    components = given.components if isinstance(given, Location) else tuple(given)
+    if len(components) != len(like.components):
+        message = f"`{verb}` needs a vector of {len(like.components)} components, as many as its place has"
+        raise Rejected(Complaint("wrong-argument", message))
+    return Location(tuple(as_expr(c) for c in components))
+
+
+def unit(verb: str, along: Location) -> Location:
+    """Return the unit vector in a direction."""
+    square = tidied(dot(along, along))
+    if square == 0:
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs a direction, but all its components are zero"))
+    return along if square == 1 else Location(tuple(tidied(c / sqrt(square)) for c in along.components))
+
+
+def _left_of(along: Location) -> Location:
+    if len(along.components) != 2:
+        message = "`plane` has a direction `along` it only in a plane of motion"
+        raise Rejected(Complaint("wrong-argument", message, help="give its `normal`"))
+    x, y = along.components
+    return Location((-y, x))
+
+
+def distance_between(start: Location, end: Location) -> Expr:
+    """Return the distance between two places, m, without absolute values."""
+    way = end - start
+    lengths = [c for c in way.components if c != 0]
+    if len(lengths) == 1:
+        return _positive(lengths[0])
+    length = sqrt(factor(tidied(Add(*(c**2 for c in way.components)))))
+    return length.replace(Abs, _positive)
+
+
+def direction_between(start: Location, end: Location) -> Location:
+    """Return the unit vector from one place to another."""
+    length = distance_between(start, end)
+    return Location(tuple(tidied(c / length) for c in (end - start).components))
+
+
+def _positive(length: Expr) -> Expr:
+    """Return u or -u for a distance |u|: the one that is positive for all values, or where all coordinates are zero."""
+    moving = coordinates_in(ImmutableDenseMatrix([length]))
+    at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())
+                    if not term.has(TIME)))  # fmt: skip
+    for sign in (1, -1):
+        if (sign * length).is_positive or (sign * at_zero).is_positive:
+            return sign * length
+    message = f"the sign of {length} is unknown, so the distance is |{length}|"
+    help_line = Spelled(
+        f'make the coordinate positive: `coordinate("{length}", "length", positive=True)`',
+        "make the coordinate positive: `y: positive length`",
+    )
+    raise Rejected(Complaint("sign", message, help=help_line))

@@ -1,0 +1,218 @@
+"""Surfaces, contacts, strings and massless rods, as `given:` describes them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from derive.algebra.expressions import TIME
+from derive.course.schema import SCALAR, TEXT, Reader, Record, key, list_of, mapping_of, one_of, read_record, record_of
+from derive.course.stock import InLetters
+from derive.course.yaml_tree import Mapping as MappingNode
+from derive.course.yaml_tree import Tree, Word
+from derive.errors import Faults, did_you_mean, rejected
+from derive.mechanics import circle, contact, massless_rod, plane, string
+from derive.mechanics.kinematics.places import Location
+from derive.stock.keys.deferred import Deferred, Material
+from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, point_called
+
+SURFACE_SHAPES = "give `through` with `along` or `normal` for a plane, or `centre` and `radius` for a circle or sphere"
+
+
+@dataclass(frozen=True)
+class Connected:
+    """The names that connections may use: bodies and particles, and the described surfaces."""
+
+    bodies: Collection[str]
+    surfaces: Mapping[str, Deferred[Any]]
+    places: Places
+    letters: InLetters
+
+
+@dataclass(frozen=True)
+class SurfaceKeys(Record):
+    """The keys of one entry of `surfaces:`."""
+
+    through: WrittenPlace | None = key("for a plane, a place on it", PLACE)
+    along: tuple[Tree, ...] = key(
+        "for a plane, in a plane of motion, a direction along it: the free side is on the left, so above `[1, 0]`",
+        COMPONENTS,
+    )
+    normal: tuple[Tree, ...] = key("for a plane, in place of `along`, the direction towards its free side", COMPONENTS)
+    centre: WrittenPlace | None = key("for a circle or a sphere, its centre", PLACE)
+    radius: Tree | None = key("for a circle or a sphere, its radius", SCALAR)
+    side: str | None = key("for a circle or a sphere, the side of the bodies", one_of(("outside", "inside")))
+    of: Word | None = key("the body or particle that carries the surface", TEXT)
+    axes: Word | None = key("the axes in which the surface is at rest, as for a turntable", TEXT, called="in")
+    velocity: tuple[Tree, ...] = key("the velocity of the surface, as for a belt", COMPONENTS)
+
+    def part(self, name: Word, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
+        named: dict[str, Any] = {"moves": self._motion(places, letters)}
+        carried = {"of": named_bodies("of", [self.of], bodies, "")}
+        if self.of and named["moves"] is not None:
+            rejected("twice", "the body `of` determines the motion of the surface", self.of.place, "leave `of` out")
+        if self.centre is not None and self.radius is not None and not (self.through or self.along or self.normal):
+            named["inside"] = self.side == "inside"
+            of = (places.at(self.centre, "centre"), letters.value(self.radius, "radius", "length"))
+            return Deferred(circle, of, named, carried, self.places[""])
+        if self.through is not None and bool(self.along) != bool(self.normal) and not (self.centre or self.radius):
+            if self.side:
+                message = "`side` belongs to a circle; the free side of a plane follows from `along` or `normal`"
+                rejected("unused-key", message, self.places["side"], "leave it out")
+            for role in ("along", "normal"):
+                if nodes := getattr(self, role):
+                    named[role] = direction_of(nodes, letters)
+            return Deferred(plane, (places.at(self.through, "through"),), named, carried, self.places[""])
+        rejected(
+            "missing-key", f"the surface `{name}` is neither a plane nor a circle", self.places[""], SURFACE_SHAPES
+        )
+
+    def _motion(self, places: Places, letters: InLetters) -> Any:
+        if self.axes is not None:
+            return places.axes(self.axes)
+        if self.velocity:
+            return Location(tuple(c * TIME for c in components_of(self.velocity, "speed", letters)))
+        return None
+
+
+@dataclass(frozen=True)
+class FrictionKeys(Record):
+    """The keys of `friction:` of a contact."""
+
+    rolling: Word | None = key("the symbol of the friction that prevents slipping", TEXT)
+    sliding: Tree | None = key("the coefficient of sliding friction", SCALAR)
+    direction: tuple[Tree, ...] = key("with `sliding`: the direction in which the body slips", COMPONENTS)
+
+
+def _friction(node: Tree, name: str, faults: Faults) -> FrictionKeys | str | None:
+    if isinstance(node, MappingNode):
+        return read_record(FrictionKeys, node, "friction", faults)
+    return one_of(("none", "rolling")).read(node, name, faults)
+
+
+FRICTION: Reader[Any] = Reader(
+    {"anyOf": [one_of(("none", "rolling")).schema, record_of(FrictionKeys, "friction", "a mapping").schema]},
+    _friction,
+)
+
+
+@dataclass(frozen=True)
+class ContactKeys(Record):
+    """The keys of one entry of `contacts:`, a body that touches a surface."""
+
+    of: Word = key("a particle, a round body, or a point of a body such as `ladder.end`", TEXT, required=True)
+    on: Word = key("the surface, or another round body", TEXT, required=True)
+    normal: Word | None = key(
+        "the symbol of the normal force, if a coordinate allows the body to leave the surface", TEXT
+    )
+    friction: Any = key(
+        "`none`, `rolling`, `{rolling: F}` with the symbol of the friction, or `{sliding: mu, direction: [1, 0]}`",
+        FRICTION,
+    )
+
+    def symbols(self) -> list[Word]:
+        rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
+        return [word for word in (self.normal, rolling) if word is not None]
+
+    def part(self, known: Connected) -> Deferred[Any]:
+        named: dict[str, Any] = {"of": material(self.of, known), "on": self._surface(known)}
+        if self.normal:
+            named["normal"] = force_letter(self.normal, known.letters)
+        own = self.friction
+        if own == "rolling":
+            named["rolling"] = True
+        elif isinstance(own, FrictionKeys):
+            named |= self._friction(own, known)
+        return Deferred(contact, (), named, forces=tuple(map(str, self.symbols())), place=self.places[""])
+
+    def _friction(self, own: FrictionKeys, known: Connected) -> dict[str, Any]:
+        if (own.rolling is None) == (own.sliding is None):
+            rejected("missing-key", "`friction` needs either `rolling` or `sliding`", own.places[""])
+        if own.rolling is not None:
+            if own.direction:
+                message = "`direction` is the direction of slip, and a body that rolls does not slip"
+                rejected("unused-key", message, own.places["direction"], "leave it out")
+            return {"rolling": force_letter(own.rolling, known.letters)}
+        assert own.sliding is not None
+        found: dict[str, Any] = {"sliding": known.letters.of_kind(own.sliding, "sliding", "number")}
+        if own.direction:
+            found["direction"] = direction_of(own.direction, known.letters)
+        return found
+
+    def _surface(self, known: Connected) -> Any:
+        if self.on in known.surfaces:
+            return known.surfaces[str(self.on)]
+        if self.on in known.bodies:
+            return Material(str(self.on))
+        names = [*known.surfaces, *known.bodies]
+        help_line = did_you_mean(self.on, names) or "describe it under `surfaces`"
+        rejected("no-such-surface", f"`{self.on}` is not a surface or a body of this system", self.on.place, help_line)
+
+
+@dataclass(frozen=True)
+class StringKeys(Record):
+    """The keys of one entry of `strings:`, a massless inextensible string."""
+
+    start: WrittenPlace = key("one end: a particle, a point of a body, or a place", PLACE, called="from", required=True)
+    end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
+    over: tuple[WrittenPlace, ...] = key(
+        "the pulleys or holes between the ends, in order: places, particles or points of bodies",
+        list_of(PLACE, "a list of places"),
+    )
+    length: Tree = key("the length between the ends", SCALAR, required=True)
+    tension: Word = key("the symbol of the tension", TEXT, required=True)
+
+    def symbols(self) -> list[Word]:
+        return [self.tension]
+
+    def part(self, known: Connected) -> Deferred[Any]:
+        named = {
+            "over": tuple(_end(each, known, "over") for each in self.over),
+            "tension": force_letter(self.tension, known.letters),
+        }
+        ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
+        of = (*ends, known.letters.value(self.length, "length", "length"))
+        return Deferred(string, of, named, forces=(str(self.tension),), place=self.places[""])
+
+
+@dataclass(frozen=True)
+class MasslessRodKeys(Record):
+    """The keys of one entry of `massless_rods:`, a rigid rod that pulls or pushes along its direction."""
+
+    start: WrittenPlace = key("one end: a particle, a point of a body, or a place", PLACE, called="from", required=True)
+    end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
+    length: Tree = key("its length", SCALAR, required=True)
+    force: Word = key("the symbol of the force in the rod, positive in tension", TEXT, required=True)
+
+    def symbols(self) -> list[Word]:
+        return [self.force]
+
+    def part(self, known: Connected) -> Deferred[Any]:
+        ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
+        of = (*ends, known.letters.value(self.length, "length", "length"))
+        named = {"force": force_letter(self.force, known.letters)}
+        return Deferred(massless_rod, of, named, forces=(str(self.force),), place=self.places[""])
+
+
+def material(name: Word, known: Connected) -> Material:
+    """Return the body, particle or point of a body that a name denotes."""
+    body, _, point = name.partition(".")
+    if body not in known.bodies:
+        help_line = did_you_mean(body, known.bodies)
+        rejected("no-such-body", f"`{body}` is not a body or particle of this system", name.place, help_line)
+    return Material(body, point_called(point) if point else None)
+
+
+def _end(written: WrittenPlace, known: Connected, name: str) -> Any:
+    """Return the body, particle or point of a body at an end, or a place in space."""
+    if written.name is not None and written.name.partition(".")[0] in known.bodies:
+        if "." in written.name or written.name not in known.places.written:
+            return material(written.name, known)
+    return known.places.at(written, name)
+
+
+SURFACES = mapping_of(record_of(SurfaceKeys, "a surface", "a mapping with `through` or `centre`", "the surface `{}`"))
+CONTACTS = list_of_parts(ContactKeys, "a contact")
+STRINGS, MASSLESS_RODS = list_of_parts(StringKeys, "a string"), list_of_parts(MasslessRodKeys, "a massless rod")

@@ -1,0 +1,290 @@
+"""Random systems with contacts and strings: each as a description for the engine, and as Newton's and Euler's laws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import product
+from math import cos, hypot, sin
+from random import Random
+
+from tests.newton_euler.laws import KNOWN, Body, Equation, Force, Vector, solved
+
+Numbers = dict[str, float]
+SHAPES = {"particle": 0.0, "disc": 0.5, "hoop": 1.0, "ball": 0.4, "spherical_shell": 2 / 3}
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A description, and a function that yields a random state and the accelerations and forces in this state."""
+
+    name: str
+    given: str
+    unknowns: tuple[str, ...]
+    state: Callable[[Random], tuple[Numbers, Numbers]]
+
+
+def on_a_surface() -> Iterator[Trial]:
+    """A particle or a round body on a plane, on a wedge that moves, or on a circle; smooth, rolling or sliding."""
+    grounds = ("floor", "incline", "wedge", "outside", "inside")
+    for shape, ground, friction in product(SHAPES, grounds, ("none", "rolling", "sliding")):
+        if (shape, friction) != ("particle", "rolling"):
+            yield _OnSurface(shape, ground, friction).trial()
+
+
+@dataclass(frozen=True)
+class _OnSurface:
+    shape: str
+    ground: str
+    friction: str
+
+    @property
+    def is_round(self) -> bool:
+        return self.shape != "particle"
+
+    @property
+    def is_circle(self) -> bool:
+        return self.ground in ("outside", "inside")
+
+    def trial(self) -> Trial:
+        unknowns = ["x_ddot", "y_ddot", *(["phi_ddot"] if self.is_round else []), "N"]
+        unknowns += ["X_ddot"] if self.ground == "wedge" else []
+        unknowns += ["F"] if self.friction == "rolling" else []
+        name = f"{self.shape}-{self.ground}-{self.friction}"
+        return Trial(name, self.given(), tuple(unknowns), self.state)
+
+    def given(self) -> str:
+        coordinates = ["x: length", "y: length", *(["phi: angle"] if self.is_round else [])]
+        coordinates += ["X: length"] if self.ground == "wedge" else []
+        surface = {
+            "floor": "{through: [0, 0], along: [1, 0]}",
+            "incline": "{through: [0, 0], normal: [2*sin(alpha), 2*cos(alpha)]}",
+            "wedge": "{through: wedge, along: [cos(alpha), -sin(alpha)], of: wedge}",
+            "outside": "{centre: [0, 0], radius: R}",
+            "inside": "{centre: [0, 0], radius: R, side: inside}",
+        }[self.ground]
+        friction = {
+            "none": "none",
+            "rolling": "{rolling: F}",
+            "sliding": f"{{sliding: mu, direction: [{', '.join(self._slip())}]}}",
+        }[self.friction]
+        size = "radius: a, " if self.is_round else ""
+        one = f"{{shape: {self.shape}, {size}mass: m, centre: [x, y], turned: phi{self._across()}}}"
+        lines = [f"  coordinates: {{{', '.join(coordinates)}}}"]
+        particles = ["wedge: {mass: M, at: [X, 0]}"] if self.ground == "wedge" else []
+        if self.is_round:
+            lines.append(f"  bodies: {{one: {one}}}")
+        else:
+            particles.append("one: {mass: m, at: [x, y]}")
+        lines += [f"  particles: {{{', '.join(particles)}}}"] if particles else []
+        lines += ["  gravity: g", f"  surfaces: {{ground: {surface}}}"]
+        lines += [f"  contacts: {{of: one, on: ground, normal: N, friction: {friction}}}"]
+        lines += [f"  forces: {{components: [P, 0], at: {'one' if self.is_round else '[x, y]'}}}"]
+        return "\n".join(lines)
+
+    def _across(self) -> str:
+        return ", across: z" if self.shape in ("disc", "hoop") else ""
+
+    def _slip(self) -> tuple[str, str]:
+        """The direction of slip: with the free side on its left."""
+        if self.is_circle:
+            return ("y", "-x") if self.ground == "outside" else ("-y", "x")
+        return ("1", "0") if self.ground == "floor" else ("cos(alpha)", "-sin(alpha)")
+
+    def state(self, random: Random) -> tuple[Numbers, Numbers]:
+        v = {name: random.uniform(0.5, 2.0) for name in ("m", "M", "a", "g", "mu", "P")}
+        v["alpha"], v["R"] = random.uniform(0.2, 1.2), random.uniform(5.0, 8.0)
+        a = v["a"] if self.is_round else 0.0
+        speed, spin = random.uniform(0.5, 3.0), random.uniform(-2.0, 2.0)
+        if self.is_circle:
+            at = random.uniform(0.3, 1.2)
+            distance = v["R"] + a if self.ground == "outside" else v["R"] - a
+            outwards = (sin(at), cos(at)) if self.ground == "outside" else (sin(at), -cos(at))
+            place = (distance * outwards[0], distance * outwards[1])
+            n = outwards if self.ground == "outside" else (-outwards[0], -outwards[1])
+            bent = -(speed**2) / distance if self.ground == "outside" else speed**2 / distance
+        else:
+            slope = 0.0 if self.ground == "floor" else v["alpha"]
+            n, bent = (sin(slope), cos(slope)), 0.0
+            along = random.uniform(-1.0, 1.0)
+            v["X"] = random.uniform(-1.0, 1.0) if self.ground == "wedge" else 0.0
+            place = (v["X"] + along * n[1] + a * n[0], -along * n[0] + a * n[1])
+        t = (n[1], -n[0])
+        v["x"], v["y"] = place
+        moving = random.uniform(-1.0, 1.0) if self.ground == "wedge" else 0.0
+        v["X_dot"], v["x_dot"], v["y_dot"] = moving, moving + speed * t[0], speed * t[1]
+        v["phi"], v["phi_dot"] = spin, -speed / a if self.friction == "rolling" and a else spin
+        return v, solved(self._laws(v, n, t, bent, a))
+
+    def _laws(self, v: Numbers, n: Vector, t: Vector, bent: float, a: float) -> list[Equation]:
+        arm = (-a * n[0], -a * n[1])
+        touch = [Force(n, arm, "N")]
+        if self.friction == "rolling":
+            touch.append(Force(t, arm, "F"))
+        if self.friction == "sliding":
+            touch.append(Force((-v["mu"] * t[0], -v["mu"] * t[1]), arm, "N"))
+        moment = SHAPES[self.shape] * v["m"] * a**2
+        one = Body(v["m"], "x_ddot", "y_ddot", moment, "phi_ddot" if self.is_round else "")
+        found = one.equations([*touch, Force((0.0, -v["m"] * v["g"])), Force((v["P"], 0.0))])
+        wedge = "X_ddot" if self.ground == "wedge" else ""
+        if wedge:
+            back = [Force((-f.direction[0], -f.direction[1]), unknown=f.unknown) for f in touch]
+            found += Body(v["M"], wedge).equations(back)
+        found.append({"x_ddot": n[0], "y_ddot": n[1], KNOWN: -bent, **({wedge: -n[0]} if wedge else {})})
+        if self.friction == "rolling":
+            found.append({"x_ddot": t[0], "y_ddot": t[1], "phi_ddot": a, **({wedge: -t[0]} if wedge else {})})
+        return found
+
+
+def with_strings() -> Iterator[Trial]:
+    """Masses on strings over fixed and movable pulleys, and pendulums that hang from something that moves."""
+    yield Trial("atwood", ATWOOD, ("x_ddot", "y_ddot", "T"), _atwood)
+    yield Trial("movable pulley", MOVABLE, ("x_ddot", "y_ddot", "T"), _movable)
+    for mu in ("", "mu"):
+        given = OVER_THE_EDGE.replace(
+            "FRICTION", f"{{sliding: {mu}, direction: [cos(alpha), sin(alpha)]}}" if mu else "none"
+        )
+        yield Trial(f"over an edge {mu}", given, ("x_ddot", "y_ddot", "z_ddot", "T", "N"), _over_an_edge(bool(mu)))
+    yield Trial("oblique string", OBLIQUE, ("x_ddot", "z_ddot", "T"), _oblique)
+    for noun in ("strings", "massless_rods"):
+        given = HANGING.replace("NOUN", noun).replace("LETTER", "tension" if noun == "strings" else "force")
+        yield Trial(f"hanging {noun}", given, ("X_ddot", "x_ddot", "y_ddot", "T"), _hanging)
+
+
+ATWOOD = """\
+  coordinates: {x: positive length, y: positive length}
+  particles: {one: {mass: m, at: [0, -x]}, two: {mass: M, at: [a, -y]}}
+  gravity: g
+  strings: {from: one, over: [[0, 0], [a, 0]], to: two, length: l, tension: T}"""
+MOVABLE = """\
+  coordinates: {x: positive length, y: positive length}
+  particles: {one: {mass: m, at: [0, -x]}, pulley: {mass: M, at: [a, -y]}}
+  gravity: g
+  strings: {from: one, over: [[0, 0], [a, 0], pulley], to: [a, 0], length: l, tension: T}"""
+OVER_THE_EDGE = """\
+  coordinates: {x: length, y: length, z: positive length}
+  particles: {one: {mass: m, at: [x, y]}, two: {mass: M, at: [a, -z]}}
+  gravity: g
+  surfaces: {slope: {through: [0, 0], along: [cos(alpha), sin(alpha)]}}
+  contacts: {of: one, on: slope, normal: N, friction: FRICTION}
+  strings: {from: one, over: [[0, 0], [a, 0]], to: two, length: l, tension: T}"""
+OBLIQUE = """\
+  coordinates: {x: length, z: positive length}
+  particles: {one: {mass: m, at: [x, 0]}, two: {mass: M, at: [0, R - z]}}
+  gravity: g
+  strings: {from: one, over: ['[0, R]'], to: two, length: l, tension: T}""".replace("'", "")
+HANGING = """\
+  coordinates: {X: length, x: length, y: length}
+  particles: {cart: {mass: M, at: [X, 0]}, bob: {mass: m, at: [x, y]}}
+  gravity: g
+  NOUN: {from: cart, to: bob, length: l, LETTER: T}"""
+
+
+def _letters(random: Random) -> Numbers:
+    return {name: random.uniform(0.5, 2.0) for name in ("m", "M", "a", "g", "mu", "P", "l", "R", "alpha")}
+
+
+def _down(mass: float, v: Numbers) -> Force:
+    return Force((0.0, -mass * v["g"]))
+
+
+def _atwood(random: Random) -> tuple[Numbers, Numbers]:
+    v = _letters(random) | {"x_dot": 0.7, "y_dot": -0.7, "x": 1.0, "y": 1.0}
+    laws = [
+        *Body(v["m"], y="x_up").equations([_down(v["m"], v), Force((0, 1), unknown="T")]),
+        *Body(v["M"], y="y_up").equations([_down(v["M"], v), Force((0, 1), unknown="T")]),
+        {"x_up": 1, "x_ddot": 1},
+        {"y_up": 1, "y_ddot": 1},
+        {"x_ddot": 1, "y_ddot": 1},
+    ]
+    return v, solved(laws)
+
+
+def _movable(random: Random) -> tuple[Numbers, Numbers]:
+    v = _letters(random) | {"x_dot": 1.0, "y_dot": -0.5, "x": 1.0, "y": 1.0}
+    laws = [
+        *Body(v["m"], y="x_up").equations([_down(v["m"], v), Force((0, 1), unknown="T")]),
+        *Body(v["M"], y="y_up").equations([_down(v["M"], v), Force((0, 2), unknown="T")]),
+        {"x_up": 1, "x_ddot": 1},
+        {"y_up": 1, "y_ddot": 1},
+        {"x_ddot": 1, "y_ddot": 2},
+    ]
+    return v, solved(laws)
+
+
+def _over_an_edge(rough: bool) -> Callable[[Random], tuple[Numbers, Numbers]]:
+    """The block is below the edge, at a distance s down the slope; the string pulls it up along the slope."""
+
+    def state(random: Random) -> tuple[Numbers, Numbers]:
+        v = _letters(random)
+        s, speed, alpha = random.uniform(1.0, 2.0), random.uniform(0.5, 1.5), v["alpha"] / 2
+        v["alpha"] = alpha
+        t, n = (cos(alpha), sin(alpha)), (-sin(alpha), cos(alpha))
+        v |= {"x": -s * t[0], "y": -s * t[1], "z": 1.0}
+        v |= {"x_dot": speed * t[0], "y_dot": speed * t[1], "z_dot": speed}
+        forces = [_down(v["m"], v), Force(t, unknown="T"), Force(n, unknown="N")]
+        if rough:
+            forces.append(Force((-v["mu"] * t[0], -v["mu"] * t[1]), unknown="N"))
+        laws = [
+            *Body(v["m"], "x_ddot", "y_ddot").equations(forces),
+            *Body(v["M"], y="z_up").equations([_down(v["M"], v), Force((0, 1), unknown="T")]),
+            {"z_up": 1, "z_ddot": 1},
+            {"x_ddot": n[0], "y_ddot": n[1]},
+            {"x_ddot": t[0], "y_ddot": t[1], "z_ddot": -1},
+        ]
+        return v, solved(laws)
+
+    return state
+
+
+def _oblique(random: Random) -> tuple[Numbers, Numbers]:
+    """A block on a smooth rail is pulled towards a pulley at the height R; the other mass hangs at the depth z."""
+    v = _letters(random)
+    x, speed = random.uniform(0.5, 2.0), random.uniform(0.5, 1.5)
+    d = hypot(x, v["R"])
+    towards = (-x / d, v["R"] / d)
+    rate = x * speed / d  # of the distance d
+    v |= {"x": x, "z": 1.0, "x_dot": speed, "z_dot": -rate}
+    bent = (speed**2 - rate**2) / d  # d_ddot = (x/d) x_ddot + bent
+    laws = [
+        *Body(v["m"], x="x_ddot").equations([Force(towards, unknown="T")]),
+        *Body(v["M"], y="z_up").equations([_down(v["M"], v), Force((0, 1), unknown="T")]),
+        {"z_up": 1, "z_ddot": 1},
+        {"x_ddot": x / d, "z_ddot": 1, KNOWN: bent},
+    ]
+    return v, solved(laws)
+
+
+def _hanging(random: Random) -> tuple[Numbers, Numbers]:
+    v = _letters(random)
+    angle, turn, moving = random.uniform(0.2, 1.2), random.uniform(-2, 2), random.uniform(-1, 1)
+    u = (sin(angle), -cos(angle))  # from the cart to the bob
+    v |= {"X": 0.3, "x": 0.3 + v["l"] * u[0], "y": v["l"] * u[1], "X_dot": moving}
+    v |= {"x_dot": moving + v["l"] * turn * cos(angle), "y_dot": v["l"] * turn * sin(angle)}
+    laws = [
+        *Body(v["M"], x="X_ddot").equations([Force(u, unknown="T")]),
+        *Body(v["m"], "x_ddot", "y_ddot").equations([_down(v["m"], v), Force((-u[0], -u[1]), unknown="T")]),
+        {"x_ddot": u[0], "y_ddot": u[1], "X_ddot": -u[0], KNOWN: v["l"] * turn**2},
+    ]
+    return v, solved(laws)
+
+
+SYMBOLS = (
+    "{m: mass, M: mass, a: length, R: length, l: length, g: acceleration, P: positive force, mu: positive number, "
+    "alpha: 'angle in (0, pi/2)'}"
+)
+
+
+def key_of(unknown: str) -> str:
+    """Return the name of the answer for an unknown."""
+    return f"acceleration_{unknown.removesuffix('_ddot')}" if unknown.endswith("_ddot") else unknown
+
+
+def problem(trial: Trial) -> str:
+    answers = [
+        f"acceleration_{name.removesuffix('_ddot')}" if name.endswith("_ddot") else name for name in trial.unknowns
+    ]
+    return (
+        f"title: A trial\nsolve: system\nsymbols: {SYMBOLS}\ngiven:\n{trial.given}\nstatement: A trial.\n"
+        f"parts:\n  - ask: Find the accelerations.\n    answer: [{', '.join(answers)}]\n"
+    )
