@@ -43,6 +43,7 @@ from derive.mechanics.lagrange.symmetry import *
 from derive.mechanics.model.constraint import *
 from derive.mechanics.model.contacts import *
 from derive.mechanics.model.forces import *
+from derive.mechanics.model.joints import *
 from derive.mechanics.model.located import *
 from derive.mechanics.model.no_slip import *
 from derive.mechanics.model.rigid import *

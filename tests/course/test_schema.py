@@ -20,7 +20,16 @@ from derive.course.written import DrawingKeys, ProblemKeys
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Source, Word, yaml_tree
 from derive.errors import Faults
 from derive.stock.keys.bodies import PartKeys
-from derive.stock.keys.connections import ContactKeys, FrictionKeys, MasslessRodKeys, StringKeys, SurfaceKeys
+from derive.stock.keys.connections import (
+    ContactKeys,
+    DashpotKeys,
+    FrictionKeys,
+    JointKeys,
+    MasslessRodKeys,
+    MotorKeys,
+    StringKeys,
+    SurfaceKeys,
+)
 from derive.stock.keys.parts import (
     CentralKeys,
     ChargeKeys,
@@ -43,7 +52,7 @@ DOCUMENTED = {
         *(stock_script(name).keys for name in stock_names()),
         *(ParticleKeys, SpringKeys, CentralKeys, ForceKeys, DampingKeys, ChargeKeys, ConstraintKeys),
         *(MovingBodyKeys, RollingKeys, PartKeys, ResultKeys, WayKeys),
-        *(SurfaceKeys, ContactKeys, FrictionKeys, StringKeys, MasslessRodKeys),
+        *(SurfaceKeys, ContactKeys, FrictionKeys, StringKeys, MasslessRodKeys, JointKeys, MotorKeys, DashpotKeys),
     ),
 }
 

@@ -11,10 +11,9 @@ from sympy import Add, Expr, Integer, Symbol, diff
 from derive.algebra.expressions import Relation, TimeRate, as_expr, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.errors import Complaint, Rejected, Unverified
-from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.connection import PointForce
 from derive.mechanics.model.dalembert import Load, Reaction
-from derive.mechanics.model.material import material_point
-from derive.mechanics.model.part import Part, moved
+from derive.mechanics.model.part import Part
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, is_zero
 from derive.witness import description as plain
@@ -22,27 +21,6 @@ from derive.witness import description as plain
 __all__ = ["constraint"]
 
 ZERO = Integer(0)
-
-
-@dataclass(frozen=True)
-class PointForce:
-    """One of the forces of a contact, a string or a joint: the multiplier of the constraint times `direction`, N.
-
-    at   the place where the force acts
-    of   the body or particle on which it acts; None for the ground
-    """
-
-    direction: tuple[Expr, ...]
-    at: Location
-    of: Any
-
-    def moved(self, known: Mapping[Symbol, Expr]) -> PointForce:
-        direction = tuple(c.subs(known) for c in self.direction)
-        return PointForce(direction, self.at.with_values(known), moved(self.of, known))
-
-    def load(self, multiplier: Symbol) -> Load:
-        point = material_point("constraint", self.of, self.at)
-        return Load(tuple(multiplier * c for c in self.direction), point.place, point.held, multiplier)
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Self, TypeAlias
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol
 
@@ -11,12 +12,14 @@ from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.boundary import Hollowed, Round
-from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
+from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.constraint import Constraint, PointForce
+from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
+from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity_at
+from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import Circle, Surface, dot, unit, vector
 from derive.steps.record import require_constant
 from derive.steps.step import Quantity, is_zero
@@ -28,7 +31,7 @@ Part: TypeAlias = Constraint | GivenForce | Quantity
 
 
 @dataclass(frozen=True)
-class Touch:
+class Contact(Connection):
     """A body that touches a surface.
 
     of       the body or particle
@@ -55,12 +58,22 @@ class Touch:
         x, y = self.normal.components
         return Location((y, -x))
 
-    def pair(self, direction: Location) -> tuple[PointForce, ...]:
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(
+            super().moved(known),
+            of=moved(self.of, known),
+            at=self.at.with_values(known),
+            surface=self.surface.moved(known),
+            gap=self.gap.subs(known),
+            normal=self.normal.with_values(known),
+        )
+
+    def pair(self, size: Expr, direction: Location) -> tuple[PointForce, PointForce]:
         """The force along a direction on the body, and the opposite force on the surface."""
-        found = [PointForce(direction.components, self.at, self.of)]
-        if self.surface.of is not None:
-            found.append(PointForce((-direction).components, self.at, self.surface.of))
-        return tuple(found)
+        return (
+            PointForce(size, direction.components, self.at, self.of),
+            PointForce(size, (-direction).components, self.at, self.surface.of),
+        )
 
 
 def contact(
@@ -70,7 +83,7 @@ def contact(
     rolling: str | bool = False,
     sliding: Any = None,
     direction: Any = None,
-) -> tuple[Part, ...]:
+) -> tuple[Contact | Part, ...]:
     """The forces between a body and a surface that it touches, and the conditions that they enforce.
 
     of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`
@@ -85,12 +98,12 @@ def contact(
     distance of its centre minus its radius.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6.
     """
-    touch = _touch(of, on)
+    touch = _contact(of, on)
     if rolling and sliding is not None:
         raise Rejected(Complaint("wrong-argument", "a body either rolls or slides: give `rolling` or `sliding`"))
     found: list[Part] = []
     if not touch.is_kept:
-        found.append(Constraint(touch.gap, ZERO, scalar(normal or "N"), forces=touch.pair(touch.normal)))
+        found.append(_normal(touch, normal))
     elif normal:
         _reject_normal(normal, touch)
     if rolling:
@@ -99,24 +112,36 @@ def contact(
         found.append(_sliding(touch, sliding, direction, normal or "N"))
     elif direction is not None:
         raise Rejected(Complaint("unused-key", "`direction` is the direction of slip, so it needs `sliding`"))
-    return tuple(found)
+    return replace(touch, forces=tuple(_forces_of(touch, found))), *found
 
 
-def _touch(of: Any, on: Any) -> Touch:
+def _normal(touch: Contact, letter: str) -> Constraint:
+    if not letter:
+        message = "the coordinates allow the body to leave the surface, so a normal force must keep it there"
+        raise Rejected(Complaint("missing-key", message, help="give the symbol of the normal force, `normal: N`"))
+    force = scalar(letter)
+    return Constraint(touch.gap, ZERO, force, forces=touch.pair(force, touch.normal))
+
+
+def _forces_of(touch: Contact, parts: Sequence[Part]) -> Iterator[PointForce]:
+    for part in parts:
+        if isinstance(part, Constraint):
+            yield from part.forces
+        if isinstance(part, GivenForce):
+            yield from touch.pair(Integer(1), Location(part.components))
+
+
+def _contact(of: Any, on: Any) -> Contact:
     surface = on if isinstance(on, Surface) else _surface_of(on)
-    if isinstance(of, PointOfBody):
-        body, at, radius = of.body, Location(of.components), ZERO
-    elif isinstance(of, PlacedBody):
-        body, at, radius = of, of.centre, _radius_of(of)
-    elif hasattr(of, "mass") and isinstance(getattr(of, "at", None), Location):
-        body, at, radius = of, of.at, ZERO
-    else:
+    at, body = end_of(of) if is_end(of) else (None, None)
+    if at is None or body is None:
         message = "`contact` needs a particle, a round body or a point of a body"
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
+    radius = _radius_of(of) if isinstance(of, PlacedBody) else ZERO
     away = surface.normal(at)
     place = at if radius == 0 else Location(tuple(tidied(c) for c in (at - radius * away).components))
-    return Touch(body, place, surface, tidied(surface.distance(at) - radius), away)
+    return Contact((), body, place, surface, tidied(surface.distance(at) - radius), away)
 
 
 def _surface_of(body: Any) -> Circle:
@@ -142,14 +167,14 @@ def _radius_of(placed: PlacedBody) -> Expr:
     raise Rejected(Complaint("no-contact", message, help=help_line))
 
 
-def _reject_normal(letter: str, touch: Touch) -> None:
+def _reject_normal(letter: str, touch: Contact) -> None:
     where = ", ".join(map(str, touch.at.components))
     message = f"the coordinates keep the body on the surface at ({where}), so `{letter}` does not appear"
     help_line = "give the body a coordinate for its distance from the surface, so that the normal force keeps it there"
     raise Rejected(Complaint("not-an-unknown", message, help=help_line))
 
 
-def _rolling(touch: Touch, rolling: str | bool) -> list[Part]:
+def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
     if not isinstance(touch.of, PlacedBody) or len(touch.at.components) == 3:
         return _rolling_in_space(touch, rolling)
     ground = touch.surface.ground
@@ -158,11 +183,14 @@ def _rolling(touch: Touch, rolling: str | bool) -> list[Part]:
         return list(found) if isinstance(found, tuple) else [found]
     slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.at)
     along = tidied(dot(touch.tangent, slip))
-    letter = scalar(rolling if isinstance(rolling, str) else "F")
-    return [Constraint(along, ZERO, letter, in_rates=True, forces=touch.pair(touch.tangent))]
+    if not isinstance(rolling, str):
+        message = "the coordinates allow the body to leave the surface, so a friction must prevent slipping"
+        raise Rejected(Complaint("missing-key", message, help="give the symbol of the friction, `{rolling: F}`"))
+    letter = scalar(rolling)
+    return [Constraint(along, ZERO, letter, in_rates=True, forces=touch.pair(letter, touch.tangent))]
 
 
-def _rolling_in_space(touch: Touch, rolling: str | bool) -> list[Part]:
+def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:
     if not isinstance(touch.of, PlacedBody):
         raise Rejected(Complaint("wrong-argument", "a particle does not roll", help="leave out `rolling`"))
     if not touch.is_kept:
@@ -174,7 +202,7 @@ def _rolling_in_space(touch: Touch, rolling: str | bool) -> list[Part]:
     return list(rolling_constraint(touch.of, touch.at, str(rolling), touch.surface.ground))
 
 
-def _sliding(touch: Touch, coefficient: Any, direction: Any, letter: str) -> GivenForce:
+def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> GivenForce:
     """Return the friction mu N against the velocity of slip, on the material points of both."""
     mu = as_expr(coefficient)
     require_constant("contact", "coefficient of friction", mu)

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, Self
 
-from sympy import Add, Expr
+from sympy import Add, Expr, Symbol
 
 from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.constraint import Constraint, PointForce
+from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
+from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.surfaces import direction_between, distance_between
 from derive.steps.record import require_constant
 from derive.steps.step import is_zero
@@ -23,29 +23,35 @@ __all__ = ["massless_rod", "string"]
 
 
 @dataclass(frozen=True)
-class Course:
-    """The places through which a string runs, in order, each with the body or particle at that place, if any."""
+class Line(Connection):
+    """A string or a massless rod.
 
-    through: tuple[tuple[Location, Any], ...]
+    through   its ends and the pulleys between them, in order
+    is_rod    whether it is a rod, which can also push
+    """
 
-    @property
-    def length(self) -> Expr:
-        places = [place for place, _ in self.through]
-        return tidied(Add(*(distance_between(a, b) for a, b in pairwise(places))))
+    through: tuple[Location, ...]
+    is_rod: bool
 
-    @property
-    def pulls(self) -> tuple[PointForce, ...]:
-        """The force on each place, per unit of the tension: unit vectors towards the neighbouring places."""
-        places = [place for place, _ in self.through]
-        found = []
-        for i, (place, of) in enumerate(self.through):
-            beside = [places[k] for k in (i - 1, i + 1) if 0 <= k < len(places)]
-            ways = [direction_between(place, other).components for other in beside]
-            found.append(PointForce(tuple(tidied(Add(*parts)) for parts in zip(*ways, strict=True)), place, of))
-        return tuple(found)
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), through=tuple(place.with_values(known) for place in self.through))
 
 
-def string(start: Any, end: Any, length: Any, over: Sequence[Any] = (), tension: str = "T") -> Constraint:
+def _length(places: Sequence[Location]) -> Expr:
+    return tidied(Add(*(distance_between(a, b) for a, b in pairwise(places))))
+
+
+def _pulls(through: Sequence[tuple[Location, Any]], tension: Symbol) -> tuple[PointForce, ...]:
+    """The forces on the ends and on the pulleys: the tension, towards each neighbouring place."""
+    places = [place for place, _ in through]
+    found = []
+    for i, (place, of) in enumerate(through):
+        beside = [places[k] for k in (i - 1, i + 1) if 0 <= k < len(places)]
+        found += [PointForce(tension, direction_between(place, other).components, place, of) for other in beside]
+    return tuple(found)
+
+
+def string(start: Any, end: Any, length: Any, over: Sequence[Any] = (), tension: str = "T") -> tuple[Line, Constraint]:
     """A massless inextensible string between two ends, over massless frictionless pulleys or through smooth holes.
 
     start, end   particles, points of bodies, or places in space
@@ -57,11 +63,10 @@ def string(start: Any, end: Any, length: Any, over: Sequence[Any] = (), tension:
     parts of the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
     """
-    course = Course(tuple(map(_end, (start, *over, end))))
-    return _of_length("string", course, length, tension)
+    return _of_length("string", (start, *over, end), length, tension)
 
 
-def massless_rod(start: Any, end: Any, length: Any, force: str = "T") -> Constraint:
+def massless_rod(start: Any, end: Any, length: Any, force: str = "T") -> tuple[Line, Constraint]:
     """A massless rigid rod between two hinges, which pulls or pushes only along its direction.
 
     start, end   particles, points of bodies, or places in space
@@ -69,29 +74,23 @@ def massless_rod(start: Any, end: Any, length: Any, force: str = "T") -> Constra
     force        the symbol of the force in the rod, N; positive in tension
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
     """
-    return _of_length("massless_rod", Course((_end(start), _end(end))), length, force)
+    return _of_length("massless_rod", (start, end), length, force)
 
 
-def _of_length(verb: str, course: Course, length: Any, letter: str) -> Constraint:
-    """Return the constraint l - (length of the course) = 0; its multiplier is the tension."""
+def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tuple[Line, Constraint]:
+    """Return the line, and the constraint l - (length of the line) = 0; its multiplier is the tension."""
     whole = as_expr(length)
     require_constant(verb, "length", whole)
-    found = course.length
+    if not all(map(is_end, ends)):
+        message = f"`{verb}` ends at a particle, at a body or a point of it, or at a place"
+        raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
+    through = [end_of(each) for each in ends]
+    places = tuple(place for place, _ in through)
+    found = _length(places)
     if is_zero(found - whole):
         message = f"the coordinates keep the length {whole}, so the force `{letter}` does not appear"
         help_line = "give the end a coordinate along the string, so that the tension keeps it there"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
-    return Constraint(whole, found, scalar(letter), forces=course.pulls)
-
-
-def _end(given: Any) -> tuple[Location, Any]:
-    if isinstance(given, PointOfBody):
-        return Location(given.components), given.body
-    if isinstance(given, PlacedBody):
-        return given.centre, given
-    if isinstance(given, Location):
-        return given, None
-    if hasattr(given, "mass") and isinstance(getattr(given, "at", None), Location):
-        return given.at, given
-    message = "a string or a rod ends at a particle, at a point of a body, or at a place"
-    raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
+    force = scalar(letter)
+    pulls = _pulls(through, force)
+    return Line(pulls, places, verb == "massless_rod"), Constraint(whole, found, force, forces=pulls)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol, factor, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, factor, sqrt
 
 from derive.algebra.expressions import TIME, as_expr
 from derive.algebra.tidy import tidied
@@ -147,12 +147,14 @@ def _left_of(along: Location) -> Location:
 
 def distance_between(start: Location, end: Location) -> Expr:
     """Return the distance between two places, m, without absolute values."""
-    way = end - start
-    lengths = [c for c in way.components if c != 0]
-    if len(lengths) == 1:
-        return _positive(lengths[0])
-    length = sqrt(factor(tidied(Add(*(c**2 for c in way.components)))))
-    return length.replace(Abs, _positive)
+    length = raw_distance(start, end)
+    return length.replace(Abs, _positive) if length.has(Pow, Abs) else _positive(length)
+
+
+def raw_distance(start: Location, end: Location) -> Expr:
+    """Return the distance between two places, m; on a fixed line parallel to an axis, with a sign."""
+    lengths = [tidied(c) for c in (end - start).components if c != 0]
+    return lengths[0] if len(lengths) == 1 else sqrt(factor(tidied(Add(*(c**2 for c in lengths)))))
 
 
 def direction_between(start: Location, end: Location) -> Location:

@@ -12,7 +12,7 @@ from derive.course.stock import InLetters
 from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Tree, Word
 from derive.errors import Faults, did_you_mean, rejected
-from derive.mechanics import circle, contact, massless_rod, plane, string
+from derive.mechanics import circle, contact, dashpot, massless_rod, motor, pin, plane, string, weld
 from derive.mechanics.kinematics.places import Location
 from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
@@ -196,6 +196,64 @@ class MasslessRodKeys(Record):
         return Deferred(massless_rod, of, named, forces=(str(self.force),), place=self.places[""])
 
 
+@dataclass(frozen=True)
+class JointKeys(Record):
+    """The keys of one entry of `joints:`, a hinge, a ball joint or a rigid joint."""
+
+    of: WrittenPlace = key("a point of a body, or a particle", PLACE, required=True)
+    to: WrittenPlace = key("a point of another body, a particle, or a place in space", PLACE, required=True)
+    force: Word = key("the symbol R of the force on `of`, with the components R_x, R_y and R_z", TEXT, required=True)
+    torque: Word | None = key("for a rigid joint in a plane: the symbol of the couple on `of`", TEXT)
+
+    def symbols(self) -> list[Word]:
+        components = [Word.at(f"{self.force}_{axis}", self.force.place) for axis in "xyz"]
+        return [*components, *([self.torque] if self.torque else [])]
+
+    def part(self, known: Connected) -> Deferred[Any]:
+        ends = (_end(self.of, known, "of"), _end(self.to, known, "to"))
+        named = {"force": str(self.force)}
+        for word in self.symbols():
+            force_letter(word, known.letters)
+        if self.torque:
+            named["torque"] = str(self.torque)
+        forces = tuple(map(str, self.symbols()))
+        return Deferred(weld if self.torque else pin, ends, named, forces=forces, place=self.places[""])
+
+
+@dataclass(frozen=True)
+class MotorKeys(Record):
+    """The keys of one entry of `motors:`, a prescribed rotation."""
+
+    on: Tree = key("the angle that the motor turns", SCALAR, required=True)
+    turns: Tree = key("the value of the angle at each time, `Omega*t`", SCALAR, required=True)
+    torque: Word = key("the symbol of the torque of the motor", TEXT, required=True)
+
+    def symbols(self) -> list[Word]:
+        return [self.torque]
+
+    def part(self, known: Connected) -> Deferred[Any]:
+        of = (known.letters.of_kind(self.on, "on", "angle"), known.letters.of_kind(self.turns, "turns", "angle"))
+        torque = force_letter(self.torque, known.letters)
+        return Deferred(motor, of, {"torque": torque}, forces=(torque,), place=self.places[""])
+
+
+@dataclass(frozen=True)
+class DashpotKeys(Record):
+    """The keys of one entry of `dashpots:`, a damper between two points."""
+
+    constant: Tree = key("its damping constant, the force per relative speed", SCALAR, required=True)
+    start: WrittenPlace = key("one end", PLACE, called="from", required=True)
+    end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
+
+    def symbols(self) -> list[Word]:
+        return []
+
+    def part(self, known: Connected) -> Deferred[Any]:
+        constant = known.letters.value(self.constant, "constant", "damping constant")
+        of = (constant, _end(self.start, known, "from"), _end(self.end, known, "to"))
+        return Deferred(dashpot, of, place=self.places[""])
+
+
 def material(name: Word, known: Connected) -> Material:
     """Return the body, particle or point of a body that a name denotes."""
     body, _, point = name.partition(".")
@@ -215,4 +273,6 @@ def _end(written: WrittenPlace, known: Connected, name: str) -> Any:
 
 SURFACES = mapping_of(record_of(SurfaceKeys, "a surface", "a mapping with `through` or `centre`", "the surface `{}`"))
 CONTACTS = list_of_parts(ContactKeys, "a contact")
+JOINTS, MOTORS = list_of_parts(JointKeys, "a joint"), list_of_parts(MotorKeys, "a motor")
+DASHPOTS = list_of_parts(DashpotKeys, "a dashpot")
 STRINGS, MASSLESS_RODS = list_of_parts(StringKeys, "a string"), list_of_parts(MasslessRodKeys, "a massless rod")

@@ -27,12 +27,18 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import kind_of_momentum
 from derive.stock.keys.connections import (
     CONTACTS,
+    DASHPOTS,
+    JOINTS,
     MASSLESS_RODS,
+    MOTORS,
     STRINGS,
     SURFACES,
     Connected,
     ContactKeys,
+    DashpotKeys,
+    JointKeys,
     MasslessRodKeys,
+    MotorKeys,
     StringKeys,
     SurfaceKeys,
 )
@@ -79,6 +85,7 @@ INDIFFERENT_TO_STATES = (
 REPLACED_BY_LAGRANGIAN = (
     "axes", "places", "particles", "bodies", "rolling", "gravity", "springs", "central", "potential", "charges",
     "constraints", "impact", "surfaces", "contacts", "strings", "massless_rods",
+    "joints", "motors", "dashpots",
 )  # fmt: skip
 OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
 
@@ -120,6 +127,9 @@ class SystemKeys(Record):
     contacts: Sequence[ContactKeys] = key("bodies that touch a surface, with the normal force and friction", CONTACTS)
     strings: Sequence[StringKeys] = key("massless inextensible strings", STRINGS)
     massless_rods: Sequence[MasslessRodKeys] = key("rigid rods without mass", MASSLESS_RODS)
+    joints: Sequence[JointKeys] = key("hinges, ball joints and rigid joints", JOINTS)
+    motors: Sequence[MotorKeys] = key("motors that prescribe an angle at each time", MOTORS)
+    dashpots: Sequence[DashpotKeys] = key("dampers between two points", DASHPOTS)
     impact: ImpactKeys | None = key("impulses and collisions at one instant", IMPACT, formerly="blow")
     conserved: Mapping[Word, Tree] = key(
         "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
@@ -242,10 +252,16 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     names = {str(name) for name in (*written.bodies, *written.particles)}
     surfaces = by_name(written.surfaces, places, known, names)
     connected = Connected(names, surfaces, places, known)
-    acting += of_each([*written.contacts, *written.strings, *written.massless_rods], connected)
+    acting += of_each(_connections(written), connected)
     with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)
     return {"particles": particles, "bodies": bodies, "rolling": tuple(rolling), "acting": tuple(acting)}
+
+
+def _connections(written: SystemKeys) -> list[Any]:
+    """Return everything that connects bodies with each other and with the ground."""
+    lines = [*written.strings, *written.massless_rods]
+    return [*written.contacts, *lines, *written.joints, *written.motors, *written.dashpots]
 
 
 def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | None] | None:
@@ -307,8 +323,7 @@ def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
 def _brought(written: SystemKeys) -> list[Word]:
     """Return the symbols that the description introduces in addition to its coordinates."""
     forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
-    connections: list[Any] = [*written.contacts, *written.strings, *written.massless_rods]
-    forces += [symbol for one in connections for symbol in one.symbols()]
+    forces += [symbol for one in _connections(written) for symbol in one.symbols()]
     return [*(force for force in forces if force), *(symbol for symbol, _ in _symbols(written.conserved).values())]
 
 

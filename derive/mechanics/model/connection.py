@@ -1,0 +1,72 @@
+"""What connects bodies with each other and with the ground: contacts, strings, massless rods and joints.
+
+A connection has no physics of its own. The constraints and forces that it yields act; the connection records which
+forces act on which material points, for drawings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+from sympy import Expr, Symbol
+
+from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.dalembert import Load
+from derive.mechanics.model.material import material_point
+from derive.mechanics.model.part import Part, moved
+
+
+@dataclass(frozen=True)
+class PointForce:
+    """A force on a material point: `size` times `direction`, N.
+
+    size   the symbol of a constraint force, or a formula such as mu N for friction
+    at     the place where the force acts
+    of     the body or particle on which it acts; None for the ground
+    """
+
+    size: Expr
+    direction: tuple[Expr, ...]
+    at: Location
+    of: Any
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> PointForce:
+        direction = tuple(c.subs(known) for c in self.direction)
+        return PointForce(self.size.subs(known), direction, self.at.with_values(known), moved(self.of, known))
+
+    def load(self, multiplier: Symbol | None) -> Load:
+        point = material_point("constraint", self.of, self.at)
+        return Load(tuple(self.size * c for c in self.direction), point.place, point.held, multiplier)
+
+
+@dataclass(frozen=True)
+class Connection(Part):
+    """A contact, a string, a rod or a joint, with the forces that it exerts."""
+
+    forces: tuple[PointForce, ...]
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(self, forces=tuple(each.moved(known) for each in self.forces))
+
+    def on(self, body: Any) -> Sequence[PointForce]:
+        """The forces on one body or particle."""
+        return [each for each in self.forces if each.of is body or each.of == body]
+
+
+def end_of(given: Any) -> tuple[Location, Any]:
+    """Return a place, and the body or particle that has a material point there; None for a place in space."""
+    if isinstance(given, PointOfBody):
+        return Location(given.components), given.body
+    if isinstance(given, PlacedBody):
+        return given.centre, given
+    if isinstance(given, Location):
+        return given, None
+    return given.at, given
+
+
+def is_end(given: Any) -> bool:
+    is_particle = hasattr(given, "mass") and isinstance(getattr(given, "at", None), Location)
+    return is_particle or isinstance(given, Location | PlacedBody)

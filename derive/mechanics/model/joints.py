@@ -1,0 +1,113 @@
+"""Joints between bodies, motors and dashpots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+from sympy import Expr, Integer, Symbol
+
+from derive.algebra.expressions import as_expr, explicit, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
+from derive.mechanics.model.constraint import Constraint, constraint
+from derive.mechanics.model.forces import Damper, damping
+from derive.mechanics.model.surfaces import raw_distance
+from derive.steps.record import coordinates_in
+from derive.steps.step import is_zero
+
+__all__ = ["dashpot", "motor", "pin", "weld"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Pin(Connection):
+    """A hinge at which two bodies, or a body and the ground, are pinned together."""
+
+    at: Location
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), at=self.at.with_values(known))
+
+
+def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
+    """A frictionless hinge, which keeps a point of one body at a point of another; in space a ball joint.
+
+    of, to   points of bodies, particles, or a place in space
+    force    the symbol of the force on `of`; its components are R_x, R_y (and R_z), N
+    The opposite force acts on `to`.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
+    """
+    for each in (of, to):
+        if not is_end(each):
+            message = "`pin` needs points of bodies, particles or places"
+            raise Rejected(Complaint("wrong-argument", message, help='give a point as `rod.place_of("end")`'))
+    (here, body), (there, other) = end_of(of), end_of(to)
+    gaps = [tidied(c) for c in (here - there).components]
+    found: list[Constraint] = []
+    for i, gap in enumerate(gaps):
+        letter = scalar(f"{force}_{'xyz'[i]}")
+        along = tuple(Integer(int(i == k)) for k in range(len(gaps)))
+        pair = PointForce(letter, along, here, body), PointForce(letter, tuple(-c for c in along), there, other)
+        if not is_zero(gap):
+            found.append(Constraint(gap, ZERO, letter, forces=pair))
+    if not found:
+        message = "the coordinates keep the two points together, so the force of the joint does not appear"
+        help_line = "place one of the bodies by coordinates of its own, so that the joint keeps it there"
+        raise Rejected(Complaint("not-an-unknown", message, help=help_line))
+    return Pin(tuple(force for each in found for force in each.forces), here), *found
+
+
+def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | Constraint, ...]:
+    """A rigid joint in a plane: a hinge that also keeps the angle between the two bodies, by a couple.
+
+    of, to   points of bodies, as for `pin`
+    force    as for `pin`
+    torque   the symbol of the couple on `of`, N m
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
+    """
+    bodies = [end_of(each)[1] if is_end(each) else None for each in (of, to)]
+    turned: list[Any] = [each.turned for each in bodies if isinstance(each, PlacedBody) and each.is_plane]
+    if len(turned) < 2:
+        raise Rejected(Complaint("wrong-argument", "`weld` joins two bodies that move in a plane"))
+    angle = explicit(as_expr(turned[0] - turned[1]))
+    if not coordinates_in(angle):
+        message = "the coordinates keep the angle between the two bodies, so the couple of the joint does not appear"
+        raise Rejected(Complaint("not-an-unknown", message, help="use `pin`"))
+    at_zero = angle.xreplace(dict.fromkeys(coordinates_in(angle), ZERO))
+    return *pin(of, to, force), constraint(angle, at_zero, torque)
+
+
+@dataclass(frozen=True)
+class Motor(Connection):
+    """A motor that turns a body about a fixed axis."""
+
+
+def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
+    """A motor that gives an angle a prescribed value at each time, by a torque.
+
+    on      the angle, a coordinate or a formula in coordinates
+    turns   the value of the angle, a function of time such as `Omega*t`
+    torque  the symbol of the torque of the motor, N m; positive in the sense in which the angle increases
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
+    """
+    if coordinates_in(explicit(as_expr(turns))):
+        raise Rejected(Complaint("wrong-argument", "`motor` needs an angle that is a function of time only"))
+    return Motor(()), constraint(on, turns, torque)
+
+
+def dashpot(constant: Any, start: Any, end: Any) -> Damper:
+    """A dashpot between two points: it opposes the rate of their distance d by the force c d_dot on both.
+
+    constant     c, kg/s
+    start, end   particles, bodies, points of bodies, or places
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 11.3.
+    """
+    if not all(map(is_end, (start, end))):
+        raise Rejected(Complaint("wrong-argument", "`dashpot` ends at particles, points of bodies, or places"))
+    return damping(constant, raw_distance(end_of(start)[0], end_of(end)[0]))
