@@ -2,6 +2,7 @@
 
 from derive.figures.bodies import *
 from derive.figures.elements import *
+from derive.figures.forces import *
 from derive.figures.ghosts import *
 from derive.figures.rigid_bodies import *
 from derive.figures.scenes import *

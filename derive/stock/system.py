@@ -13,7 +13,7 @@ from derive.algebra.expressions import Relation, explicit
 from derive.course.stock import Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
-from derive.figures import sketch
+from derive.figures import force_diagram, sketch
 from derive.mechanics import (
     Coordinate,
     System,
@@ -43,7 +43,9 @@ from derive.mechanics import (
     stability,
     weight,
 )
+from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.acted_on import check_ground
+from derive.mechanics.model.part import moved
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
@@ -77,7 +79,19 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                 sketch(SYSTEM, self.system, named=named, start=start, impact=impact)
         answers = super().solve(asked)
         self._check_letters()
+        if self.described.given is None:
+            self._draw_forces()
         return answers
+
+    def _draw_forces(self) -> None:
+        """Draw the forces on each body, if parts of the problem derive the constraint forces on the body."""
+        run = current_run.get()
+        found: dict[Any, Quantity] = {}
+        for step in run.established if run is not None else ():
+            if step.fact(ForceOf) is not None:
+                found.setdefault(step.symbol, step)
+        for name, part in self.parts_by_name.items():
+            force_diagram(f"forces_{name}", self.system, moved(part, self.system.known), found)
 
     def asks(self) -> dict[str, Any]:
         """Return name -> function that derives the answer, for every name that a part may ask for, including those of

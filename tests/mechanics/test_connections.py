@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 from sympy import Expr, Symbol
 
 from derive.algebra.expressions import explicit
+from derive.errors import DeriveError
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.model import contacts, joints, strings, surfaces
+from derive.mechanics.model.contacts import Contact
 from tests.newton_euler.random_systems import Trial, key_of, on_a_surface, problem, with_strings
-from tests.stock.described import solved
+from tests.stock.described import edited, messages, solved
+
+
+def on_a_surface_called(name: str) -> Trial:
+    return next(trial for trial in on_a_surface() if trial.name == name)
+
 
 TRIALS = [*on_a_surface(), *with_strings()]
 STATES = 3
@@ -29,3 +40,115 @@ def test_accelerations_and_forces_are_those_of_newton_and_euler(trial: Trial, tm
 def value_at(value: Expr, numbers: dict[str, float]) -> float:
     letters: dict[Symbol, float] = {letter: numbers[letter.name] for letter in value.free_symbols}
     return float(value.evalf(subs=letters))
+
+
+WEDGE = on_a_surface_called("disc-wedge-rolling")
+SLIDES = on_a_surface_called("ball-floor-sliding")
+MOVABLE = next(trial for trial in TRIALS if trial.name == "movable pulley")
+
+
+def refused(folder: Path, trial: Trial) -> str:
+    with pytest.raises(DeriveError) as error:
+        solved(folder, problem(trial))
+    return str(error.value)
+
+
+def test_a_contact_without_the_opposite_force_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pair = Contact.pair
+    monkeypatch.setattr(Contact, "pair", lambda *given: pair(*given)[:1])
+    assert "`virtual_work` disagrees" in refused(tmp_path, WEDGE)
+
+
+def test_friction_at_the_centre_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = contacts.Contact
+    at_centre = lambda *given: made(*given[:2], given[1].centre, *given[3:])  # noqa: E731
+    monkeypatch.setattr(contacts, "Contact", at_centre)
+    assert "not on the surface of the body" in refused(tmp_path, SLIDES)
+
+
+def test_a_normal_that_is_not_a_unit_vector_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(surfaces, "unit", lambda verb, along: along)
+    assert "not a unit vector" in refused(tmp_path, on_a_surface_called("disc-incline-none"))
+
+
+def test_rolling_without_the_velocity_of_the_surface_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    velocity = contacts.velocity_at
+    still = lambda of, at: velocity(of if isinstance(of, PlacedBody) else None, at)  # noqa: E731
+    monkeypatch.setattr(contacts, "velocity_at", still)
+    assert "not the relative velocity" in refused(tmp_path, WEDGE)
+
+
+def test_different_tensions_on_the_two_sides_of_a_pulley_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pulls = strings._pulls
+
+    def twice_at_one_end(through: Any, tension: Any) -> Any:
+        first, *others = pulls(through, tension)
+        return replace(first, size=2 * tension), *others
+
+    monkeypatch.setattr(strings, "_pulls", twice_at_one_end)
+    assert "`virtual_work` disagrees" in refused(tmp_path, MOVABLE)
+
+
+def test_a_joint_that_pulls_at_the_wrong_point_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    force = joints.PointForce
+    at_end = lambda size, way, at, of: force(size, way, of.centre if of is not None else at, of)  # noqa: E731
+    monkeypatch.setattr(joints, "PointForce", at_end)
+    with pytest.raises(DeriveError, match="`virtual_work` disagrees"):
+        solved(tmp_path, RODS)
+
+
+RODS = """\
+title: Two rods
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {theta: angle, phi: angle, x: length, y: length}
+  bodies:
+    upper: {shape: rod, length: l, mass: m, from: [0, 0], along: [sin(theta), -cos(theta)]}
+    lower: {shape: rod, length: l, mass: m, centre: [x, y], along: [sin(phi), -cos(phi)]}
+  gravity: g
+  joints: {of: lower.end, to: upper.far_end, force: R}
+statement: Two rods.
+parts:
+  - ask: Find the equations of motion.
+    answer: equations_of_motion
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("of: one, on: ground, normal: N", "of: two, on: ground, normal: N", "`two` is not a body or particle"),
+        ("on: ground", "on: groun", "`groun` is not a surface or a body"),
+        ("normal: N, ", "", "a normal force must keep it there"),
+        ("{sliding: mu, direction: [1, 0]}", "{sliding: mu}", "needs the direction"),
+        ("{sliding: mu, direction: [1, 0]}", "{sliding: mu, direction: [0, 1]}", "must be along the surface"),
+        ("{sliding: mu, direction: [1, 0]}", "{direction: [1, 0]}", "needs either `rolling` or `sliding`"),
+        ("{sliding: mu, direction: [1, 0]}", "rolling", "a friction must prevent slipping"),
+        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0]}", "neither a plane nor a circle"),
+        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [x, 1]}", "different dimensions"),
+        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [1, 0], side: inside}", "belongs to a circle"),
+        ("centre: [x, y]", "centre: [x, a]", "keep the body on the surface"),
+        ("shape: ball, radius: a", "shape: cone, radius: a, height: a, across: x", "is not round in this view"),
+    ],
+)
+def test_a_contact_that_cannot_be_meant_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
+    (message, *_) = messages(tmp_path, edited(problem(SLIDES), (old, new)))
+    assert said in message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("to: [a, 0], length: l", "to: [a, 0], length: x", "`length`"),
+        ("from: one", "from: oen", "`oen` is not a named place"),
+        ("x: positive length", "x: length", "the sign of x is unknown"),
+    ],
+)
+def test_a_string_that_cannot_be_meant_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
+    (message, *_) = messages(tmp_path, edited(problem(MOVABLE), (old, new)))
+    assert said in message

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
 from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected, Spelled
+from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.boundary import Hollowed, Round
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
@@ -18,7 +18,7 @@ from derive.mechanics.model.connection import Connection, PointForce, end_of, is
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
-from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity_at
+from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import Circle, Surface, dot, unit, vector
 from derive.steps.record import require_constant
@@ -141,7 +141,17 @@ def _contact(of: Any, on: Any) -> Contact:
     radius = _radius_of(of) if isinstance(of, PlacedBody) else ZERO
     away = surface.normal(at)
     place = at if radius == 0 else Location(tuple(tidied(c) for c in (at - radius * away).components))
-    return Contact((), body, place, surface, tidied(surface.distance(at) - radius), away)
+    found = Contact((), body, place, surface, tidied(surface.distance(at) - radius), away)
+    _check(found)
+    return found
+
+
+def _check(touch: Contact) -> None:
+    """Check that the normal is a unit vector, and that the place of contact is as far from the surface as the body."""
+    if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
+        raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
+    if not is_zero(tidied(touch.surface.distance(touch.at)) - touch.gap):
+        raise Unverified(Complaint("unverified", "the place of a contact is not on the surface of the body"))
 
 
 def _surface_of(body: Any) -> Circle:
@@ -187,6 +197,10 @@ def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
         message = "the coordinates allow the body to leave the surface, so a friction must prevent slipping"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the friction, `{rolling: F}`"))
     letter = scalar(rolling)
+    of_particles = velocity_of_particle(touch.of, touch.at, ground)
+    by_particles = Add(*(a * b for a, b in zip(touch.tangent.components, of_particles, strict=True)))
+    if not is_zero(tidied(along - by_particles)):
+        raise Unverified(Complaint("unverified", "the slip is not the relative velocity of the particles in contact"))
     return [Constraint(along, ZERO, letter, in_rates=True, forces=touch.pair(letter, touch.tangent))]
 
 

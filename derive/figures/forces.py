@@ -1,0 +1,103 @@
+"""Force diagrams: one body alone, with all forces on it, each in its true direction in the drawn state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol
+
+from derive.algebra.expressions import explicit, rate
+from derive.figures.annotations import Arrow, PointMark
+from derive.figures.connected import ConnectedScene, connections_of
+from derive.figures.marks import Drawing, Mark
+from derive.figures.parts import ParticleMark
+from derive.figures.placed_bodies import placed_outline, with_its_shape
+from derive.figures.positions import column_of
+from derive.figures.scenes import drawing
+from derive.figures.space import numeric
+from derive.figures.turning import downwards
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.connection import PointForce
+from derive.mechanics.model.system import System
+from derive.steps.step import Quantity, is_zero
+
+__all__ = ["force_diagram"]
+
+LONG = Rational(3, 4)  # the drawn length of a force, relative to the size of the body
+ON_PARTICLE = Rational(3, 5)
+
+
+def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quantity]) -> Drawing | None:
+    """Return a drawing of one body or particle with the forces on it: its weight, and the forces of contacts, strings,
+    rods and joints.
+
+    key     the name of the drawing
+    of      the body or particle, as a part of the system
+    found   symbol of a constraint force -> the step that derives the force; the sign of its value in the drawn state,
+    at rest, determines the direction of the arrow
+    The result is None if no such force acts on the body, or if a force is not among `found`.
+    """
+    acting = [force for each in connections_of(system) for force in each.on(of)]
+    if not acting or any(letter not in found for force in acting for letter in _multipliers(system, force)):
+        return None
+    scene = ConnectedScene(system)
+    marks = [*_outline(of), *_weight(system, of)]
+    for force in acting:
+        marks += _arrow(system, force, found, scene.values)
+    return drawing(key, marks, values=scene.values)
+
+
+def _multipliers(system: System, force: PointForce) -> list[Symbol]:
+    """The symbols of constraint forces in a force."""
+    letters = force.size.free_symbols | {s for c in force.direction for s in c.free_symbols}
+    return [each.force for each in system.constraints if each.force in letters]
+
+
+def _outline(of: Any) -> Iterator[Mark]:
+    if isinstance(of, PlacedBody):
+        yield from placed_outline(with_its_shape(of))
+        yield PointMark(column_of(of.centre))
+    else:
+        yield ParticleMark(column_of(of.at), label=of.mass)
+
+
+def _weight(system: System, of: Any) -> Iterator[Mark]:
+    if system.weights:
+        centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
+        yield Arrow(column_of(centre), downwards(2), _length(of), False, label=explicit(mass) * system.gravity)
+
+
+def _arrow(
+    system: System, force: PointForce, found: Mapping[Symbol, Quantity], values: Mapping[Symbol, Any]
+) -> Iterator[Mark]:
+    """Yield the arrow of a force, reversed if the force is negative in the drawn state; a zero force is not drawn."""
+    letters = _multipliers(system, force)
+    size = force.size
+    direction = Location(force.direction)
+    if size == 1:  # friction, whose direction contains its size
+        size, direction = _size_and_direction(direction, letters)
+    still = {rate(q): Integer(0) for q in system.coordinates}
+    value = size.xreplace({letter: explicit(found[letter].value) for letter in letters}).subs(still)
+    if is_zero(value):
+        return
+    sign = 1 if numeric(value.subs(values), values) > 0 else -1
+    keys = tuple(found[letter].key for letter in letters)
+    way = ImmutableDenseMatrix([sign * c for c in direction.components])
+    at = force.at if isinstance(force.of, PlacedBody) else force.of.at
+    yield Arrow(column_of(at), way, _length(force.of), label=sign * size, keys=keys)
+
+
+def _size_and_direction(force: Location, letters: list[Symbol]) -> tuple[Expr, Location]:
+    """Split a force such as (-mu N, 0) into mu N and the direction (-1, 0)."""
+    for c in force.components:
+        factors = [f for f in Mul.make_args(c) if f.free_symbols & set(letters)]
+        if factors:
+            size = Mul(*(f for f in Mul.make_args(c) if f.is_Symbol))
+            return size, Location(tuple(each / size for each in force.components))
+    return Integer(1), force
+
+
+def _length(of: Any) -> Expr:
+    return LONG if isinstance(of, PlacedBody) else ON_PARTICLE
